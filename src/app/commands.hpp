@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+// Each function adds one subcommand to the program: its options, its help, and what it runs, in a file
+// of the same name. What a subcommand runs stores its exit code; errors are thrown and worded by main.
+void add_theory_point(CLI::App& theory, int& exit_code);
+
+}  // namespace vibrotrough::app

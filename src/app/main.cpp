@@ -1,0 +1,49 @@
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+#include "core/version.hpp"
+
+namespace vibrotrough::app {
+namespace {
+
+void add_commands(CLI::App& program, int& exit_code) {
+    CLI::App* const theory = program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
+    theory->require_subcommand(1);
+    add_theory_point(*theory, exit_code);
+}
+
+int run(int argc, char** argv) {
+    CLI::App program{"How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
+    program.name("vibrotrough");
+    program.set_version_flag("--version", fmt::format("vibrotrough {} ({})", program_version(), program_commit()));
+    program.require_subcommand(1);
+    int exit_code = all_well;
+    add_commands(program, exit_code);
+    try {
+        program.parse(argc, argv);
+    } catch (CLI::ParseError const& error) {
+        return program.exit(error) == 0 ? all_well : wrong_input;
+    }
+    return exit_code;
+}
+
+}  // namespace
+}  // namespace vibrotrough::app
+
+int main(int argc, char** argv) {
+    using namespace vibrotrough;
+    try {
+        return app::run(argc, argv);
+    } catch (Error const& error) {
+        fmt::print(stderr, "vibrotrough: {}\n", error.what());
+        return error.kind() == ErrorKind::input ? app::wrong_input : app::something_missing;
+    } catch (std::exception const& error) {
+        fmt::print(stderr, "vibrotrough: internal error: {}\n", error.what());
+        return app::some_cases_failed;
+    }
+}

@@ -1,0 +1,80 @@
+#include "core/atomic_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+namespace vibrotrough {
+namespace {
+
+namespace fs = std::filesystem;
+
+void sync_to_disk(fs::path const& path, int flags) {
+    int const descriptor = ::open(path.c_str(), flags);
+    bool const failed = descriptor < 0 || ::fsync(descriptor) != 0;
+    int const reason = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    if (failed) {
+        throw MissingError(fmt::format("cannot sync {} ({}); check the disk", path.string(), std::strerror(reason)));
+    }
+}
+
+}  // namespace
+
+std::string read_file(fs::path const& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || fs::is_directory(path)) {
+        throw MissingError(fmt::format("cannot open {} (no such file, or not readable)", path.string()));
+    }
+    std::string content{std::istreambuf_iterator<char>(file), {}};
+    if (file.bad()) throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
+    return content;
+}
+
+void make_folder(fs::path const& path) {
+    std::error_code failure;
+    fs::create_directories(path, failure);
+    if (failure || !fs::is_directory(path)) {
+        throw MissingError(fmt::format("cannot make the folder {} ({}); choose another place or free it",
+                                       path.string(), failure ? failure.message() : "a file is in the way"));
+    }
+}
+
+void write_atomically(fs::path const& path, std::function<void(fs::path const&)> const& write) {
+    fs::path const temporary = path.string() + ".part-" + std::to_string(::getpid());
+    try {
+        write(temporary);
+        sync_to_disk(temporary, O_RDONLY);
+        fs::rename(temporary, path);
+        sync_to_disk(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+    } catch (fs::filesystem_error const& error) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw MissingError(fmt::format("cannot write {} ({})", path.string(), error.code().message()));
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw;
+    }
+}
+
+void write_file_atomically(fs::path const& path, std::string_view content) {
+    write_atomically(path, [&](fs::path const& temporary) {
+        std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+        file.write(content.data(), static_cast<std::streamsize>(content.size()));
+        file.close();
+        if (!file) {
+            throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
+                                           path.string(), std::strerror(errno)));
+        }
+    });
+}
+
+}  // namespace vibrotrough

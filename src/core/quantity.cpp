@@ -1,0 +1,68 @@
+#include "core/quantity.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+namespace vibrotrough {
+namespace {
+
+struct FreeSystem {
+    void operator()(ut_system* system) const { ut_free_system(system); }
+};
+struct FreeUnit {
+    void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+struct FreeConverter {
+    void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, FreeUnit>;
+
+ut_system* unit_system() {
+    static std::unique_ptr<ut_system, FreeSystem> const system = [] {
+        ut_set_error_message_handler(ut_ignore);  // we word the errors ourselves
+        return std::unique_ptr<ut_system, FreeSystem>(ut_read_xml(nullptr));
+    }();
+    if (!system) throw QuantityError("the unit database of udunits2 cannot be read (package libudunits2-data)");
+    return system.get();
+}
+
+Unit parse_unit(std::string const& text) {
+    return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
+}
+
+std::string_view trimmed(std::string_view text) {
+    auto const first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+double parse_quantity(std::string_view text, std::string const& unit) {
+    std::string_view const whole = trimmed(text);
+    std::string_view digits = whole;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double number = 0;
+    auto const [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (failure != std::errc() || !std::isfinite(number)) {
+        throw QuantityError(fmt::format("'{}' does not begin with a finite number", whole));
+    }
+    auto const rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+    if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
+    Unit const from = parse_unit(std::string(rest));
+    if (!from) throw QuantityError(fmt::format("'{}' is not a unit that udunits2 knows", rest));
+    Unit const to = parse_unit(unit);
+    if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
+        throw QuantityError(fmt::format("'{}' cannot be converted to {}", rest, unit));
+    }
+    std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
+    double const result = cv_convert_double(converter.get(), number);
+    if (!std::isfinite(result)) throw QuantityError(fmt::format("'{}' is too large", whole));
+    return result;
+}
+
+}  // namespace vibrotrough

@@ -1,0 +1,48 @@
+#include "core/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+
+namespace vibrotrough {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFile : public testing::Test {
+  protected:
+    AtomicFile() { fs::create_directories(folder); }
+    ~AtomicFile() override { fs::remove_all(folder); }
+    fs::path folder = fs::path(testing::TempDir()) / ("atomic_file_" + std::to_string(::getpid()));
+};
+
+TEST_F(AtomicFile, WritesAndReplaces) {
+    write_file_atomically(folder / "a", "one");
+    write_file_atomically(folder / "a", std::string_view("t\0wo", 4));
+    EXPECT_EQ(read_file(folder / "a"), std::string("t\0wo", 4));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(AtomicFile, KeepsTheOldFileWhenTheWriterThrows) {
+    write_file_atomically(folder / "a", "old");
+    auto const half = [](fs::path const& temporary) {
+        write_file_atomically(temporary, "half");
+        throw std::runtime_error("power cut");
+    };
+    EXPECT_THROW(write_atomically(folder / "a", half), std::runtime_error);
+    EXPECT_EQ(read_file(folder / "a"), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(AtomicFile, SaysWhatTheDiskRefuses) {
+    auto const write = [&] { write_file_atomically(folder / "no_such" / "x", "content"); };
+    EXPECT_THROW(write(), MissingError);
+    EXPECT_THROW(read_file(folder / "none"), MissingError);
+    EXPECT_THROW(read_file(folder), MissingError);
+    write_file_atomically(folder / "file", "");
+    EXPECT_THROW(make_folder(folder / "file" / "below"), MissingError);
+}
+
+}  // namespace
+}  // namespace vibrotrough
