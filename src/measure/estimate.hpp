@@ -1,9 +1,9 @@
 #pragma once
 
+#include "measure/cycle_series.hpp"
+
 #include <span>
 #include <vector>
-
-#include "measure/cycle_series.hpp"
 
 namespace vibrotrough::measure {
 
@@ -16,11 +16,12 @@ enum class Verdict {
 
 /// Mean of one packing's cycle values after the start-up.
 struct PackingEstimate {
-    double mean;              ///< of the cycles kept
-    double half_width;        ///< of the confidence interval of the mean, corrected for correlation between cycles
-    int discarded;            ///< cycles cut as start-up (MSER)
-    int measured;             ///< cycles kept
-    double correlation_time;  ///< statistical inefficiency g >= 1: measured / g cycles are worth as many independent ones
+    double mean;        ///< of the cycles kept
+    double half_width;  ///< of the confidence interval of the mean, corrected for correlation between cycles
+    int discarded;      ///< cycles cut as start-up (MSER)
+    int measured;       ///< cycles kept
+    double correlation_time;  ///< statistical inefficiency g >= 1: measured / g cycles are worth as many
+                              ///< independent ones
     Verdict verdict;
 };
 
