@@ -1,0 +1,46 @@
+#pragma once
+
+#include "measure/cycle_series.hpp"
+#include "measure/estimate.hpp"
+#include "scenario/scenario.hpp"
+
+#include <string>
+#include <vector>
+
+namespace vibrotrough::store {
+
+/// One packing's run and what was measured in it.
+struct PackingRecord {
+    int seed;
+    int steps_per_cycle;
+    double time_step;                   ///< s
+    double mass;                        ///< kg, of all grains
+    double wall_time;                   ///< s, of the engine
+    measure::CycleSeries series;        ///< the cycles used (what the engine wrote beyond them is left out)
+    std::vector<double> efficiency;     ///< velocity efficiency of cycle 1 ... n
+    measure::PackingEstimate estimate;  ///< of `efficiency`
+    std::string deck;                   ///< in.liggghts
+};
+
+/// Where and with what a result was made.
+struct Provenance {
+    std::string program_version;
+    std::string git_commit;
+    std::string engine_version;
+    std::string host;
+    std::string started;   ///< ISO 8601, UTC
+    std::string finished;  ///< ISO 8601, UTC
+};
+
+/// A finished case: everything that result.h5 holds.
+struct CaseRecord {
+    std::string id;
+    Scenario scenario;
+    std::string scenario_toml;       ///< to_toml(scenario)
+    std::string outcome;             ///< "finished", "not-steady", "not-precise"
+    measure::CaseEstimate estimate;  ///< of velocity efficiency
+    std::vector<PackingRecord> packings;
+    Provenance provenance;
+};
+
+}  // namespace vibrotrough::store
