@@ -1,11 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "measure/cycle_series.hpp"
 #include "measure/estimate.hpp"
 #include "scenario/scenario.hpp"
+
+#include <string>
+#include <vector>
 
 namespace vibrotrough::store {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "store/case_record.hpp"
+
 #include <filesystem>
 #include <vector>
-
-#include "store/case_record.hpp"
 
 namespace vibrotrough::store {
 
