@@ -1,26 +1,29 @@
-#include <exception>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 namespace vibrotrough::app {
 namespace {
 
 void add_commands(CLI::App& program, int& exit_code) {
-    CLI::App* const theory = program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
+    CLI::App* const theory =
+        program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
     theory->require_subcommand(1);
     add_theory_point(*theory, exit_code);
 }
 
 int run(int argc, char** argv) {
-    CLI::App program{"How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
+    CLI::App program{
+        "How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
     program.name("vibrotrough");
-    program.set_version_flag("--version", fmt::format("vibrotrough {} ({})", program_version(), program_commit()));
+    program.set_version_flag("--version",
+                             fmt::format("vibrotrough {} ({})", program_version(), program_commit()));
     program.require_subcommand(1);
     int exit_code = all_well;
     add_commands(program, exit_code);

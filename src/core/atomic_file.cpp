@@ -1,5 +1,7 @@
 #include "core/atomic_file.hpp"
 
+#include "core/error.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -8,8 +10,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include "core/error.hpp"
 
 namespace vibrotrough {
 namespace {
@@ -22,7 +22,8 @@ void sync_to_disk(fs::path const& path, int flags) {
     int const reason = errno;
     if (descriptor >= 0) ::close(descriptor);
     if (failed) {
-        throw MissingError(fmt::format("cannot sync {} ({}); check the disk", path.string(), std::strerror(reason)));
+        throw MissingError(
+            fmt::format("cannot sync {} ({}); check the disk", path.string(), std::strerror(reason)));
     }
 }
 
@@ -34,7 +35,8 @@ std::string read_file(fs::path const& path) {
         throw MissingError(fmt::format("cannot open {} (no such file, or not readable)", path.string()));
     }
     std::string content{std::istreambuf_iterator<char>(file), {}};
-    if (file.bad()) throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
+    if (file.bad())
+        throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
     return content;
 }
 

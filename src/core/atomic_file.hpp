@@ -10,7 +10,8 @@ namespace vibrotrough {
 /// Reads a whole file. @throws MissingError when it cannot be opened or read.
 std::string read_file(std::filesystem::path const& path);
 
-/// Makes the folder and its parents. @throws MissingError with the reason (permission, disk, a file in the way).
+/// Makes the folder and its parents. @throws MissingError with the reason (permission, disk, a file in the
+/// way).
 void make_folder(std::filesystem::path const& path);
 
 /// Lets `write` make a file under a temporary name beside `path`, syncs it to disk and renames it to `path`,

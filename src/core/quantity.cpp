@@ -24,9 +24,16 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 ut_system* unit_system() {
     static std::unique_ptr<ut_system, FreeSystem> const system = [] {
         ut_set_error_message_handler(ut_ignore);  // we word the errors ourselves
-        return std::unique_ptr<ut_system, FreeSystem>(ut_read_xml(nullptr));
+        std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(nullptr));
+        if (read) {
+            // The database knows "degree" and "arc_degree" but not the abbreviation that engineers write.
+            std::unique_ptr<ut_unit, FreeUnit> const degree(ut_get_unit_by_name(read.get(), "arc_degree"));
+            ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+        }
+        return read;
     }();
-    if (!system) throw QuantityError("the unit database of udunits2 cannot be read (package libudunits2-data)");
+    if (!system)
+        throw QuantityError("the unit database of udunits2 cannot be read (package libudunits2-data)");
     return system.get();
 }
 
@@ -53,7 +60,7 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     }
     auto const rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
-    Unit const from = parse_unit(std::string(rest));
+    Unit const from = parse_unit((rest.front() == '/' ? "1" : "") + std::string(rest));  // "340 / minute"
     if (!from) throw QuantityError(fmt::format("'{}' is not a unit that udunits2 knows", rest));
     Unit const to = parse_unit(unit);
     if (!to || ut_are_convertible(from.get(), to.get()) == 0) {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "scenario/scenario.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "scenario/scenario.hpp"
 
 namespace vibrotrough {
 

@@ -21,7 +21,8 @@ struct ExportedFrames {
 };
 
 /// Turns the engine's dumps into compressed inline .vtp files, one collection (.pvd) for the grains and one
-/// for the trough, with true times, under `target`. A frame that the engine had not finished writing is left out.
+/// for the trough, with true times, under `target`. A frame that the engine had not finished writing is left
+/// out.
 ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target);
 
 }  // namespace vibrotrough::view

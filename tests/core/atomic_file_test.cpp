@@ -1,9 +1,9 @@
 #include "core/atomic_file.hpp"
 
+#include "core/error.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
-
-#include "core/error.hpp"
 
 namespace vibrotrough {
 namespace {

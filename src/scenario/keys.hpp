@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace vibrotrough {
+
+enum class KeyKind { text, quantity, number, integer };
+
+/// One key of the campaign file: what it means, how it is written and what is allowed. The table of all
+/// keys is the single source for reading, for errors and for the reference in README.md.
+struct Key {
+    std::string_view path;  ///< "section.name"
+    KeyKind kind;
+    std::string_view unit;           ///< SI unit of a quantity, for udunits2; empty otherwise
+    double least;                    ///< smallest allowed value, in `unit`
+    double most;                     ///< largest allowed value, in `unit`
+    std::string_view range;          ///< the same in words, for people
+    std::string_view group;          ///< keys with the same group exclude each other; exactly one is needed
+    std::optional<double> fallback;  ///< value when the key is missing; without it the key is required
+    std::string_view example;        ///< what to write, right of the equals sign
+    std::string_view meaning;
+};
+
+/// All keys, in the order of the reference.
+std::span<Key const> all_keys();
+
+/// The key with this path, or nullptr.
+Key const* find_key(std::string_view path);
+
+/// The known path nearest to a misspelt one, or an empty text when none is near.
+std::string_view nearest_key(std::string_view path);
+
+}  // namespace vibrotrough

@@ -1,0 +1,226 @@
+#include "theory/point_mass.hpp"
+
+#include "theory/contact.hpp"
+#include "theory/errors.hpp"
+#include "theory/flight.hpp"
+#include "theory/periodic.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace vibrotrough::theory {
+namespace {
+
+using detail::Flight;
+using detail::follow_contact;
+using detail::Law;
+using detail::NormalMotion;
+using detail::Tangent;
+using detail::two_pi;
+
+constexpr double shortest_phase = 1e-12;  // rad; shorter ones are rounding, not motion
+
+std::string number(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+void require(bool good, char const* name, double value, char const* range) {
+    if (good) return;
+    throw std::invalid_argument(std::string(name) + " = " + number(value) + " is outside its range " + range);
+}
+
+void check(PointMass const& p) {
+    require(p.throw_number > 0 && p.throw_number <= 1e4, "throw_number", p.throw_number, "(0, 1e4]");
+    require(p.tan_vibration_angle > 0 && p.tan_vibration_angle <= 1e6, "tan_vibration_angle",
+            p.tan_vibration_angle, "(0, 1e6]");
+    require(std::abs(p.tan_inclination) <= 1e6, "tan_inclination", p.tan_inclination, "[-1e6, 1e6]");
+    require(p.friction >= 0 && p.friction <= 1e6, "friction", p.friction, "[0, 1e6]");
+}
+
+std::string described(PointMass const& p) {
+    return "throw_number=" + number(p.throw_number) +
+           " tan_vibration_angle=" + number(p.tan_vibration_angle) +
+           " tan_inclination=" + number(p.tan_inclination) + " friction=" + number(p.friction);
+}
+
+/// Eqs. 17, 18: the landing slows the slip by mu tan(beta) times the approach velocity, and at most stops it.
+Tangent landed(Tangent s, double impulse) {
+    if (std::abs(s.v) <= impulse) return {0, 0};
+    return {s.v - std::copysign(impulse, s.v), s.slope};
+}
+
+/// One period of the normal motion along the trough, from velocity v at its start.
+template <class Record>
+Tangent follow_period(Law const& law, NormalMotion const& normal, double v, Record&& record) {
+    Tangent s{v, 1};
+    auto const& flights = normal.flights;
+    if (flights.empty()) return follow_contact(law, s, normal.start, normal.end, false, record);
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        Flight const& flight = flights[i];
+        double const h = flight.end - flight.start;
+        // Eq. 16: weightless but for gravity along the trough.
+        record(PhaseKind::flight, flight.start, flight.end,
+               s.v * h - law.gravity * h * h / 2 - detail::sine_excess(flight.start, h));
+        s.v += -law.gravity * h - (std::cos(flight.end) - std::cos(flight.start));
+        s = landed(s, law.friction_tangent * flight.approach);
+        double const next = i + 1 < flights.size() ? flights[i + 1].start : normal.end;
+        s = follow_contact(law, s, flight.end, next, true, record);
+    }
+    return s;
+}
+
+Motion resting_motion() {
+    return {.velocity_efficiency = 0,
+            .mode = "R",
+            .phases = {{PhaseKind::rest, 0, two_pi, 0}},
+            .flight_number = 0,
+            .period_cycles = 1,
+            .converged = true,
+            .outcome = Outcome::periodic};
+}
+
+Motion endless_motion(PointMass const& input) {
+    bool const level = input.tan_inclination == 0;
+    double const infinity = std::numeric_limits<double>::infinity();
+    return {.velocity_efficiency = level ? 0 : std::copysign(infinity, -input.tan_inclination),
+            .mode = "",
+            .phases = {},
+            .flight_number = 0,
+            .period_cycles = 0,
+            .converged = false,
+            .outcome = level ? Outcome::indifferent : Outcome::runs_away};
+}
+
+/// Without flight the period may start anywhere: where a slide begins, so that a rest before it makes v = 0
+/// exact.
+void start_at_slide(NormalMotion& normal, Law const& law) {
+    detail::Slide const& first = law.positive.can_start() ? law.positive : law.negative;
+    double const begin = std::fmod(first.begin() + 2 * two_pi, two_pi);
+    normal = {.flights = {}, .start = begin, .end = begin + two_pi, .cycles = 1};
+}
+
+std::vector<Phase> record_period(Law const& law, NormalMotion const& normal, double v) {
+    std::vector<Phase> phases;
+    follow_period(law, normal, v, [&](PhaseKind kind, double start, double end, double displacement) {
+        if (end - start > shortest_phase) phases.push_back({kind, start, end, displacement});
+    });
+    return phases;
+}
+
+void describe(Motion& motion, double length) {
+    double const shift = two_pi * std::floor(motion.phases.front().start / two_pi);
+    double displacement = 0;
+    for (Phase& phase : motion.phases) {
+        phase.start -= shift;
+        phase.end -= shift;
+        displacement += phase.relative_displacement;
+        motion.mode += to_string(phase.kind);
+        if (phase.kind == PhaseKind::flight) {
+            motion.flight_number = std::max(motion.flight_number, (phase.end - phase.start) / two_pi);
+        }
+    }
+    motion.velocity_efficiency = displacement / length;
+}
+
+/// No period was found: the mean over the second half of what was followed.
+Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
+    double const middle = (normal.start + normal.end) / 2;
+    double displacement = 0, time = 0;
+    follow_period(law, normal, 0, [&](PhaseKind, double start, double end, double moved) {
+        if (start < middle) return;
+        displacement += moved;
+        time += end - start;
+    });
+    return {.velocity_efficiency = displacement / time,
+            .mode = "",
+            .phases = {},
+            .flight_number = 0,
+            .period_cycles = 0,
+            .converged = false,
+            .outcome = Outcome::unsettled};
+}
+
+Motion solve_checked(PointMass const& input) {
+    if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) return endless_motion(input);
+    Law const law = detail::make_law(input);
+    NormalMotion normal = detail::normal_motion(input.throw_number);
+    if (normal.cycles == 0) return unsettled_motion(law, normal);
+    bool const flies = !normal.flights.empty();
+    if (!flies && !law.positive.can_start() && !law.negative.can_start()) return resting_motion();
+    if (!flies) start_at_slide(normal, law);
+    auto const ignore = [](PhaseKind, double, double, double) {};
+    double v = detail::fixed_point([&](double v0) { return follow_period(law, normal, v0, ignore); }, 0);
+    Motion motion{.velocity_efficiency = 0,
+                  .mode = "",
+                  .phases = record_period(law, normal, v),
+                  .flight_number = 0,
+                  .period_cycles = normal.cycles,
+                  .converged = true,
+                  .outcome = Outcome::periodic};
+    if (!flies && v != 0) {  // start where the positive slide does
+        for (Phase const& phase : motion.phases) {
+            if (phase.kind != PhaseKind::positive_slide || phase.start == normal.start) continue;
+            normal.start = phase.start;
+            normal.end = phase.start + two_pi;
+            motion.phases = record_period(law, normal, 0);
+            break;
+        }
+    }
+    describe(motion, normal.end - normal.start);
+    return motion;
+}
+
+}  // namespace
+
+std::string to_string(PhaseKind kind) {
+    switch (kind) {
+        case PhaseKind::positive_slide:
+            return "P";
+        case PhaseKind::negative_slide:
+            return "N";
+        case PhaseKind::rest:
+            return "R";
+        case PhaseKind::flight:
+            return "F";
+        case PhaseKind::positive_slide_after_landing:
+            return "P'";
+        case PhaseKind::negative_slide_after_landing:
+            return "N'";
+    }
+    throw std::invalid_argument("no such phase");
+}
+
+std::string to_string(Outcome outcome) {
+    switch (outcome) {
+        case Outcome::periodic:
+            return "the motion is periodic";
+        case Outcome::runs_away:
+            return "the mass runs away downhill: |tan(alpha)| is larger than mu, no steady speed exists";
+        case Outcome::indifferent:
+            return "without friction on a level trough nothing drives the mass: it keeps the speed it has";
+        case Outcome::unsettled:
+            return "no period was found: the efficiency is a mean over the cycles that were followed";
+    }
+    throw std::invalid_argument("no such outcome");
+}
+
+double machine_number(PointMass const& input) {
+    double const b = input.tan_vibration_angle, a = input.tan_inclination;
+    return input.throw_number * std::sqrt(1 + b * b) / b / std::sqrt(1 + a * a);  // cos(alpha) / sin(beta)
+}
+
+Motion solve(PointMass const& input) {
+    check(input);
+    try {
+        return solve_checked(input);
+    } catch (PhaseError const& error) {
+        throw PhaseError(std::string(error.what()) + " (" + described(input) + ")");
+    }
+}
+
+}  // namespace vibrotrough::theory

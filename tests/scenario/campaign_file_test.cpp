@@ -1,0 +1,142 @@
+#include "scenario/campaign_file.hpp"
+
+#include "core/error.hpp"
+#include "example_campaign.hpp"
+
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough {
+namespace {
+
+std::string error_of(std::string const& text) {
+    try {
+        parse_campaign(text, "c.toml");
+    } catch (InputError const& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+std::string sweep(std::string const& lines) {
+    return example_campaign + "[sweep]\n" + lines;
+}
+
+TEST(CampaignFile, MultipliesTheSweep) {
+    Campaign const campaign =
+        parse_campaign(sweep(R"("trough.throw_number" = { from = 0.6, to = 3.0, step = 0.4 }
+"trough.tan_vibration_angle" = [0.25, 0.5, 1.0]
+)"),
+                       "c.toml");
+    ASSERT_EQ(campaign.cases.size(), 21u);
+    EXPECT_EQ(campaign.swept,
+              (std::vector<std::string>{"trough.throw_number", "trough.tan_vibration_angle"}));
+    // A swept tan(beta) replaces the angle given above it; the last key runs fastest.
+    EXPECT_DOUBLE_EQ(std::tan(campaign.cases[0].trough.vibration_angle), 0.25);
+    EXPECT_DOUBLE_EQ(std::tan(campaign.cases[1].trough.vibration_angle), 0.5);
+    EXPECT_NEAR(throw_number(campaign.cases[20].trough), 3.0, 1e-12);
+    EXPECT_NEAR(throw_number(campaign.cases[3].trough), 1.0, 1e-12);
+}
+
+TEST(CampaignFile, SweepsQuantitiesAndWholeNumbers) {
+    EXPECT_DOUBLE_EQ(
+        parse_campaign(sweep(R"("layer.height" = ["12 mm", "18 mm"])"), "c").cases[1].layer.height.value(), 0.018);
+    EXPECT_EQ(parse_campaign(sweep(R"("layer.grains" = [100, 200])"), "c").cases[1].layer.grains, 200);
+    EXPECT_EQ(parse_campaign(sweep("trough.friction = [0.1, 0.2]"), "c").cases[1].trough.friction, 0.2);
+    auto const angles = parse_campaign(
+        sweep(R"("trough.vibration_angle" = { from = "20 deg", to = "40 deg", step = "10 deg" })"), "c");
+    ASSERT_EQ(angles.cases.size(), 3u);
+    EXPECT_NEAR(angles.cases[1].trough.vibration_angle, std::acos(-1.0) / 6,
+                1e-11);  // ranges are kept to 12 digits
+    // A key that only the sweep gives is given.
+    EXPECT_EQ(parse_campaign(with("friction = 0.23\n", "") + "[sweep]\n\"trough.friction\" = [0.1]", "c")
+                  .cases.size(),
+              1u);
+}
+
+TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
+    std::string const text = example_campaign.substr(0, example_campaign.find("[measure]"));
+    Scenario const s = parse_campaign(text, "c").cases.front();
+    EXPECT_EQ(s.measure.packings, 3);
+    EXPECT_EQ(s.measure.max_cycles, 200);
+    EXPECT_EQ(s.output.frames_per_cycle, 0);
+}
+
+TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
+    EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = 6")),
+              "c.toml:7:13: trough.amplitude: the bare number 6 has no unit; write amplitude = \"6 mm\"");
+    EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = \"6 s\"")),
+              "c.toml:7:13: trough.amplitude: 's' cannot be converted to m; write amplitude = \"6 mm\"");
+    EXPECT_EQ(error_of(with("amplitude", "amplitud")),
+              "c.toml:7:1: trough.amplitud: unknown key; did you mean trough.amplitude?");
+    EXPECT_EQ(error_of(with("amplitude = \"6 mm\"\n", "")),
+              "c.toml:4:2: trough.amplitude: is missing; write amplitude = \"6 mm\" under [trough]");
+    EXPECT_EQ(error_of(with("throw_number = 2.0\n", "")),
+              "c.toml:4:2: trough.throw_number: is missing (exactly one of throw_number, machine_number, "
+              "frequency is "
+              "needed); write throw_number = 2.0 under [trough]");
+    EXPECT_EQ(
+        error_of(with("friction = 0.23", "friction = -0.23")),
+        "c.toml:9:12: trough.friction: -0.23 is out of range; write friction = 0.23, in the range 0 to 5");
+    EXPECT_EQ(
+        error_of(with("friction = 0.23", "friction = \"0.23\"")),
+        "c.toml:9:12: trough.friction: '0.23' is a text where a plain number belongs; write friction = 0.23");
+    EXPECT_EQ(
+        error_of(with("friction = 0.23", "friction = nan")),
+        "c.toml:9:12: trough.friction: nan is out of range; write friction = 0.23, in the range 0 to 5");
+    EXPECT_EQ(error_of(with("packings = 3", "packings = 3.5")),
+              "c.toml:28:12: measure.packings: 3.5 is not a whole number; write packings = 3");
+    EXPECT_EQ(error_of(with("throw_number = 2.0", "throw_number = 2.0\nfrequency = \"10 Hz\"")),
+              "c.toml:9:1: trough.frequency: trough.throw_number is given as well, on line 8, and each sets "
+              "the speed of "
+              "the drive; keep one of the two");
+    EXPECT_EQ(error_of(with("length = \"36 mm\"", "length = \"12 mm\"")),
+              "c.toml:23:1: layer.length: 0.012 m is less than 4 of the largest grains (0.0033 m), so that "
+              "grains would "
+              "meet their own images; write at least \"13.2 mm\"");
+}
+
+TEST(CampaignFile, EveryErrorIsOneLine) {
+    std::string const hostile = std::string("\"a\\nb'$(x)") + std::string(300, 'y') + "\" = 1\n";
+    for (std::string const& text : {std::string(),
+                                    std::string("["),
+                                    std::string("x = 1"),
+                                    std::string("[trough"),
+                                    with("[layer]", "[lair]"),
+                                    with("name = \"pvc-horizontal\"", "name = \"../x\""),
+                                    with("name = \"pvc-horizontal\"", "name = \"a\\nshell\""),
+                                    with("name = \"pvc-horizontal\"", "name = 1"),
+                                    with("[trough]", "[trough]\n" + hostile),
+                                    with("throw_number = 2.0", "throw_number = 1e999"),
+                                    with("throw_number = 2.0", "throw_number = [1]"),
+                                    with("vibration_angle = \"30 deg\"", "vibration_angle = \"0 deg\""),
+                                    with("height = \"12 mm\"", "height = \"1 mm\""),
+                                    with("amplitude = \"6 mm\"", "amplitude = \"6 mm; shell\""),
+                                    sweep("\"trough.friction\" = []"),
+                                    sweep("\"trough.friction\" = [0.1, 0.1]"),
+                                    sweep("\"trough.friction\" = 3"),
+                                    sweep("\"trough.friction\" = {from = 1, to = 0, step = 1}"),
+                                    sweep("\"trough.friction\" = {from = 0, to = 1}"),
+                                    sweep("\"trough.friction\" = {from = 0, to = 1, step = 0}"),
+                                    sweep("\"trough.friction\" = {from = 0, to = 9, step = 1}"),
+                                    sweep("\"trough.friction\" = {from = 0, to = 1, stop = 1}"),
+                                    sweep("\"campaign.name\" = [1]"),
+                                    sweep("\"no.key\" = [1]"),
+                                    sweep("throw_number = [1]"),
+                                    sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
+                                    std::string("campaign = 1\n")}) {
+        std::string const error = error_of(text);
+        EXPECT_EQ(error.find("c.toml:"), 0u) << error << "\n in: " << text;
+        EXPECT_EQ(error.find_first_of("\n\r"), std::string::npos) << error;
+        EXPECT_LT(error.size(), 400u) << error;
+    }
+}
+
+TEST(CampaignFile, MissingFileIsNoInputError) {
+    EXPECT_THROW(read_campaign("no-such-file.toml"), MissingError);
+}
+
+}  // namespace
+}  // namespace vibrotrough

@@ -1,0 +1,83 @@
+#include "run_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough {
+namespace {
+
+nlohmann::json point(std::string const& options) {
+    Answer const answer = run_program("theory point " + options + " --json");
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    return nlohmann::json::parse(answer.text);
+}
+
+// The contract of --json. Tolerance: the four decimals that are given.
+TEST(TheoryPoint, PrintsTheContract) {
+    auto const answer = point("--throw-number 2 --tan-vibration-angle 0.5 --friction 0.23");
+    EXPECT_NEAR(answer.at("velocity_efficiency"), 0.5815, 5e-5);
+    EXPECT_EQ(answer.at("mode"), "FN'");
+    EXPECT_EQ(answer.at("period_cycles"), 1);
+    EXPECT_EQ(answer.at("converged"), true);
+    EXPECT_EQ(answer.at("throw_number"), 2.0);
+    EXPECT_NEAR(answer.at("machine_number"), 2 * std::sqrt(5.0), 1e-12);  // K = Gamma / sin(beta)
+    EXPECT_NEAR(answer.at("flight_number"), 0.7415, 5e-5);
+    double displacement = 0;
+    for (auto const& phase : answer.at("phases")) {
+        EXPECT_LT(phase.at("start_rad"), phase.at("end_rad"));
+        EXPECT_TRUE(phase.at("kind").is_string());
+        displacement += phase.at("relative_displacement").get<double>();
+    }
+    // eta = X_rel / (2 pi). Tolerance: rounding.
+    EXPECT_NEAR(displacement / (2 * std::acos(-1.0)), answer.at("velocity_efficiency"), 1e-12);
+}
+
+// tan(30 deg) and the angle itself are one input. Tolerance: rounding of the tangent.
+TEST(TheoryPoint, TakesAnglesWithUnits) {
+    auto const angle =
+        point("--throw-number 1.5 --vibration-angle '30 deg' --inclination '-3 deg' --friction 0.3");
+    auto const tangent = point(
+        "--throw-number 1.5 --tan-vibration-angle 0.57735026918962576 --tan-inclination "
+        "-0.052407779283041195 "
+        "--friction 0.3");
+    EXPECT_NEAR(angle.at("velocity_efficiency"), tangent.at("velocity_efficiency"), 1e-12);
+}
+
+TEST(TheoryPoint, SaysWhenTheMassRunsAway) {
+    auto const answer =
+        point("--throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0.3 --friction 0.23");
+    EXPECT_EQ(answer.at("converged"), false);
+    EXPECT_TRUE(answer.at("velocity_efficiency").is_null());
+    EXPECT_NE(answer.at("outcome").get<std::string>().find("runs away"), std::string::npos);
+}
+
+TEST(TheoryPoint, RefusesWrongInputInOneLine) {
+    auto const refused = [](std::string const& options, std::string const& words) {
+        Answer const answer = run_program("theory point " + options);
+        EXPECT_EQ(answer.exit_code, 2) << options;
+        EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+        EXPECT_NE(answer.text.find(words), std::string::npos) << answer.text;
+    };
+    refused("--throw-number two --tan-vibration-angle 0.5 --friction 0.3", "--throw-number two: ");
+    refused("--throw-number -2 --tan-vibration-angle 0.5 --friction 0.3", "must be above 0");
+    refused("--throw-number nan --tan-vibration-angle 0.5 --friction 0.3", "finite");
+    refused("--tan-vibration-angle 0.5 --friction 0.3", "--throw-number is missing");
+    refused("--throw-number 2 --friction 0.3", "--vibration-angle is missing");
+    refused("--throw-number 2 --vibration-angle 30 --friction 0.3", "'30' has no unit");
+    refused("--throw-number 2 --vibration-angle '30 mm' --friction 0.3", "cannot be converted");
+    refused("--throw-number 2 --vibration-angle '95 deg' --friction 0.3", "between 0 and 90 degrees");
+    refused("--throw-number 2 --vibration-angle '30 deg' --tan-vibration-angle 1 --friction 0.3", "only one");
+    refused("--throw-number 2 --vibration-angle '30 deg' --friction -0.1", "--friction -0.1");
+}
+
+TEST(TheoryPoint, TeachesWithAnExample) {
+    Answer const answer = run_program("theory point --help");
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_NE(answer.text.find("Example: vibrotrough theory point"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vibrotrough
