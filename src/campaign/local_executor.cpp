@@ -5,7 +5,7 @@
 #include "campaign/folder_lock.hpp"
 #include "campaign/packing_run.hpp"
 #include "campaign/time_to_go.hpp"
-#include "core/error.hpp"
+#include "core/atomic_file.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Job {
 class LocalExecutor {
   public:
     LocalExecutor(Plan const& plan, engine::Engine const& engine, int jobs, Observer& observer)
-        : plan_(plan), engine_(engine), jobs_(jobs), observer_(observer), lock_(plan.folder) {}
+        : plan_(plan), engine_(engine), jobs_(jobs), observer_(observer) {}
 
     Summary run() {
         collect_jobs();
@@ -181,7 +181,6 @@ class LocalExecutor {
     engine::Engine const& engine_;
     int jobs_;
     Observer& observer_;
-    FolderLock lock_;
     boost::asio::io_context context_;
     boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
     boost::asio::steady_timer clock_{context_};
@@ -198,7 +197,11 @@ class LocalExecutor {
 
 }  // namespace
 
-Summary run_locally(Plan const& plan, engine::Engine const& engine, int jobs, Observer& observer) {
+Summary run_locally(Plan const& plan, std::filesystem::path const& campaign_file,
+                    engine::Engine const& engine, int jobs, Observer& observer) {
+    make_folder(plan.folder);
+    FolderLock const lock(plan.folder);
+    freeze(plan, campaign_file, engine);
     return LocalExecutor(plan, engine, jobs, observer).run();
 }
 

@@ -35,11 +35,14 @@ struct Summary {
     bool interrupted = false;
 };
 
-/// Runs every packing of every case that is not finished, `jobs` engines at a time, on this machine.
-/// SIGINT and SIGTERM end the engines and return. A failed case does not stop the others.
-/// @param jobs  at least 1
+/// Makes the folder, freezes the campaign in it and runs every packing of every case that is not finished,
+/// `jobs` engines at a time, on this machine. SIGINT and SIGTERM end the engines and return. A failed case
+/// does not stop the others.
+/// @param campaign_file  the file that the plan was made from
+/// @param jobs           at least 1
 /// @throws MissingError when another driver works on the folder or the disk refuses (the engines are ended
 /// first)
-Summary run_locally(Plan const& plan, engine::Engine const& engine, int jobs, Observer& observer);
+Summary run_locally(Plan const& plan, std::filesystem::path const& campaign_file,
+                    engine::Engine const& engine, int jobs, Observer& observer);
 
 }  // namespace vibrotrough::campaign
