@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -82,6 +83,10 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles) {
     return {cut(series.x, cycles + 1),           cut(series.z, cycles + 1),
             cut(series.normal_force, cycles),    cut(series.tangential_force, cycles),
             cut(series.flight_fraction, cycles), cut(series.mean_velocity, cycles)};
+}
+
+double mean_normal_force(CycleSeries const& series, int cycles) {
+    return std::accumulate(series.normal_force.end() - cycles, series.normal_force.end(), 0.0) / cycles;
 }
 
 }  // namespace vibrotrough::measure

@@ -33,4 +33,7 @@ CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, 
 /// The first `cycles` cycles of a series that has at least as many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);
 
+/// Mean force of the layer on the trough over the last `cycles` cycles, N, pressing positive.
+double mean_normal_force(CycleSeries const& series, int cycles);
+
 }  // namespace vibrotrough::measure
