@@ -47,15 +47,25 @@ def open_collection(name):
     return reader
 
 
-def velocity_colours():
+def colour_by_velocity(view, shown):
     """Blue where grains lag behind the trough, red where they run ahead, to twice the trough's largest speed."""
+    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
     colours = GetColorTransferFunction(COLOURED_BY)
-    colours.ApplyPreset("Cool to Warm (Extended)", True)
-    colours.VectorMode = "Component"
-    colours.VectorComponent = 0
+    colours.ApplyPreset("Cool to Warm", True)
     colours.AutomaticRescaleRangeMode = "Never"
     colours.RescaleTransferFunction(-2.0 * SPEED, 2.0 * SPEED)
-    return colours
+    bar = GetScalarBar(colours, view)
+    bar.Title = "velocity along the trough, relative to it, m/s"
+    bar.ComponentTitle = ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Lower Center"
+    bar.ScalarBarLength = 0.4
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = bar.RangeLabelFormat = "%.2f"
+    bar.TitleColor = bar.LabelColor = INK
+    bar.TitleFontSize = 16
+    bar.LabelFontSize = 15
+    shown.SetScalarBarVisibility(view, True)
 
 
 def show_grains(view, grains):
@@ -79,27 +89,15 @@ def show_grains(view, grains):
         Hide(grains, view)
         shown = Show(spheres, view)
         SetActiveSource(grains)
-    colours = velocity_colours()
-    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
-    bar = GetScalarBar(colours, view)
-    bar.Title = "velocity along the trough, relative to it, m/s"
-    bar.ComponentTitle = ""
-    bar.Orientation = "Horizontal"
-    bar.WindowLocation = "Lower Center"
-    bar.ScalarBarLength = 0.4
-    bar.TitleColor = INK
-    bar.LabelColor = INK
-    bar.TitleFontSize = 14
-    bar.LabelFontSize = 13
-    shown.SetScalarBarVisibility(view, True)
+    colour_by_velocity(view, shown)
 
 
 def show_trough(view, trough):
     shown = Show(trough, view)
     shown.SetRepresentationType("Surface With Edges")
-    ColorBy(shown, None)
-    shown.AmbientColor = shown.DiffuseColor = [0.62, 0.64, 0.67]
-    shown.EdgeColor = [0.45, 0.47, 0.5]
+    shown.ColorArrayName = ["POINTS", ""]
+    shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
+    shown.EdgeColor = [0.55, 0.57, 0.6]
 
 
 def show_text(view, source, where):
@@ -120,17 +118,16 @@ def annotate(view, grains):
 
 
 def look_along_the_width(view, trough, grains):
-    """From the side and a little from above, with the conveying direction to the right."""
-    low_x, high_x, low_y, high_y, _, _ = trough.GetDataInformation().GetBounds()
-    bottom = trough.GetDataInformation().GetBounds()[4]
-    top = max(grains.GetDataInformation().GetBounds()[5], bottom)
-    centre = [(low_x + high_x) / 2, (low_y + high_y) / 2, (bottom + top) / 2]
-    size = max(high_x - low_x, 1.5 * (top - bottom), high_y - low_y)
+    """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
+    left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
+    height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * (right - left))
+    size = max(right - left, 2.0 * height)
+    focus = [(left + right) / 2, (front + back) / 2, floor + 0.6 * height]
     view.CameraParallelProjection = 1
-    view.CameraFocalPoint = centre
-    view.CameraPosition = [centre[0] - 0.9 * size, centre[1] - 3.0 * size, centre[2] + 1.1 * size]
+    view.CameraFocalPoint = focus
+    view.CameraPosition = [focus[0] - 0.9 * size, focus[1] - 3.0 * size, focus[2] + 1.1 * size]
     view.CameraViewUp = [0.0, 0.0, 1.0]
-    view.CameraParallelScale = 0.55 * size
+    view.CameraParallelScale = 0.53 * size
 
 
 def main():
