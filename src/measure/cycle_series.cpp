@@ -14,8 +14,8 @@ namespace vibrotrough::measure {
 namespace {
 
 constexpr std::string_view header =
-    "step,grains,x_com,z_com,mean_vx,mean_force_x,mean_force_z,flight_fraction";
-using Row = std::array<double, 8>;
+    "step,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction";
+using Row = std::array<double, 9>;
 
 bool parse_row(std::string_view line, Row& row) {
     char const* at = line.data();
@@ -33,11 +33,12 @@ bool parse_row(std::string_view line, Row& row) {
 void append(CycleSeries& series, Row const& row) {
     series.x.push_back(row[2]);
     series.z.push_back(row[3]);
+    series.vz.push_back(row[4]);
     if (series.x.size() == 1) return;  // the line of the start has no cycle before it
-    series.mean_velocity.push_back(row[4]);
-    series.tangential_force.push_back(row[5]);
-    series.normal_force.push_back(-row[6]);  // the engine counts the force on the trough upwards
-    series.flight_fraction.push_back(row[7]);
+    series.mean_velocity.push_back(row[5]);
+    series.tangential_force.push_back(row[6]);
+    series.normal_force.push_back(-row[7]);  // the engine counts the force on the trough upwards
+    series.flight_fraction.push_back(row[8]);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, 
         Row row{};
         double const expected_step = static_cast<double>(series.x.size()) * steps_per_cycle;
         if (!parse_row(line, row) || row[0] != expected_step) {
-            throw InputError(fmt::format("{}:{}: the line is damaged; expected 8 numbers for step {:.0f}",
+            throw InputError(fmt::format("{}:{}: the line is damaged; expected 9 numbers for step {:.0f}",
                                          path.string(), line_number, expected_step));
         }
         if (row[1] != grains) {
@@ -76,17 +77,23 @@ CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, 
 }
 
 CycleSeries first_cycles(CycleSeries const& series, int cycles) {
-    auto const cut = [](std::vector<double> values, int count) {
+    auto const cut = [](std::vector<double>& values, int count) {
         values.resize(static_cast<std::size_t>(count));
-        return values;
     };
-    return {cut(series.x, cycles + 1),           cut(series.z, cycles + 1),
-            cut(series.normal_force, cycles),    cut(series.tangential_force, cycles),
-            cut(series.flight_fraction, cycles), cut(series.mean_velocity, cycles)};
+    CycleSeries result = series;
+    for (auto* const at_ends : {&result.x, &result.z, &result.vz}) cut(*at_ends, cycles + 1);
+    for (auto* const over_cycles :
+         {&result.normal_force, &result.tangential_force, &result.flight_fraction, &result.mean_velocity}) {
+        cut(*over_cycles, cycles);
+    }
+    return result;
 }
 
-double mean_normal_force(CycleSeries const& series, int cycles) {
-    return std::accumulate(series.normal_force.end() - cycles, series.normal_force.end(), 0.0) / cycles;
+double weight_by_momentum(CycleSeries const& series, double mass, double period) {
+    double const cycles = series.cycles();
+    double const force =
+        std::accumulate(series.normal_force.begin(), series.normal_force.end(), 0.0) / cycles;
+    return force - mass * (series.vz.back() - series.vz.front()) / (cycles * period);
 }
 
 }  // namespace vibrotrough::measure

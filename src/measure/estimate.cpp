@@ -60,6 +60,7 @@ std::vector<double> velocity_efficiency(CycleSeries const& series, double amplit
 }
 
 int startup_length(std::span<double const> values) {
+    if (values.empty()) return 0;
     int const n = static_cast<int>(values.size());
     int best = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -16,6 +16,10 @@ std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path
             line.refuse("should be 'step,trough_x,trough_z'");
         while (!cursor.at_end()) {
             line = cursor;
+            if (TextCursor(line).line().starts_with('#')) {
+                cursor.line();
+                continue;
+            }
             TroughPosition position{};
             position.step = cursor.number<long>();
             cursor.comma();

@@ -54,6 +54,7 @@ void expect_equal(PackingRecord const& read, PackingRecord const& written) {
     EXPECT_EQ(read.wall_time, written.wall_time);
     EXPECT_EQ(read.series.x, written.series.x);
     EXPECT_EQ(read.series.z, written.series.z);
+    EXPECT_EQ(read.series.vz, written.series.vz);
     EXPECT_EQ(read.series.normal_force, written.series.normal_force);
     EXPECT_EQ(read.series.tangential_force, written.series.tangential_force);
     EXPECT_EQ(read.series.flight_fraction, written.series.flight_fraction);
@@ -101,6 +102,7 @@ TEST_F(ResultFile, KeepsWhatIsEmptyInfiniteOrMissing) {
     record.packings[1].series = {};
     record.packings[1].series.x = {0.018};
     record.packings[1].series.z = {0.009};
+    record.packings[1].series.vz = {0};
     record.packings[1].efficiency.clear();
     write_result(path, record);
     expect_equal(read_result(path), record);

@@ -35,10 +35,11 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     first.wall_time = 12.5;
     first.series = {.x = {0.018, 0.0241, 0.0337, 0.0431},
                     .z = {0.0096, 0.0130, 0.0095, 0.0096},
+                    .vz = {0.0, 0.21, -0.04, 0.02},
+                    .mean_velocity = {0.0839, 0.1304, 0.1707},
                     .normal_force = {0.0885, 0.1418, 0.0974},
                     .tangential_force = {0.0152, 0.0057, 0.0127},
-                    .flight_fraction = {0.652, 0.356, 0.654},
-                    .mean_velocity = {0.0839, 0.1304, 0.1707}};
+                    .flight_fraction = {0.652, 0.356, 0.654}};
     first.efficiency = {0.41, 0.62, 0.83};
     first.estimate = {.mean = 0.83,
                       .half_width = 0.018,
@@ -53,10 +54,11 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     second.wall_time = 11.25;
     second.series = {.x = {0.018, 0.025},
                      .z = {0.0097, 0.0098},
+                     .vz = {0.0, -0.03},
+                     .mean_velocity = {0.0953},
                      .normal_force = {0.0991},
                      .tangential_force = {-0.0012},
-                     .flight_fraction = {0.68},
-                     .mean_velocity = {0.0953}};
+                     .flight_fraction = {0.68}};
     second.efficiency = {0.81};
     second.estimate = {.mean = 0.81,
                        .half_width = 0.03,
