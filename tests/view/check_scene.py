@@ -63,7 +63,7 @@ def check_frame(step, dumps):
 
 
 def check_picture(path):
-    """Grains that run ahead of the trough are red: a fifth of the picture at least, against 40 % when it is right."""
+    """Grains that run ahead of the trough are red: half as much of the picture at least as when it is right (29 %)."""
     view = GetActiveView()
     view.ViewSize = [400, 250]
     SaveScreenshot(path, view, ImageResolution=[400, 250])
@@ -73,7 +73,7 @@ def check_picture(path):
     pixels = reader.GetOutput().GetPointData().GetScalars()
     count = pixels.GetNumberOfTuples()
     red = sum(1 for i in range(count) if pixels.GetComponent(i, 0) > 1.3 * pixels.GetComponent(i, 2))
-    assert red > 0.2 * count, f"{path}: only {red} of {count} pixels are red"
+    assert red > 0.15 * count, f"{path}: only {red} of {count} pixels are red"
     print(f"{path}: {red} of {count} pixels are red")
 
 

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                            .angular_frequency = 2.0 * std::numbers::pi / (3000 * time_step),
                            .amplitude_x = 0.00536656,
                            .amplitude_z = 0.00268328,
-                           .caption = "Γ = 2, β = 26.6°"},
+                           .caption = "throw number 2, vibration angle 26.6°"},
                           argv[2]);
         std::printf("%d frames, %s\n", exported.frames, exported.scene.c_str());
         return 0;
