@@ -114,8 +114,12 @@ def draw(axes, columns, theory):
 
 
 def mark_uncertain(axes, columns):
-    """A ring around every point that is not what was asked for."""
-    rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished"]
+    """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
+    drawn = np.isfinite(columns["efficiency"])
+    if not drawn.all():
+        text = f"{np.count_nonzero(~drawn)} of {len(drawn)} cases have no mean (not steady)"
+        axes.figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color="#666666")
+    rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
     if rows:
         axes.scatter(
             columns["throw_number"][rows],

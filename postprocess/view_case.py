@@ -105,6 +105,7 @@ def show_text(view, source, where):
     shown.WindowLocation = where
     shown.Color = INK
     shown.FontSize = 16
+    return shown
 
 
 def annotate(view, grains):
@@ -137,7 +138,8 @@ def main():
     view.Background = [1.0, 1.0, 1.0]
     view.OrientationAxesLabelColor = INK
     if CAPTION:
-        show_text(view, Text(registrationName="caption", Text=CAPTION), "Upper Center")
+        shown = show_text(view, Text(registrationName="caption", Text=CAPTION), "Any Location")
+        shown.Position = [0.008, 0.935]  # below the time, whatever its length
     if not (has_frames("grains.pvd") and has_frames("trough.pvd")):
         show_text(view, Text(registrationName="note", Text="This case has no frames yet."), "Lower Left Corner")
         Render(view)
