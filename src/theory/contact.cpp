@@ -60,7 +60,8 @@ Instant Slide::stop_between(double w0, Instant from, double lo, double hi, doubl
         double next = h + step;
         bool const inside = slope < 0 && next >= lo && next <= hi;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
-        if (!inside) next = lo + (hi - lo) / 2;
+        // Next to a tangency rounding keeps the steps from shrinking: then halve.
+        if (!inside || i > 20) next = lo + (hi - lo) / 2;
         if (hi - lo <= 4e-16 * (1 + std::abs(from.t + h)) || next == h) return here;
         h = next;
     }

@@ -3,10 +3,10 @@
 #include "theory/contact.hpp"
 #include "theory/errors.hpp"
 #include "theory/flight.hpp"
+#include "theory/input_check.hpp"
 #include "theory/periodic.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -20,30 +20,6 @@ using detail::NormalMotion;
 using detail::two_pi;
 
 constexpr double shortest_phase = 1e-12;  // rad; shorter ones are rounding, not motion
-
-std::string number(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-void require(bool good, char const* name, double value, char const* range) {
-    if (good) return;
-    throw std::invalid_argument(std::string(name) + " = " + number(value) + " is outside its range " + range);
-}
-
-void check(PointMass const& p) {
-    require(p.throw_number > 0 && p.throw_number <= 1e4, "throw_number", p.throw_number, "(0, 1e4]");
-    require(p.tan_vibration_angle > 0 && p.tan_vibration_angle <= 1e6, "tan_vibration_angle",
-            p.tan_vibration_angle, "(0, 1e6]");
-    require(std::abs(p.tan_inclination) <= 1e6, "tan_inclination", p.tan_inclination, "[-1e6, 1e6]");
-    require(p.friction >= 0 && p.friction <= 1e6, "friction", p.friction, "[0, 1e6]");
-}
-
-std::string described(PointMass const& p) {
-    return "throw_number=" + number(p.throw_number) +
-           " tan_vibration_angle=" + number(p.tan_vibration_angle) +
-           " tan_inclination=" + number(p.tan_inclination) + " friction=" + number(p.friction);
-}
 
 Motion resting_motion() {
     return {.velocity_efficiency = 0,
@@ -113,15 +89,18 @@ Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
             .outcome = Outcome::unsettled};
 }
 
-/// Without flight: moves the start of the period to where the positive slide starts.
-void start_at_positive_slide(Motion& motion, Law const& law, NormalMotion& normal) {
-    for (Phase const& phase : motion.phases) {
-        if (phase.kind != PhaseKind::positive_slide || phase.start == normal.start.t) continue;
-        normal.start = Instant::at(phase.start);
-        normal.end = normal.start;
-        normal.end.t += two_pi;
-        motion.phases = record_period(law, normal, 0);
-        return;
+/// Without flight: moves the start of the period from within a slide to where the positive slide starts, or
+/// the negative one where there is none.
+void start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
+    for (auto const first : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
+        for (Phase const& phase : motion.phases) {
+            if (phase.kind != first || phase.start == normal.start.t) continue;
+            normal.start = Instant::at(phase.start);
+            normal.end = normal.start;
+            normal.end.t += two_pi;
+            motion.phases = record_period(law, normal, 0);
+            return;
+        }
     }
 }
 
@@ -147,7 +126,7 @@ Motion solve_checked(PointMass const& input) {
                   .period_cycles = normal.cycles,
                   .converged = true,
                   .outcome = Outcome::periodic};
-    if (!flies && start.v != 0) start_at_positive_slide(motion, law, normal);
+    if (!flies && start.v != 0) start_at_first_slide(motion, law, normal);
     describe(motion, normal.end.t - normal.start.t);
     return motion;
 }
@@ -192,11 +171,11 @@ double machine_number(PointMass const& input) {
 }
 
 Motion solve(PointMass const& input) {
-    check(input);
+    detail::check_ranges(input);
     try {
         return solve_checked(input);
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + described(input) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::described(input) + ")");
     }
 }
 
