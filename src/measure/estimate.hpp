@@ -11,7 +11,7 @@ namespace vibrotrough::measure {
 enum class Verdict {
     precise,      ///< steady, and the half-width is at most what was asked
     not_precise,  ///< steady, but the interval is too wide so far
-    not_steady,   ///< the start-up has not ended within the first half, or the rest still drifts
+    not_steady,   ///< the start-up has not ended within the first half, or what follows still drifts
 };
 
 /// Mean of one packing's cycle values after the start-up.
@@ -31,5 +31,47 @@ struct CaseEstimate {
     double half_width;
     int packings;
 };
+
+/// What an interval must be.
+struct Precision {
+    double confidence;  ///< 0.5 to below 1
+    double half_width;  ///< > 0, in the unit of the values
+};
+
+/// Fewest cycles kept that an interval is computed from.
+constexpr int fewest_cycles = 12;
+
+/// Velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
+/// @param amplitude_x  r cos(beta), m, > 0
+std::vector<double> velocity_efficiency(CycleSeries const& series, double amplitude_x);
+
+/// Length of the start-up by the marginal standard error rule MSER (White, Simulation 69, 1997, 323-334): the
+/// d <= n/2 that minimises sum_{i >= d} (y_i - mean_d)^2 / (n - d)^2. An answer of n/2 means that the
+/// start-up is not over.
+int startup_length(std::span<double const> values);
+
+/// Statistical inefficiency g = 1 + 2 sum rho_k over the initial positive sequence of pair sums (Geyer,
+/// Statistical Science 7, 1992, 473-483), at least 1 and at most n.
+double statistical_inefficiency(std::span<double const> values);
+
+/// Mean of one packing's cycle values: start-up cut by MSER, interval t_{n/g - 1} s sqrt(g / n). Not steady
+/// when MSER does not find the end of the start-up in the first half, or when the first and the last third of
+/// what is kept differ by more than their own intervals together and by more than the wanted half-width.
+PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
+
+/// The estimate at the first of the cycles 20, 25, 30 ... at which it is precise, else of all values. It
+/// depends on the values only, not on when somebody looked, so that a run gives the same answer again.
+/// `used` says how many values it rests on.
+struct SequentialEstimate {
+    PackingEstimate estimate;
+    int used;
+};
+SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted);
+
+/// Mean over packings: Student's t of their means (packings - 1 degrees of freedom), and never narrower than
+/// the widest interval of a single run, which the scatter of a few packings can undercut by luck. With one
+/// packing the interval is that of the run and knows nothing of the scatter between packings.
+/// @param packings  at least one
+CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence);
 
 }  // namespace vibrotrough::measure

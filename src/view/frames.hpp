@@ -1,28 +1,40 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace vibrotrough::view {
 
 /// Where one run's frames come from and what they need to be understood.
 struct FrameSource {
     std::filesystem::path folder;  ///< holds frames.<step>.dump and frames.csv (step, trough x, trough z)
-    std::filesystem::path trough;  ///< the STL of the trough at rest
+    std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
-    double angular_frequency;      ///< omega, rad/s: the trough's velocity is that of A sin(omega t)
+    double angular_frequency;      ///< omega, rad/s: the trough's displacement is A sin(omega t)
     double amplitude_x;            ///< m, r cos(beta)
     double amplitude_z;            ///< m, r sin(beta)
+    std::string caption;           ///< one line shown in the scene; may be empty
 };
 
 struct ExportedFrames {
     int frames;
     std::filesystem::path grains;  ///< grains.pvd
     std::filesystem::path trough;  ///< trough.pvd
+    std::filesystem::path scene;   ///< view_case.py: `paraview --state=<scene>` opens all of it
 };
 
 /// Turns the engine's dumps into compressed inline .vtp files, one collection (.pvd) for the grains and one
-/// for the trough, with true times, under `target`. A frame that the engine had not finished writing is left
-/// out.
+/// for the trough, with true times (s), and a ParaView scene, all under `target`. The collections are renewed
+/// while frames are written, so an export that is stopped opens with the frames it has. One frame at a time
+/// is in memory.
+///
+/// A last frame that the engine had not finished writing is left out; no frame at all makes empty
+/// collections.
+///
+/// @throws InputError naming file and line when a dump or frames.csv is damaged, when a frame in between is
+/// missing, or
+///         when the trough is not where A sin(omega t) puts it
+/// @throws MissingError when a file cannot be read or the disk refuses
 ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target);
 
 }  // namespace vibrotrough::view

@@ -1,0 +1,88 @@
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "campaign/overview.hpp"
+#include "core/error.hpp"
+#include "deck/deck.hpp"
+#include "view/frames.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string folder;
+    std::string id;
+};
+
+/// Exports the frames that a case's first packing has written so far; nothing when it has none.
+std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
+    fs::path const packing = planned.packing_folder(1);
+    if (planned.scenario.output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
+        return {};
+    Trough const& trough = planned.scenario.trough;
+    view::FrameSource const source{
+        .folder = packing / "dump",
+        .trough = packing / "trough.stl",
+        .time_step = deck::choose_time_step(planned.scenario).time_step,
+        .angular_frequency = angular_frequency(trough),
+        .amplitude_x = trough.amplitude * std::cos(trough.vibration_angle),
+        .amplitude_z = trough.amplitude * std::sin(trough.vibration_angle),
+        .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
+                               planned.scenario.campaign, planned.id, throw_number(trough),
+                               machine_number(trough), trough.friction)};
+    return view::export_frames(source, planned.folder / "frames");
+}
+
+int run(Options const& options) {
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    bool known = options.id.empty();
+    int exported = 0;
+    for (campaign::PlannedCase const& planned : plan.cases) {
+        if (!options.id.empty() && planned.id != options.id) continue;
+        known = true;
+        auto const frames = export_case(planned);
+        if (!frames) continue;
+        ++exported;
+        fmt::print("case {}: {} frames; open with: paraview --state={}\n", planned.id, frames->frames,
+                   fs::absolute(frames->scene).lexically_normal().string());
+    }
+    if (!known) {
+        throw InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
+                                     options.folder, options.id, options.folder));
+    }
+    if (exported == 0) {
+        throw InputError(fmt::format(
+            "{} holds no frames; write frames_per_cycle = 20 under [output] in the campaign file and "
+            "run it again",
+            options.folder));
+    }
+    return all_well;
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        program.add_subcommand("export", "Write a campaign's frames for ParaView (.pvd and .vtp)");
+    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
+        ->required();
+    command->add_option("--case", options->id, "Only this case; default: all that have frames")
+        ->type_name("ID");
+    command->footer(
+        "Frames come from the first packing of each case when the campaign asks for them: [output] "
+        "frames_per_cycle.\n"
+        "Example: vibrotrough export runs/demo");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

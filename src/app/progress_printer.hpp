@@ -1,0 +1,32 @@
+#pragma once
+
+#include "campaign/local_executor.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace vibrotrough::app {
+
+/// Shows a campaign's progress on standard error: one line that renews itself on a terminal, plain lines
+/// (one per ended case, and one every ten seconds) elsewhere.
+class ProgressPrinter : public campaign::Observer {
+  public:
+    ProgressPrinter();
+    ~ProgressPrinter() override;
+
+    void progressed(campaign::Progress const& progress) override;
+    void case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+                    std::string const& message) override;
+
+  private:
+    void clear_line();
+
+    bool terminal_;
+    std::string line_;
+    std::chrono::steady_clock::time_point printed_;
+};
+
+/// "1:05", "2:00:10".
+std::string clock_time(double seconds);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,81 @@
+#include "campaign/assemble.hpp"
+
+#include "campaign/case_state.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/time.hpp"
+#include "core/version.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+double amplitude_along(Scenario const& scenario) {
+    return scenario.trough.amplitude * std::cos(scenario.trough.vibration_angle);
+}
+
+std::string outcome_of(std::vector<measure::PackingEstimate> const& packings) {
+    auto const any = [&](measure::Verdict verdict) {
+        return std::ranges::any_of(packings, [&](auto const& packing) { return packing.verdict == verdict; });
+    };
+    if (any(measure::Verdict::not_steady)) return "not-steady";
+    if (any(measure::Verdict::not_precise)) return "not-precise";
+    return "finished";
+}
+
+store::PackingRecord read_packing(PlannedCase const& planned, int packing, FinishedPacking const& marker) {
+    deck::Deck const deck = deck::make_deck(planned.scenario, packing);
+    auto const folder = planned.packing_folder(packing);
+    auto const all =
+        measure::read_cycles(folder / "cycles.csv", deck.time.steps_per_cycle, planned.scenario.layer.grains);
+    auto const answer = estimate_series(planned.scenario, all);
+    store::PackingRecord record{};
+    record.seed = deck.seed;
+    record.steps_per_cycle = deck.time.steps_per_cycle;
+    record.time_step = deck.time.time_step;
+    record.mass = deck.mass;
+    record.wall_time = marker.wall_time;
+    record.series = measure::first_cycles(all, answer.used);
+    record.efficiency = measure::velocity_efficiency(record.series, amplitude_along(planned.scenario));
+    record.estimate = answer.estimate;
+    record.deck = read_file(folder / "in.liggghts");
+    return record;
+}
+
+}  // namespace
+
+measure::SequentialEstimate estimate_series(Scenario const& scenario, measure::CycleSeries const& series) {
+    auto const efficiency = measure::velocity_efficiency(series, amplitude_along(scenario));
+    return measure::estimate_sequentially(efficiency,
+                                          {scenario.measure.confidence, scenario.measure.half_width});
+}
+
+store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine_version) {
+    store::CaseRecord record{};
+    record.id = planned.id;
+    record.scenario = planned.scenario;
+    record.scenario_toml = to_toml(planned.scenario);
+    record.provenance = {
+        std::string(program_version()), std::string(program_commit()), engine_version, host_name(), "", ""};
+    std::vector<measure::PackingEstimate> estimates;
+    for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
+        auto const marker = read_finished_packing(planned, packing);
+        if (!marker)
+            throw InputError(fmt::format("packing {} of case {} is not finished", packing, planned.id));
+        record.packings.push_back(read_packing(planned, packing, *marker));
+        estimates.push_back(record.packings.back().estimate);
+        auto& [version, commit, engine, host, started, finished] = record.provenance;
+        // ISO 8601 sorts as text.
+        started = started.empty() ? marker->started : std::min(started, marker->started);
+        finished = std::max(finished, marker->finished);
+    }
+    record.estimate = measure::combine(estimates, planned.scenario.measure.confidence);
+    record.outcome = outcome_of(estimates);
+    return record;
+}
+
+}  // namespace vibrotrough::campaign

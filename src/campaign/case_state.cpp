@@ -1,0 +1,106 @@
+#include "campaign/case_state.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "store/result_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The file's content as JSON; nothing when it is missing or damaged.
+std::optional<Json> read_json(fs::path const& path) {
+    if (!fs::is_regular_file(path)) return {};
+    Json json = Json::parse(read_file(path), nullptr, false);
+    if (json.is_discarded() || !json.is_object()) return {};
+    return json;
+}
+
+fs::path marker(PlannedCase const& planned, int packing) {
+    return planned.packing_folder(packing) / "packing.json";
+}
+
+std::string digest_of_cycles(PlannedCase const& planned, int packing) {
+    fs::path const cycles = planned.packing_folder(packing) / "cycles.csv";
+    return fs::is_regular_file(cycles) ? sha256_hex(read_file(cycles)) : std::string();
+}
+
+}  // namespace
+
+std::string to_string(CaseState state) {
+    switch (state) {
+        case CaseState::finished:
+            return "finished";
+        case CaseState::failed:
+            return "failed";
+        case CaseState::started:
+            return "started";
+        case CaseState::open:
+            return "open";
+    }
+    return "unknown";
+}
+
+std::optional<Failure> read_failure(PlannedCase const& planned) {
+    auto const json = read_json(planned.failure_file());
+    if (!json) return {};
+    return Failure{json->value("outcome", "unknown"), json->value("message", ""), json->value("packing", 0),
+                   json->value("attempts", 1)};
+}
+
+void write_failure(PlannedCase const& planned, Failure const& failure) {
+    Json const json{{"case", planned.id},
+                    {"outcome", failure.outcome},
+                    {"message", failure.message},
+                    {"packing", failure.packing},
+                    {"attempts", failure.attempts}};
+    make_folder(planned.folder);
+    write_file_atomically(planned.failure_file(), json.dump(2) + "\n");
+}
+
+std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned) {
+    if (!fs::is_regular_file(planned.result_file())) return {};
+    try {
+        store::CaseRecord record = store::read_result(planned.result_file());
+        if (record.id == planned.id) return record;
+    } catch (Error const&) {
+        // Damaged: the case is as good as not run, and will be.
+    }
+    return {};
+}
+
+CaseState case_state(PlannedCase const& planned) {
+    if (read_whole_result(planned)) return CaseState::finished;
+    if (fs::is_regular_file(planned.failure_file())) return CaseState::failed;
+    return fs::is_directory(planned.folder) ? CaseState::started : CaseState::open;
+}
+
+std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing) {
+    auto const json = read_json(marker(planned, packing));
+    if (!json || json->value("cycles_sha256", "") != digest_of_cycles(planned, packing)) return {};
+    return FinishedPacking{json->value("wall_time", 0.0), json->value("started", ""),
+                           json->value("finished", "")};
+}
+
+void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished) {
+    Json const json{{"wall_time", finished.wall_time},
+                    {"started", finished.started},
+                    {"finished", finished.finished},
+                    {"cycles_sha256", digest_of_cycles(planned, packing)}};
+    write_file_atomically(marker(planned, packing), json.dump(2) + "\n");
+}
+
+int count_finished_packings(PlannedCase const& planned) {
+    int count = 0;
+    for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
+        if (read_finished_packing(planned, packing)) ++count;
+    }
+    return count;
+}
+
+}  // namespace vibrotrough::campaign

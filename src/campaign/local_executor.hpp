@@ -1,0 +1,48 @@
+#pragma once
+
+#include "campaign/plan.hpp"
+#include "engine/engine.hpp"
+
+#include <string>
+
+namespace vibrotrough::campaign {
+
+/// Where a campaign stands.
+struct Progress {
+    int finished = 0;        ///< cases with a result
+    int failed = 0;          ///< cases that failed in this run
+    int running = 0;         ///< packings being simulated
+    int left = 0;            ///< cases neither finished nor failed, running ones included
+    int packings_done = 0;   ///< of all unfinished cases, in this run and before
+    int packings = 0;        ///< of all cases that this run works on
+    double elapsed = 0;      ///< s
+    double time_to_go = -1;  ///< s, negative while unknown
+};
+
+/// Is told what happens. Called from the executor's thread.
+class Observer {
+  public:
+    virtual ~Observer() = default;
+    virtual void progressed(Progress const& progress) = 0;  ///< about four times a second
+    virtual void case_ended(PlannedCase const& planned, std::string const& outcome,
+                            std::string const& message) = 0;
+};
+
+struct Summary {
+    int finished = 0;  ///< cases with a result and outcome "finished"
+    int unsure = 0;    ///< cases with a result whose outcome is "not-steady" or "not-precise"
+    int failed = 0;    ///< cases without a result
+    bool interrupted = false;
+};
+
+/// Makes the folder, freezes the campaign in it and runs every packing of every case that is not finished,
+/// `jobs` engines at a time, on this machine. SIGINT and SIGTERM end the engines and return. A failed case
+/// does not stop the others.
+/// @param campaign_file  the file that the plan was made from
+/// @param jobs           at least 1
+/// @throws MissingError when another driver works on the folder or the disk refuses (the engines are ended
+/// first)
+Summary run_locally(Plan const& plan, std::filesystem::path const& campaign_file,
+                    engine::Engine const& engine, int jobs, Observer& observer);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "campaign/plan.hpp"
+#include "store/case_record.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// What is known about one case of a plan.
+struct CaseOverview {
+    PlannedCase const* planned;
+    std::string outcome;  ///< of the result or the failure; else "running", "interrupted" or "open"
+    std::string message;  ///< why it failed
+    int packings_done;
+    std::optional<store::CaseRecord> record;
+};
+
+/// Looks at every case's files.
+std::vector<CaseOverview> look_at(Plan const& plan);
+
+/// Writes campaign.h5 from the results that are there; it can be made anew at any time.
+/// @throws MissingError when the disk refuses
+void write_campaign_file(Plan const& plan);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,59 @@
+#include "campaign/plan.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "deck/deck.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string case_id(Scenario scenario, std::string const& engine_version) {
+    scenario.campaign = "any";
+    deck::Deck const deck = deck::make_deck(scenario, 1);  // the others differ by their seeds only
+    std::string all = to_toml(scenario) + engine_version;
+    for (auto const& [name, content] : deck.files) all += name + content;
+    return sha256_hex(all).substr(0, 12);
+}
+
+}  // namespace
+
+Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
+    Plan plan{campaign.name, folder, engine_version, {}};
+    for (Scenario const& scenario : campaign.cases) {
+        std::string const id = case_id(scenario, engine_version);
+        plan.cases.push_back({id, scenario, folder / "cases" / id});
+    }
+    return plan;
+}
+
+void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {
+    make_folder(plan.folder / "cases");
+    nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
+    write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
+}
+
+Plan open_plan(fs::path const& folder) {
+    if (!fs::is_regular_file(folder / "campaign.toml") || !fs::is_regular_file(folder / "engine.json")) {
+        throw InputError(
+            fmt::format("{} is no campaign folder (it has no campaign.toml and engine.json); give the folder "
+                        "that 'vibrotrough run' made",
+                        folder.string()));
+    }
+    try {
+        auto const json = nlohmann::json::parse(read_file(folder / "engine.json"));
+        return make_plan(read_campaign(folder / "campaign.toml"), folder,
+                         json.at("version").get<std::string>());
+    } catch (nlohmann::json::exception const&) {
+        throw InputError(fmt::format("{} is damaged; run the campaign again to mend it",
+                                     (folder / "engine.json").string()));
+    }
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "engine/engine.hpp"
+#include "scenario/campaign_file.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// One case of a campaign and the folder that holds all about it.
+struct PlannedCase {
+    std::string id;  ///< 12 hexadecimal digits of the hash of scenario, deck and engine version
+    Scenario scenario;
+    std::filesystem::path folder;
+
+    std::filesystem::path result_file() const { return folder / "result.h5"; }
+    std::filesystem::path failure_file() const { return folder / "failure.json"; }
+    std::filesystem::path packing_folder(int packing) const {
+        return folder / ("packing-" + std::to_string(packing));
+    }
+};
+
+/// A campaign on disk.
+struct Plan {
+    std::string name;
+    std::filesystem::path folder;
+    std::string engine_version;
+    std::vector<PlannedCase> cases;
+};
+
+/// Works out the cases' ids and folders below `folder`. The same case always has the same id: it does not
+/// depend on the campaign's name or on its other cases.
+Plan make_plan(Campaign const& campaign, std::filesystem::path const& folder,
+               std::string const& engine_version);
+
+/// Makes the folder and freezes the campaign there: campaign.toml and the engine's version (engine.json).
+/// @throws MissingError when the disk refuses
+void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);
+
+/// The plan of a folder that `freeze` made.
+/// @throws InputError when it is no campaign folder or is damaged
+Plan open_plan(std::filesystem::path const& folder);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "scenario/scenario.hpp"
+#include "store/case_record.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::compare {
+
+/// One case: what was measured beside what the point-mass theory predicts. Missing numbers are not known.
+struct Row {
+    std::string id;
+    double throw_number;
+    double machine_number;
+    double vibration_angle_deg;
+    double inclination_deg;
+    double friction;  ///< grain on trough
+    double amplitude_m;
+    double frequency_hz;
+    std::optional<double> efficiency_dem;             ///< none when the layer never became steady
+    std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
+    std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta)
+    std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
+    std::string mode_theory;
+    std::optional<int> packings;          ///< that the interval rests on
+    std::optional<int> cycles_measured;   ///< all packings together
+    std::optional<int> cycles_discarded;  ///< start-up, all packings together
+    std::optional<double> wall_s;         ///< of the engine, all packings together
+    std::string outcome;
+};
+
+/// Compares one case.
+/// @param record   the case's result, when it has one
+/// @param outcome  what to say of a case without a result, e.g. "lost-grains" or "open"
+Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
+            std::string const& outcome);
+
+/// The rows as a JSON array of objects; unknown numbers are null.
+std::string to_json(std::vector<Row> const& rows);
+
+/// The rows as CSV with a header; unknown numbers are empty. The columns are those of the JSON.
+std::string to_csv(std::vector<Row> const& rows);
+
+/// The rows as an aligned table for people.
+std::string to_table(std::vector<Row> const& rows);
+
+}  // namespace vibrotrough::compare

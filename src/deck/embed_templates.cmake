@@ -1,0 +1,17 @@
+# Writes a source file that holds every template as a raw string literal.
+set(entries "")
+foreach(path IN LISTS TEMPLATES)
+    get_filename_component(name ${path} NAME)
+    string(REPLACE ".mustache" "" name ${name})
+    file(READ ${path} content)
+    string(APPEND entries "    {\"${name}\", R\"template(${content})template\"},\n")
+endforeach()
+file(WRITE ${OUTPUT} "#include \"deck/templates.hpp\"
+
+namespace vibrotrough::deck {
+
+std::map<std::string_view, std::string_view> const input_templates{
+${entries}};
+
+}  // namespace vibrotrough::deck
+")

@@ -1,0 +1,142 @@
+#include "engine/engine.hpp"
+
+#include "core/error.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <system_error>
+#include <utility>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/process.hpp>
+#include <boost/process/extend.hpp>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+
+namespace vibrotrough::engine {
+namespace {
+
+namespace bp = boost::process;
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+/// In the child, before the engine starts: leave the terminal's process group, and die with the driver.
+void prepare_child() {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+/// One MPI rank needs no daemon: without this variable the engine starts one and takes 0.15 s longer. (Set by
+/// env, because Boost 1.74's own environment class reads beyond its strings.)
+constexpr char const* no_daemon = "OMPI_MCA_ess_singleton_isolated=1";
+
+fs::path search_program(std::optional<fs::path> const& asked) {
+    if (asked) {
+        std::error_code failure;
+        fs::path const program = fs::absolute(*asked, failure);
+        if (!fs::is_regular_file(program, failure)) {
+            throw MissingError(fmt::format(
+                "--liggghts: there is no file {}; give the path of a liggghts program", asked->string()));
+        }
+        return program;
+    }
+    auto const found = bp::search_path("liggghts");
+    if (found.empty()) {
+        throw MissingError(
+            "no liggghts on the PATH; install it (apt-get install --no-install-recommends liggghts) or name "
+            "one with "
+            "--liggghts PATH");
+    }
+    return found.string();
+}
+
+std::string ask_version(fs::path const& program) {
+    try {
+        bp::ipstream output;
+        // A program that is no LIGGGHTS may do anything, such as never end.
+        bp::child child(bp::search_path("timeout"), bp::args({"10", program.string(), "-log", "none", "-h"}),
+                        bp::std_out > output, bp::std_err > bp::null, bp::std_in < bp::null);
+        std::string version;
+        for (std::string line; std::getline(output, line);) {
+            auto const start = line.find("(Version ");
+            if (version.empty() && line.starts_with("LIGGGHTS") && start != std::string::npos) {
+                version = line.substr(start + 9, line.rfind(')') - start - 9);
+            }
+        }
+        child.wait();
+        if (!version.empty()) return version;
+    } catch (bp::process_error const& error) {
+        throw MissingError(fmt::format("{} does not start ({})", program.string(), error.code().message()));
+    }
+    throw MissingError(fmt::format("{} does not say that it is LIGGGHTS; name another with --liggghts PATH",
+                                   program.string()));
+}
+
+ExitStatus decode(int native) {
+    return WIFSIGNALED(native) ? ExitStatus{0, WTERMSIG(native)} : ExitStatus{WEXITSTATUS(native), 0};
+}
+
+}  // namespace
+
+Engine find_engine(std::optional<fs::path> const& asked) {
+    fs::path const program = search_program(asked);
+    return {program, ask_version(program)};
+}
+
+struct EngineProcess::State {
+    explicit State(boost::asio::io_context& context) : patience(context) {}
+
+    void signal(int number) const {
+        if (!ended && process.valid()) ::kill(-process.id(), number);
+    }
+
+    bp::child process;
+    boost::asio::steady_timer patience;
+    std::function<void(ExitStatus)> on_exit;
+    bool ended = false;
+};
+
+EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& engine, fs::path const& folder,
+                             std::function<void(ExitStatus)> on_exit)
+    : state_(std::make_shared<State>(context)) {
+    state_->on_exit = std::move(on_exit);
+    // The state is kept by whoever waits for the exit; a destroyed EngineProcess has no handler any more. The
+    // handler is posted, because Boost 1.74 walks its list of children while it calls and must not find a new
+    // one.
+    auto const ended = [state = state_, &context](int native, std::error_code const&) {
+        state->ended = true;
+        state->patience.cancel();
+        boost::asio::post(context, [state, native] {
+            if (state->on_exit) std::exchange(state->on_exit, nullptr)(decode(native));
+        });
+    };
+    try {
+        // Line-buffered, so that an error message is not lost with the buffer.
+        state_->process =
+            bp::child(bp::search_path("env"),
+                      bp::args({no_daemon, "stdbuf", "-oL", engine.program.string(), "-in", "in.liggghts"}),
+                      bp::start_dir(folder.string()),
+                      (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null,
+                      context, bp::on_exit(ended), bp::extend::on_exec_setup([](auto&) { prepare_child(); }));
+    } catch (bp::process_error const& error) {
+        throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
+                                       error.code().message()));
+    }
+}
+
+EngineProcess::~EngineProcess() {
+    state_->on_exit = nullptr;
+    state_->signal(SIGKILL);
+}
+
+void EngineProcess::terminate() {
+    state_->signal(SIGTERM);
+    state_->patience.expires_after(5s);
+    state_->patience.async_wait([state = state_](boost::system::error_code const& cancelled) {
+        if (!cancelled) state->signal(SIGKILL);
+    });
+}
+
+}  // namespace vibrotrough::engine

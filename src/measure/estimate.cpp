@@ -1,0 +1,143 @@
+#include "measure/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include <Eigen/Core>
+#include <boost/math/distributions/students_t.hpp>
+
+namespace vibrotrough::measure {
+namespace {
+
+using Values = Eigen::Map<Eigen::ArrayXd const>;
+
+Values as_array(std::span<double const> values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+/// Two-sided quantile of Student's t for possibly fractional degrees of freedom.
+double student_quantile(double confidence, double degrees_of_freedom) {
+    boost::math::students_t const distribution(degrees_of_freedom);
+    return boost::math::quantile(distribution, 0.5 + confidence / 2);
+}
+
+double sample_deviation(Values const& values) {
+    if (values.size() < 2) return 0;
+    return std::sqrt((values - values.mean()).square().sum() / static_cast<double>(values.size() - 1));
+}
+
+/// Half-width of the interval of the mean of `values` whose statistical inefficiency is g.
+double mean_half_width(Values const& values, double g, double confidence) {
+    double const independent = static_cast<double>(values.size()) / g;
+    // With fewer than two independent values nothing is known.
+    if (independent < 2) return std::numeric_limits<double>::infinity();
+    return student_quantile(confidence, independent - 1) * sample_deviation(values) / std::sqrt(independent);
+}
+
+bool drifts(std::span<double const> kept, double g, Precision const& wanted) {
+    std::size_t const third = kept.size() / 3;
+    Values const first = as_array(kept.first(third));
+    Values const last = as_array(kept.last(third));
+    double const difference = std::abs(last.mean() - first.mean());
+    double const tolerated =
+        std::hypot(mean_half_width(first, g, wanted.confidence), mean_half_width(last, g, wanted.confidence));
+    return difference > tolerated && difference > wanted.half_width;
+}
+
+}  // namespace
+
+std::vector<double> velocity_efficiency(CycleSeries const& series, double amplitude_x) {
+    if (!(amplitude_x > 0)) throw std::invalid_argument("velocity efficiency needs a drive along the trough");
+    std::vector<double> eta;
+    for (std::size_t k = 1; k < series.x.size(); ++k) {
+        eta.push_back((series.x[k] - series.x[k - 1]) / (2 * std::numbers::pi * amplitude_x));
+    }
+    return eta;
+}
+
+int startup_length(std::span<double const> values) {
+    if (values.empty()) return 0;
+    int const n = static_cast<int>(values.size());
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int d = 0; d <= n / 2; ++d) {
+        Values const kept = as_array(values.subspan(static_cast<std::size_t>(d)));
+        double const size = static_cast<double>(n - d);
+        double const error = (kept - kept.mean()).square().sum() / (size * size);
+        if (error < least) {
+            least = error;
+            best = d;
+        }
+    }
+    return best;
+}
+
+double statistical_inefficiency(std::span<double const> values) {
+    Values const y = as_array(values);
+    Eigen::Index const n = y.size();
+    if (n < 4) return 1;
+    Eigen::ArrayXd const centred = y - y.mean();
+    double const variance = centred.square().mean();
+    if (variance == 0) return 1;
+    auto const correlation = [&](Eigen::Index lag) {
+        return (centred.head(n - lag) * centred.tail(n - lag)).sum() / static_cast<double>(n) / variance;
+    };
+    // Pair sums rho_2m + rho_2m+1 of a reversible series are positive; the first that is not is noise.
+    double sum = 0;
+    for (Eigen::Index m = 0; 2 * m + 1 < n / 2; ++m) {
+        double const pair = correlation(2 * m) + correlation(2 * m + 1);
+        if (pair <= 0) break;
+        sum += pair;
+    }
+    return std::clamp(2 * sum - 1, 1.0, static_cast<double>(n));
+}
+
+PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted) {
+    int const n = static_cast<int>(values.size());
+    int const discarded = startup_length(values);
+    std::span<double const> const kept = values.subspan(static_cast<std::size_t>(discarded));
+    double const g = statistical_inefficiency(kept);
+    PackingEstimate estimate{std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(),
+                             discarded,
+                             n - discarded,
+                             g,
+                             Verdict::not_steady};
+    if (kept.empty()) return estimate;
+    estimate.mean = as_array(kept).mean();
+    estimate.half_width = mean_half_width(as_array(kept), g, wanted.confidence);
+    if (n - discarded < fewest_cycles || 2 * discarded >= n - 1 || drifts(kept, g, wanted)) return estimate;
+    estimate.verdict = estimate.half_width <= wanted.half_width ? Verdict::precise : Verdict::not_precise;
+    return estimate;
+}
+
+SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted) {
+    for (std::size_t used = 20; used < values.size(); used += 5) {
+        PackingEstimate const estimate = estimate_packing(values.first(used), wanted);
+        if (estimate.verdict == Verdict::precise) return {estimate, static_cast<int>(used)};
+    }
+    return {estimate_packing(values, wanted), static_cast<int>(values.size())};
+}
+
+CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence) {
+    if (packings.empty()) throw std::invalid_argument("no packing to combine");
+    std::vector<double> means;
+    double widest = 0;
+    for (PackingEstimate const& packing : packings) {
+        means.push_back(packing.mean);
+        widest = std::max(widest, packing.half_width);
+    }
+    Values const values = as_array(means);
+    int const count = static_cast<int>(means.size());
+    double scatter = 0;
+    if (count > 1) {
+        scatter = student_quantile(confidence, count - 1) * sample_deviation(values) / std::sqrt(count);
+    }
+    return {values.mean(), std::max(scatter, widest), count};
+}
+
+}  // namespace vibrotrough::measure

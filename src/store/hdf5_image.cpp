@@ -1,0 +1,277 @@
+#include "store/hdf5_image.hpp"
+
+#include "core/hash.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::store {
+namespace {
+
+std::mutex one_at_a_time;
+
+void require(bool success, std::string const& action) {
+    if (!success) throw Hdf5Error(action);
+}
+
+/// Texts of datasets have one fixed length: HDF5's heap for others carries no checksum and bloats small
+/// files. Those of attributes (length H5T_VARIABLE) are in that heap all the same, because only then h5py
+/// gives them as str.
+Handle text_type(std::size_t length) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+    require(H5Tset_size(type.id(), std::max<std::size_t>(length, 1)) >= 0, "size a text type");
+    require(H5Tset_cset(type.id(), H5T_CSET_UTF8) >= 0, "set a text type to UTF-8");
+    require(H5Tset_strpad(type.id(), H5T_STR_NULLPAD) >= 0, "pad a text type");
+    return type;
+}
+
+Handle data_space(std::size_t count, Rank rank) {
+    hsize_t const extent = count;
+    return Handle(rank == Rank::scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr),
+                  H5Sclose, "make a data space");
+}
+
+/// A value's bytes and its HDF5 type.
+struct Packed {
+    Handle type;
+    std::string bytes;
+};
+
+template <typename Number>
+Packed pack_numbers(std::vector<Number> const& values, hid_t type) {
+    return {Handle(H5Tcopy(type), H5Tclose, "copy a number type"),
+            std::string(reinterpret_cast<char const*>(values.data()), values.size() * sizeof(Number))};
+}
+
+Packed pack(std::vector<int> const& values) {
+    static_assert(sizeof(int) == 4);
+    return pack_numbers(values, H5T_STD_I32LE);
+}
+
+Packed pack(std::vector<double> const& values) {
+    return pack_numbers(values, H5T_IEEE_F64LE);
+}
+
+Packed pack(std::vector<std::string> const& values) {
+    std::size_t length = 1;
+    for (std::string const& text : values) length = std::max(length, text.size());
+    std::string bytes;
+    for (std::string const& text : values) bytes += text + std::string(length - text.size(), '\0');
+    return {text_type(length), std::move(bytes)};
+}
+
+void write_attribute(hid_t object, std::string const& name, hid_t type, void const* value) {
+    Handle const space = data_space(1, Rank::scalar);
+    Handle const attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose, "make the attribute " + name);
+    require(H5Awrite(attribute.id(), type, value) >= 0, "write the attribute " + name);
+}
+
+void write_attribute(hid_t object, std::string const& name, std::string const& value) {
+    char const* const text = value.c_str();
+    write_attribute(object, name, text_type(H5T_VARIABLE).id(), &text);
+}
+
+/// An attribute of one value, after checking that its type is of the class wanted.
+Handle open_attribute(hid_t file, std::string const& name, H5T_class_t kind) {
+    Handle attribute(H5Aopen(file, name.c_str(), H5P_DEFAULT), H5Aclose, "find the attribute " + name);
+    Handle const space(H5Aget_space(attribute.id()), H5Sclose, "read the shape of the attribute " + name);
+    Handle const type(H5Aget_type(attribute.id()), H5Tclose, "read the type of the attribute " + name);
+    require(H5Tget_class(type.id()) == kind && H5Sget_simple_extent_npoints(space.id()) == 1 &&
+                (kind != H5T_STRING || H5Tis_variable_str(type.id()) > 0),
+            "use the attribute " + name + ", it has another type or shape");
+    return attribute;
+}
+
+Handle make_file() {
+    Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make access properties");
+    std::size_t constexpr increment = std::size_t{1} << 16;
+    require(H5Pset_fapl_core(access.id(), increment, 0) >= 0, "choose HDF5's memory driver");
+    // No reserves of space, so that the file is no longer than what it holds.
+    require(H5Pset_meta_block_size(access.id(), 0) >= 0 && H5Pset_small_data_block_size(access.id(), 0) >= 0,
+            "switch off reserves");
+    return Handle(H5Fcreate("vibrotrough", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
+}
+
+/// The line after HDF5's end.
+std::string seal(std::string const& image) {
+    return fmt::format("\nvibrotrough sha256 {}\n", sha256_hex(image));
+}
+
+/// The HDF5 file without its seal, which must be right.
+std::string unseal(std::string bytes) {
+    std::size_t const length = seal("").size();
+    require(bytes.size() > length, "find its last line, it is cut short or of another kind");
+    std::string const found = bytes.substr(bytes.size() - length);
+    bytes.resize(bytes.size() - length);
+    require(found == seal(bytes), "trust it, its bytes do not match the SHA-256 in its last line");
+    return bytes;
+}
+
+Handle open_file(std::string bytes) {
+    Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make access properties");
+    std::size_t constexpr increment = std::size_t{1} << 16;
+    require(H5Pset_fapl_core(access.id(), increment, 0) >= 0, "choose HDF5's memory driver");
+    require(H5Pset_file_image(access.id(), bytes.data(), bytes.size()) >= 0, "hand the bytes to HDF5");
+    return Handle(H5Fopen("vibrotrough", H5F_ACC_RDONLY, access.id()), H5Fclose, "open it as HDF5");
+}
+
+/// A dataset's values as bytes, `size` each, after checking type and shape.
+struct Raw {
+    std::string bytes;
+    std::size_t count;
+    std::size_t size;
+};
+
+Raw read_raw(hid_t file, std::string const& path, Rank rank, H5T_class_t kind, std::size_t limit) {
+    Handle const data(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "find the dataset " + path);
+    Handle const stored(H5Dget_type(data.id()), H5Tclose, "read the type of " + path);
+    require(H5Tget_class(stored.id()) == kind, "use the dataset " + path + ", it has another type");
+    Handle const space(H5Dget_space(data.id()), H5Sclose, "read the shape of " + path);
+    require(H5Sget_simple_extent_ndims(space.id()) == (rank == Rank::scalar ? 0 : 1),
+            "use the dataset " + path + ", it has another shape");
+
+    auto const count =
+        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0));
+    std::size_t const size = kind == H5T_STRING    ? std::max<std::size_t>(H5Tget_size(stored.id()), 1)
+                             : kind == H5T_INTEGER ? sizeof(int)
+                                                   : sizeof(double);
+    // Nothing is compressed, so a dataset larger than the file is a lie: do not reserve memory for it.
+    require(count <= limit / size, "use the dataset " + path + ", it is larger than the file");
+    Handle const wanted = kind == H5T_STRING
+                              ? text_type(size)
+                              : Handle(H5Tcopy(kind == H5T_INTEGER ? H5T_STD_I32LE : H5T_IEEE_F64LE),
+                                       H5Tclose, "copy a number type");
+    Raw raw{std::string(count * size, '\0'), count, size};
+    require(H5Dread(data.id(), wanted.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.bytes.data()) >= 0,
+            "read the dataset " + path);
+    return raw;
+}
+
+template <typename Number>
+std::vector<Number> numbers(Raw const& raw) {
+    std::vector<Number> values(raw.count);
+    std::copy(raw.bytes.begin(), raw.bytes.end(), reinterpret_cast<char*>(values.data()));
+    return values;
+}
+
+}  // namespace
+
+Handle::Handle(hid_t id, Close closer, std::string const& action) : id_(id), close_(closer) {
+    require(id >= 0, action);
+}
+
+Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+Handle::~Handle() {
+    if (id_ >= 0) close_(id_);
+}
+
+Hdf5Session::Hdf5Session() : lock_(one_at_a_time) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+ImageWriter::ImageWriter() : file_(make_file()) {}
+
+void ImageWriter::attribute(std::string const& name, int value) {
+    write_attribute(file_.id(), name, H5T_NATIVE_INT, &value);
+}
+
+void ImageWriter::attribute(std::string const& name, std::string const& value) {
+    write_attribute(file_.id(), name, value);
+}
+
+void ImageWriter::dataset(std::string const& path, Values const& values, Rank rank, std::string_view units,
+                          std::string_view description) {
+    Packed const packed = std::visit([](auto const& all) { return pack(all); }, values);
+    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
+    require(rank == Rank::array || count == 1, "write " + path + ", a scalar is one value");
+
+    Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make link properties");
+    require(H5Pset_create_intermediate_group(links.id(), 1) >= 0, "ask for groups");
+    Handle const creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset properties");
+    require(H5Pset_obj_track_times(creation.id(), 0) >= 0, "leave out times");  // same values, same bytes
+    Handle const space = data_space(count, rank);
+    Handle const data(H5Dcreate2(file_.id(), path.c_str(), packed.type.id(), space.id(), links.id(),
+                                 creation.id(), H5P_DEFAULT),
+                      H5Dclose, "make the dataset " + path);
+    if (count > 0) {
+        require(
+            H5Dwrite(data.id(), packed.type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.bytes.data()) >= 0,
+            "write the dataset " + path);
+    }
+    write_attribute(data.id(), "units", std::string(units));
+    write_attribute(data.id(), "description", std::string(description));
+}
+
+std::string ImageWriter::bytes() const {
+    // The format is HDF5's oldest, the default: of newer ones H5Fget_file_image gives a wrong checksum in all
+    // releases before 2025 (HDF5 issue 1915).
+    require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0, "flush the file");
+    ssize_t const size = H5Fget_file_image(file_.id(), nullptr, 0);
+    require(size > 0, "size the file");
+    std::string image(static_cast<std::size_t>(size), '\0');
+    require(H5Fget_file_image(file_.id(), image.data(), image.size()) == size, "take the file");
+    return image + seal(image);
+}
+
+ImageReader::ImageReader(std::string bytes)
+    : size_(bytes.size()), file_(open_file(unseal(std::move(bytes)))) {}
+
+bool ImageReader::has_attribute(std::string const& name) const {
+    return H5Aexists(file_.id(), name.c_str()) > 0;
+}
+
+int ImageReader::integer_attribute(std::string const& name) const {
+    int value = 0;
+    require(H5Aread(open_attribute(file_.id(), name, H5T_INTEGER).id(), H5T_NATIVE_INT, &value) >= 0,
+            "read the attribute " + name);
+    return value;
+}
+
+std::string ImageReader::text_attribute(std::string const& name) const {
+    char* text = nullptr;
+    require(
+        H5Aread(open_attribute(file_.id(), name, H5T_STRING).id(), text_type(H5T_VARIABLE).id(), &text) >= 0,
+        "read the attribute " + name);
+    std::string value = text == nullptr ? "" : text;
+    H5free_memory(text);
+    return value;
+}
+
+std::size_t ImageReader::length(std::string const& path) const {
+    Handle const data(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find the dataset " + path);
+    Handle const space(H5Dget_space(data.id()), H5Sclose, "read the shape of " + path);
+    hssize_t const count = H5Sget_simple_extent_npoints(space.id());
+    require(count >= 0 && static_cast<std::size_t>(count) <= size_,
+            "use the dataset " + path + ", it is too long");
+    return static_cast<std::size_t>(count);
+}
+
+template <>
+std::vector<int> ImageReader::values(std::string const& path, Rank rank) const {
+    Raw const raw = read_raw(file_.id(), path, rank, H5T_INTEGER, size_);
+    return numbers<int>(raw);
+}
+
+template <>
+std::vector<double> ImageReader::values(std::string const& path, Rank rank) const {
+    Raw const raw = read_raw(file_.id(), path, rank, H5T_FLOAT, size_);
+    return numbers<double>(raw);
+}
+
+template <>
+std::vector<std::string> ImageReader::values(std::string const& path, Rank rank) const {
+    Raw const raw = read_raw(file_.id(), path, rank, H5T_STRING, size_);
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < raw.count; ++i) {
+        std::string text = raw.bytes.substr(i * raw.size, raw.size);
+        text.resize(std::min(text.find('\0'), text.size()));
+        texts.push_back(std::move(text));
+    }
+    return texts;
+}
+
+}  // namespace vibrotrough::store

@@ -1,0 +1,131 @@
+#include "view/dump_reader.hpp"
+
+#include "core/error.hpp"
+#include "view/text_cursor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::view {
+namespace {
+
+/// Reads the file into `text`, which keeps its memory: core's read_file would make a new one for every frame.
+void read_into(std::filesystem::path const& path, std::string& text) {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    if (!file) throw MissingError(fmt::format("cannot open {} ({})", path.string(), std::strerror(errno)));
+    std::size_t used = 0;
+    text.resize(std::max<std::size_t>(text.capacity(), std::size_t{1} << 16));
+    while (std::size_t const got = std::fread(text.data() + used, 1, text.size() - used, file.get())) {
+        used += got;
+        if (used == text.size()) text.resize(2 * used);
+    }
+    if (std::ferror(file.get()) != 0) {
+        throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
+    }
+    text.resize(used);
+}
+
+/// What a column of the dump is for.
+enum class Column { id, x, y, z, vx, vy, vz, radius, other };
+constexpr std::array<std::string_view, 8> column_names{"id", "x", "y", "z", "vx", "vy", "vz", "radius"};
+
+std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
+    std::vector<Column> found;
+    std::array<int, column_names.size()> seen{};
+    while (!names.empty()) {
+        std::string_view const name = names.substr(0, names.find(' '));
+        names.remove_prefix(std::min(name.size() + 1, names.size()));
+        if (name.empty()) continue;
+        std::size_t which = 0;
+        while (which < column_names.size() && column_names[which] != name) ++which;
+        found.push_back(static_cast<Column>(which));
+        if (which < column_names.size()) ++seen[which];
+    }
+    for (std::size_t which = 0; which < column_names.size(); ++which) {
+        if (seen[which] != 1)
+            cursor.refuse(fmt::format("follows columns without exactly one '{}'", column_names[which]));
+    }
+    return found;
+}
+
+void expect(TextCursor& cursor, std::string_view item) {
+    TextCursor const before = cursor;
+    if (!cursor.line().starts_with(item)) before.refuse(fmt::format("should be '{}'", item));
+}
+
+void read_grain(TextCursor& cursor, std::vector<Column> const& order, std::size_t grain, GrainFrame& frame) {
+    for (Column const column : order) {
+        switch (column) {
+            case Column::id:
+                frame.id[grain] = cursor.number<int>();
+                break;
+            case Column::x:
+            case Column::y:
+            case Column::z: {
+                auto const axis = static_cast<std::size_t>(column) - static_cast<std::size_t>(Column::x);
+                frame.position[3 * grain + axis] = cursor.number<float>();
+                break;
+            }
+            case Column::vx:
+            case Column::vy:
+            case Column::vz: {
+                auto const axis = static_cast<std::size_t>(column) - static_cast<std::size_t>(Column::vx);
+                frame.velocity[3 * grain + axis] = cursor.number<float>();
+                break;
+            }
+            case Column::radius:
+                frame.radius[grain] = cursor.number<float>();
+                break;
+            case Column::other:
+                cursor.number<double>();
+                break;
+        }
+    }
+    cursor.end_line();
+}
+
+void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
+    expect(cursor, "ITEM: TIMESTEP");
+    frame.step = cursor.number<long>();
+    cursor.end_line();
+    expect(cursor, "ITEM: NUMBER OF ATOMS");
+    auto const grains = cursor.number<std::size_t>();
+    cursor.end_line();
+    expect(cursor, "ITEM: BOX BOUNDS");
+    for (int i = 0; i < 3; ++i) cursor.line();
+    TextCursor const before = cursor;
+    std::string_view constexpr item = "ITEM: ATOMS ";
+    std::string_view const header = cursor.line();
+    if (!header.starts_with(item)) before.refuse("should be 'ITEM: ATOMS' and the names of columns");
+    std::vector<Column> const order = columns(header.substr(item.size()), before);
+    // A value takes at least two characters: do not reserve memory for grains that cannot be there.
+    if (grains > text_size / (2 * order.size())) throw TextEnds{};
+
+    frame.id.resize(grains);
+    frame.position.resize(3 * grains);
+    frame.velocity.resize(3 * grains);
+    frame.radius.resize(grains);
+    for (std::size_t grain = 0; grain < grains; ++grain) read_grain(cursor, order, grain, frame);
+    if (!cursor.at_end()) cursor.refuse("comes after the last grain");
+}
+
+}  // namespace
+
+DumpState DumpReader::read(std::filesystem::path const& path, GrainFrame& frame) {
+    read_into(path, text_);
+    TextCursor cursor(text_, path);
+    try {
+        read_frame(cursor, text_.size(), frame);
+        return DumpState::complete;
+    } catch (TextEnds const&) {
+        return DumpState::unfinished;
+    }
+}
+
+}  // namespace vibrotrough::view

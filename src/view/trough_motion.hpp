@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace vibrotrough::view {
+
+/// Where the trough is at one frame.
+struct TroughPosition {
+    long step;
+    double x;  ///< m, displacement from rest
+    double z;  ///< m, displacement from rest
+};
+
+/// Reads frames.csv, steps rising. A last line without its end is left out: the engine may be writing it.
+/// @throws InputError naming file and line; MissingError when there is no such file
+std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path);
+
+}  // namespace vibrotrough::view

@@ -1,0 +1,100 @@
+#include "view/vtk_files.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <vtkAlgorithm.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkExecutive.h>
+#include <vtkSTLReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+namespace vibrotrough::view {
+namespace {
+
+/// Keeps what a VTK reader or writer says in its first error, which VTK would print.
+class ErrorWatch {
+  public:
+    explicit ErrorWatch(vtkAlgorithm& watched) {
+        command_->SetClientData(&message_);
+        command_->SetCallback([](vtkObject*, unsigned long, void* kept, void* text) {
+            std::string message = text == nullptr ? "" : static_cast<char const*>(text);
+            while (!message.empty() && message.back() == '\n') message.pop_back();
+            auto& first = *static_cast<std::string*>(kept);  // what follows are consequences
+            if (first.empty()) first = message.substr(message.rfind('\n') + 1);
+        });
+        watched.AddObserver(vtkCommand::ErrorEvent, command_);
+        watched.GetExecutive()->AddObserver(vtkCommand::ErrorEvent, command_);
+    }
+    std::string const& message() const { return message_; }
+
+  private:
+    std::string message_;
+    vtkNew<vtkCallbackCommand> command_;
+};
+
+/// A frame can be exported again: it is renamed, but not synced to disk as a result is.
+void write_frame(std::filesystem::path const& path, std::string const& content) {
+    std::filesystem::path const temporary = path.string() + ".part";
+    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    std::error_code failure(errno, std::generic_category());
+    if (file) {
+        std::filesystem::rename(temporary, path, failure);
+        if (!failure) return;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
+                                   path.string(), failure.message()));
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> read_stl(std::filesystem::path const& path) {
+    read_file(path);  // says why when it cannot be read
+    vtkNew<vtkSTLReader> reader;
+    ErrorWatch const errors(*reader);
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    if (!errors.message().empty() || reader->GetOutput()->GetNumberOfCells() == 0) {
+        throw InputError(fmt::format("{} is no STL mesh ({}); run its case again", path.string(),
+                                     errors.message().empty() ? "it has no triangle" : errors.message()));
+    }
+    return reader->GetOutput();
+}
+
+void write_vtp(std::filesystem::path const& path, vtkPolyData& data) {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    ErrorWatch const errors(*writer);
+    writer->SetInputData(&data);
+    writer->SetDataModeToBinary();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0 || !errors.message().empty()) {
+        throw MissingError(fmt::format("cannot write {} (VTK: {})", path.string(), errors.message()));
+    }
+    write_frame(path, writer->GetOutputString());
+}
+
+void write_collection(std::filesystem::path const& path, std::vector<CollectionEntry> const& entries) {
+    std::string text =
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+        "  <Collection>\n";
+    for (CollectionEntry const& entry : entries) {
+        text +=
+            fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, entry.file);
+    }
+    write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
+}
+
+}  // namespace vibrotrough::view

@@ -1,0 +1,113 @@
+"""Reads the sample's result.h5 and campaign.h5 with h5py and holds them to the table in src/store/README.md.
+
+usage: check_written.py FOLDER README
+"""
+
+import math
+import re
+import sys
+
+import h5py
+import numpy as np
+
+TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,)}, "campaign.h5": {"cases": (2,)}}
+CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
+
+
+def documented(readme, heading):
+    """Rows of the first table below a heading: name -> its other cells."""
+    section = re.search(rf"^## `{re.escape(heading)}`$(.*?)(?=^## |\Z)", readme, re.M | re.S).group(1)
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if line.startswith("| `")]
+    return {row[0].strip("`"): row[1:] for row in rows}
+
+
+def written(file):
+    """All datasets and root attributes; of the packings' series each name counts once per packing."""
+    found = {f"@{name}": None for name in file.attrs}
+    file.visititems(lambda name, item: found.update({name: item}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def check_dataset(name, data, row, shapes):
+    kind, shape, units, meaning = row
+    assert data.attrs["units"] == units, f"{name}: units {data.attrs['units']!r}, documented {units!r}"
+    assert data.attrs["description"] == meaning, f"{name}: {data.attrs['description']!r}, documented {meaning!r}"
+    if kind == "text":
+        assert h5py.check_string_dtype(data.dtype).encoding == "utf-8", f"{name}: {data.dtype} is no UTF-8 text"
+    else:
+        assert data.dtype == TYPES[kind], f"{name}: {data.dtype}, documented {kind}"
+    assert data.shape == shapes[shape], f"{name}: shape {data.shape}, documented {shape}"
+
+
+def check_file(path, heading, readme):
+    table = documented(readme, heading)
+    seen = set()
+    with h5py.File(path) as file:
+        for name, data in written(file).items():
+            shapes = dict(SHAPES[heading])
+            series = re.fullmatch(r"series/(\d+)/(\w+)", name)
+            row_name = f"series/<packing>/{series[2]}" if series else name
+            if series:
+                shapes |= {"cycles": (CYCLES[series[1]],), "cycles + 1": (CYCLES[series[1]] + 1,)}
+            assert row_name in table, f"{path}: {name} is not documented"
+            seen.add(row_name)
+            if data is not None:
+                check_dataset(name, data, table[row_name], shapes)
+    assert seen == set(table), f"{path}: documented but not written: {set(table) - seen}"
+
+
+def check_result_values(file):
+    assert file.attrs["schema_version"] == 1
+    assert file.attrs["case"] == "0123456789abcdef"
+    assert file.attrs["engine_version"] == "LIGGGHTS 3.8.0"
+    # The glossary's formulas, written down again; 1e-14 allows a few roundings of a double.
+    omega = 2 * math.pi * 13.5
+    case = {name: data[()] for name, data in file["case"].items()}
+    wanted = {
+        "machine_number": omega**2 * 0.006 / 9.81,
+        "throw_number": omega**2 * 0.006 * math.sin(0.5) / (9.81 * math.cos(-0.05)),
+        "velocity_scale": omega * 0.006 * math.cos(0.5),
+        "speed": 0.82 * omega * 0.006 * math.cos(0.5),
+        "speed_half_width": 0.127 * omega * 0.006 * math.cos(0.5),
+    }
+    for name, value in wanted.items():
+        assert math.isclose(case[name], value, rel_tol=1e-14), f"{name}: {case[name]}, wanted {value}"
+    # Stored as given: exact.
+    assert case["efficiency"] == 0.82 and case["efficiency_half_width"] == 0.127 and case["confidence"] == 0.95
+    assert case["cycles_measured"] == 2 and case["cycles_discarded"] == 2 and case["wall_time"] == 23.75
+    assert case["grain_density"] == 1400.0 and case["layer_grains"] == 500 and math.isnan(case["layer_height"])
+    packings = file["packings"]
+    assert list(packings["seed"]) == [49979687, 86028121]
+    assert list(packings["verdict"].asstr()) == ["precise", "not-precise"]
+    assert list(packings["deck"].asstr()) == ["# deck of packing 1, angle \u03b2\nrun 3000\n", "# deck of packing 2\n"]
+    assert list(packings["correlation_time"]) == [1.5, 2.25]
+    assert list(file["series/1/centre_of_mass_x"]) == [0.018, 0.0241, 0.0337, 0.0431]
+    assert list(file["series/2/tangential_force"]) == [-0.0012]
+    assert file["scenario"].asstr()[()].startswith("[campaign]\nname = \"sample\"")
+
+
+def check_campaign_values(file):
+    assert file.attrs["campaign"] == "sample"
+    assert list(file["case"].asstr()) == ["0123456789abcdef", "fedcba9876543210"]
+    assert list(file["frequency"]) == [13.5, 27.0]
+    # Gamma goes with the square of the frequency; powers of two are exact in a double.
+    assert file["throw_number"][1] == 4 * file["throw_number"][0]
+    assert list(file["packings"]) == [2, 2]
+
+
+def main(folder, readme_path):
+    with open(readme_path, encoding="utf-8") as text:
+        readme = text.read()
+    check_file(f"{folder}/result.h5", "result.h5", readme)
+    check_file(f"{folder}/campaign.h5", "campaign.h5", readme)
+    with h5py.File(f"{folder}/result.h5") as file:
+        check_result_values(file)
+    with h5py.File(f"{folder}/campaign.h5") as file:
+        check_campaign_values(file)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

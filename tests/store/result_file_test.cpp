@@ -1,0 +1,184 @@
+#include "store/result_file.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "sample_record.hpp"
+#include "store/hdf5_image.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace vibrotrough::store {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Without the sync to disk of write_file_atomically, which would make many writes slow.
+void overwrite(fs::path const& path, std::string const& bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+class ResultFile : public testing::Test {
+  protected:
+    ResultFile() { fs::create_directories(folder); }
+    ~ResultFile() override { fs::remove_all(folder); }
+
+    /// The message of the InputError of reading `bytes` as result.h5.
+    std::string refusal(std::string const& bytes) const {
+        overwrite(path, bytes);
+        try {
+            read_result(path);
+        } catch (InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    fs::path folder = fs::path(testing::TempDir()) / ("result_file_" + std::to_string(::getpid()));
+    fs::path path = folder / "result.h5";
+};
+
+void expect_equal(PackingRecord const& read, PackingRecord const& written) {
+    EXPECT_EQ(read.seed, written.seed);
+    EXPECT_EQ(read.steps_per_cycle, written.steps_per_cycle);
+    EXPECT_EQ(read.time_step, written.time_step);
+    EXPECT_EQ(read.mass, written.mass);
+    EXPECT_EQ(read.wall_time, written.wall_time);
+    EXPECT_EQ(read.series.x, written.series.x);
+    EXPECT_EQ(read.series.z, written.series.z);
+    EXPECT_EQ(read.series.vz, written.series.vz);
+    EXPECT_EQ(read.series.normal_force, written.series.normal_force);
+    EXPECT_EQ(read.series.tangential_force, written.series.tangential_force);
+    EXPECT_EQ(read.series.flight_fraction, written.series.flight_fraction);
+    EXPECT_EQ(read.series.mean_velocity, written.series.mean_velocity);
+    EXPECT_EQ(read.efficiency, written.efficiency);
+    EXPECT_EQ(read.estimate.mean, written.estimate.mean);
+    EXPECT_EQ(read.estimate.half_width, written.estimate.half_width);
+    EXPECT_EQ(read.estimate.discarded, written.estimate.discarded);
+    EXPECT_EQ(read.estimate.measured, written.estimate.measured);
+    EXPECT_EQ(read.estimate.correlation_time, written.estimate.correlation_time);
+    EXPECT_EQ(read.estimate.verdict, written.estimate.verdict);
+    EXPECT_EQ(read.deck, written.deck);
+}
+
+/// Doubles are stored as they are, so equality is exact throughout.
+void expect_equal(CaseRecord const& read, CaseRecord const& written) {
+    EXPECT_EQ(read.id, written.id);
+    EXPECT_EQ(read.scenario_toml, written.scenario_toml);
+    EXPECT_EQ(to_toml(read.scenario), to_toml(written.scenario));
+    EXPECT_EQ(read.outcome, written.outcome);
+    EXPECT_EQ(read.estimate.mean, written.estimate.mean);
+    EXPECT_EQ(read.estimate.half_width, written.estimate.half_width);
+    EXPECT_EQ(read.estimate.packings, written.estimate.packings);
+    EXPECT_EQ(read.provenance.program_version, written.provenance.program_version);
+    EXPECT_EQ(read.provenance.git_commit, written.provenance.git_commit);
+    EXPECT_EQ(read.provenance.engine_version, written.provenance.engine_version);
+    EXPECT_EQ(read.provenance.host, written.provenance.host);
+    EXPECT_EQ(read.provenance.started, written.provenance.started);
+    EXPECT_EQ(read.provenance.finished, written.provenance.finished);
+    ASSERT_EQ(read.packings.size(), written.packings.size());
+    for (std::size_t i = 0; i < read.packings.size(); ++i)
+        expect_equal(read.packings[i], written.packings[i]);
+}
+
+TEST_F(ResultFile, RoundTrip) {
+    CaseRecord const record = sample_record();
+    write_result(path, record);
+    expect_equal(read_result(path), record);
+}
+
+TEST_F(ResultFile, KeepsWhatIsEmptyInfiniteOrMissing) {
+    CaseRecord record = sample_record();
+    record.packings[1].deck.clear();
+    record.packings[1].estimate.half_width = INFINITY;
+    record.packings[1].series = {};
+    record.packings[1].series.x = {0.018};
+    record.packings[1].series.z = {0.009};
+    record.packings[1].series.vz = {0};
+    record.packings[1].efficiency.clear();
+    write_result(path, record);
+    expect_equal(read_result(path), record);
+
+    record.packings.clear();
+    write_result(path, record);
+    EXPECT_TRUE(read_result(path).packings.empty());
+}
+
+TEST_F(ResultFile, SameRecordGivesSameBytes) {
+    write_result(path, sample_record());
+    write_result(folder / "again.h5", sample_record());
+    EXPECT_EQ(read_file(path), read_file(folder / "again.h5"));
+}
+
+TEST_F(ResultFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
+    write_result(path, sample_record());
+    std::string const whole = read_file(path);
+    for (std::size_t length = 0; length < whole.size(); length += 97) {
+        EXPECT_THAT(refusal(whole.substr(0, length)), AllOf(HasSubstr(path.string()), HasSubstr("damaged")))
+            << length;
+    }
+}
+
+TEST_F(ResultFile, AnyChangedByteIsNoticed) {
+    write_result(path, sample_record());
+    std::string const whole = read_file(path);
+    for (std::size_t position = 0; position < whole.size(); position += 7) {
+        std::string bytes = whole;
+        bytes[position] = static_cast<char>(bytes[position] ^ 0x55);
+        EXPECT_THAT(refusal(bytes), AllOf(HasSubstr(path.string()), HasSubstr("damaged"))) << position;
+    }
+}
+
+TEST_F(ResultFile, ForeignFilesAreRefused) {
+    EXPECT_THAT(refusal("This is no HDF5 file.\n"), AllOf(HasSubstr(path.string()), HasSubstr("damaged")));
+    write_campaign(folder / "campaign.h5", "sample", {sample_record()});
+    EXPECT_THAT(refusal(read_file(folder / "campaign.h5")),
+                AllOf(HasSubstr(path.string()), HasSubstr("no result")));
+    EXPECT_THROW(read_result(folder / "none.h5"), MissingError);
+}
+
+TEST_F(ResultFile, NewerSchemaIsRefused) {
+    std::string bytes;
+    {
+        ImageWriter image;
+        image.attribute("format", "vibrotrough result");
+        image.attribute("schema_version", schema_version + 1);
+        image.attribute("program_version", "9.9.9");
+        bytes = image.bytes();
+    }
+    EXPECT_THAT(refusal(bytes), AllOf(HasSubstr(path.string()), HasSubstr("newer"), HasSubstr("9.9.9")));
+}
+
+TEST_F(ResultFile, SaysWhenTheDiskRefuses) {
+    EXPECT_THROW(write_result(folder / "no_such_folder" / "result.h5", sample_record()), MissingError);
+    EXPECT_THROW(write_campaign(folder / "no_such_folder" / "campaign.h5", "sample", {}), MissingError);
+}
+
+// A full disk, made with a limit on file size: the old file stays and no half-written one remains.
+TEST_F(ResultFile, FullDiskLeavesTheOldFile) {
+    write_result(path, sample_record());
+    CaseRecord larger = sample_record();
+    larger.packings[0].deck.assign(100000, '#');
+
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit old{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+    rlimit const small{.rlim_cur = 50000, .rlim_max = old.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(write_result(path, larger), MissingError);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+
+    expect_equal(read_result(path), sample_record());
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+}  // namespace
+}  // namespace vibrotrough::store

@@ -1,0 +1,26 @@
+// Writes result.h5 and campaign.h5 of the sample into a folder, for check_written.py.
+
+#include "sample_record.hpp"
+#include "store/result_file.hpp"
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    using namespace vibrotrough::store;
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: write_sample FOLDER\n");
+        return 2;
+    }
+    try {
+        std::filesystem::path const folder = argv[1];
+        std::filesystem::create_directories(folder);
+        write_result(folder / "result.h5", sample_record());
+        write_campaign(folder / "campaign.h5", "sample",
+                       {sample_record(), sample_record("fedcba9876543210", 27.0)});
+        return 0;
+    } catch (std::exception const& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,294 @@
+#include "view/frames.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <regex>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+namespace vibrotrough::view {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double time_step = 2.4493014e-5;
+constexpr double omega = 2.0 * std::numbers::pi / (3000 * time_step);
+constexpr double amplitude_x = 0.00536656;
+constexpr double amplitude_z = 0.00268328;
+
+/// Three frames of a real run (500 grains, 10 frames per cycle), copied so that a test may damage them.
+class Frames : public testing::Test {
+  protected:
+    Frames() {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        fs::copy(VIEW_TEST_DATA, source.folder);
+        source.trough = source.folder / "trough.stl";
+    }
+    ~Frames() override { fs::remove_all(folder); }
+
+    vtkSmartPointer<vtkPolyData> read(std::string const& file) const {
+        auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
+        reader->SetFileName((target / file).c_str());
+        reader->Update();
+        return reader->GetOutput();
+    }
+
+    /// Times and files of a collection.
+    std::vector<std::pair<double, std::string>> collection(std::string const& name) const {
+        std::string const text = read_file(target / name);
+        std::regex const entry("timestep=\"([^\"]+)\" part=\"0\" file=\"([^\"]+)\"");
+        std::vector<std::pair<double, std::string>> entries;
+        for (std::sregex_iterator found(text.begin(), text.end(), entry), end; found != end; ++found) {
+            entries.emplace_back(std::stod((*found)[1]), (*found)[2]);
+        }
+        return entries;
+    }
+
+    std::string refusal() const {
+        try {
+            export_frames(source, target);
+        } catch (InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    void write(std::string const& name, std::string const& text) const {
+        std::ofstream(source.folder / name, std::ios::binary | std::ios::trunc) << text;
+    }
+
+    fs::path folder = fs::path(testing::TempDir()) / ("frames_" + std::to_string(::getpid()));
+    fs::path target = folder / "target";
+    FrameSource source{.folder = folder / "dump",
+                       .trough = {},
+                       .time_step = time_step,
+                       .angular_frequency = omega,
+                       .amplitude_x = amplitude_x,
+                       .amplitude_z = amplitude_z,
+                       .caption = "throw number 2, \"quoted\""};
+};
+
+double component(vtkPolyData& data, char const* name, vtkIdType point, int axis) {
+    return data.GetPointData()->GetArray(name)->GetComponent(point, axis);
+}
+
+TEST_F(Frames, CollectionsHaveTrueTimes) {
+    ExportedFrames const exported = export_frames(source, target);
+    EXPECT_EQ(exported.frames, 3);
+    EXPECT_EQ(exported.grains, target / "grains.pvd");
+    EXPECT_EQ(exported.trough, target / "trough.pvd");
+    for (std::string const name : {"grains", "trough"}) {
+        auto const entries = collection(name + ".pvd");
+        ASSERT_EQ(entries.size(), 3u);
+        for (int i = 0; i < 3; ++i) {
+            auto const& [time, file] = entries[static_cast<std::size_t>(i)];
+            // Exact: the same product, printed so that it reads back as the same double.
+            EXPECT_EQ(time, (60000 + 300 * i) * time_step);
+            auto const data = read(file);
+            ASSERT_NE(data->GetFieldData()->GetArray("TimeValue"), nullptr);
+            EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetComponent(0, 0), time);
+        }
+    }
+}
+
+TEST_F(Frames, GrainsAreThoseOfTheDump) {
+    export_frames(source, target);
+    auto const data = read("grains/000001.vtp");
+    ASSERT_EQ(data->GetNumberOfPoints(), 500);
+    EXPECT_EQ(data->GetNumberOfVerts(), 500);
+    std::ifstream dump(source.folder / "frames.60300.dump");
+    std::string line;
+    for (int i = 0; i < 9; ++i) std::getline(dump, line);
+    int id = 0;
+    int type = 0;
+    double x[3];
+    double v[3];
+    double radius = 0.0;
+    // Six digits of the dump fit a float, whose relative rounding is 6e-8.
+    auto const near = [](double read, double written) {
+        return std::abs(read - written) <= 6e-8 * std::abs(written);
+    };
+    for (vtkIdType i = 0; i < 500; ++i) {
+        dump >> id >> type >> x[0] >> x[1] >> x[2] >> v[0] >> v[1] >> v[2] >> radius;
+        ASSERT_TRUE(dump.good());
+        EXPECT_EQ(component(*data, "id", i, 0), id);
+        EXPECT_PRED2(near, component(*data, "radius", i, 0), radius);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_PRED2(near, data->GetPoint(i)[axis], x[axis]);
+            EXPECT_PRED2(near, component(*data, "velocity", i, axis), v[axis]);
+        }
+    }
+}
+
+// Relative velocity = velocity - A omega cos(omega t), along x and z.
+TEST_F(Frames, VelocityRelativeToTheTrough) {
+    export_frames(source, target);
+    auto const data = read("grains/000002.vtp");
+    double const cosine = std::cos(omega * 60600 * time_step);
+    double const trough[3] = {amplitude_x * omega * cosine, 0.0, amplitude_z * omega * cosine};
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            // Two roundings to float of speeds below 1 m/s: 6e-8 each.
+            EXPECT_NEAR(component(*data, "velocity_relative_to_trough", i, axis),
+                        component(*data, "velocity", i, axis) - trough[axis], 1.2e-7);
+        }
+    }
+}
+
+TEST_F(Frames, TroughIsMovedByTheRowOfTheTable) {
+    export_frames(source, target);
+    auto const rest = read("trough/000000.vtp");  // at phase 0
+    auto const moved = read("trough/000002.vtp");
+    ASSERT_EQ(rest->GetNumberOfPoints(), moved->GetNumberOfPoints());
+    EXPECT_EQ(moved->GetNumberOfPolys(), 144);
+    for (vtkIdType i = 0; i < rest->GetNumberOfPoints(); ++i) {
+        // Floats of coordinates up to 0.05 m: rounding 2e-9 m each.
+        EXPECT_NEAR(moved->GetPoint(i)[0] - rest->GetPoint(i)[0], 0.0051039, 4e-9);
+        EXPECT_NEAR(moved->GetPoint(i)[1] - rest->GetPoint(i)[1], 0.0, 4e-9);
+        EXPECT_NEAR(moved->GetPoint(i)[2] - rest->GetPoint(i)[2], 0.00255195, 4e-9);
+    }
+}
+
+TEST_F(Frames, NoFileHasAppendedData) {
+    export_frames(source, target);
+    int files = 0;
+    for (auto const& entry : fs::recursive_directory_iterator(target)) {
+        if (entry.path().extension() != ".vtp") continue;
+        ++files;
+        std::string const text = read_file(entry.path());
+        EXPECT_THAT(text, testing::Not(HasSubstr("<AppendedData"))) << entry.path();
+        EXPECT_THAT(text, AllOf(HasSubstr("format=\"binary\""), HasSubstr("vtkZLibDataCompressor")));
+    }
+    EXPECT_EQ(files, 6);
+}
+
+TEST_F(Frames, SceneKnowsItsCase) {
+    ExportedFrames const exported = export_frames(source, target);
+    std::string const scene = read_file(exported.scene);
+    EXPECT_THAT(scene, HasSubstr("CAPTION = \"throw number 2, \\\"quoted\\\"\"\n"));
+    EXPECT_THAT(scene, HasSubstr(fmt::format("FREQUENCY = {}", omega / (2.0 * std::numbers::pi))));
+    EXPECT_THAT(scene, testing::Not(HasSubstr("\"@")));
+    EXPECT_EQ(fs::status(target / "view.sh").permissions() & fs::perms::owner_exec, fs::perms::owner_exec);
+}
+
+TEST_F(Frames, HalfWrittenLastFrameIsLeftOut) {
+    std::string const whole = read_file(source.folder / "frames.60600.dump");
+    for (double const share : {0.0, 0.001, 0.003, 0.5, 0.9}) {
+        write("frames.60600.dump",
+              whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+        EXPECT_EQ(export_frames(source, target).frames, 2) << share;
+        EXPECT_EQ(collection("grains.pvd").size(), 2u);
+        EXPECT_EQ(collection("trough.pvd").size(), 2u);
+    }
+    write("frames.60600.dump", whole.substr(0, whole.size() - 1));
+    EXPECT_EQ(export_frames(source, target).frames, 2);
+    write("frames.60600.dump", whole);
+    EXPECT_EQ(export_frames(source, target).frames, 3);
+}
+
+TEST_F(Frames, HalfWrittenTableLeavesOutTheLastFrame) {
+    std::string const table = read_file(source.folder / "frames.csv");
+    write("frames.csv", table.substr(0, table.size() - 3));
+    EXPECT_EQ(export_frames(source, target).frames, 2);
+}
+
+TEST_F(Frames, HalfWrittenFrameInBetweenIsAnError) {
+    std::string const whole = read_file(source.folder / "frames.60300.dump");
+    write("frames.60300.dump", whole.substr(0, whole.size() / 2));
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.60300.dump"), HasSubstr("ends early")));
+}
+
+TEST_F(Frames, GarbageNamesFileAndLine) {
+    std::string const good = read_file(source.folder / "frames.60300.dump");
+    auto const with = [&](std::string const& from, std::string const& to) {
+        std::string text = good;
+        text.replace(text.find(from), from.size(), to);
+        write("frames.60300.dump", text);
+        return refusal();
+    };
+    EXPECT_THAT(with("\n2 1 ", "\n2 x "), HasSubstr("frames.60300.dump:11: 'x "));
+    EXPECT_THAT(with("\n3 1 0", "\n3 1 nan 0"), HasSubstr("frames.60300.dump:12: 'nan"));
+    EXPECT_THAT(with("\n3 1 0", "\n3 1 1 0"),
+                AllOf(HasSubstr("frames.60300.dump:12: '"), HasSubstr("this line")));
+    EXPECT_THAT(with("ITEM: TIMESTEP", "<html>"), HasSubstr("frames.60300.dump:1: '<html>'"));
+    EXPECT_THAT(with("id type", "if type"), AllOf(HasSubstr("frames.60300.dump:9: "), HasSubstr("'id'")));
+    EXPECT_THAT(with("\n60300\n", "\n60301\n"), HasSubstr("frames.60300.dump:2: "));
+    EXPECT_THAT(with("\n500\n", "\n499\n"),
+                AllOf(HasSubstr("frames.60300.dump:509: "), HasSubstr("last grain")));
+    EXPECT_THAT(with("\n500\n", "\n-5\n"), HasSubstr("frames.60300.dump:4: "));
+    // More grains promised than there are: a file that was cut, here in the middle of the run.
+    EXPECT_THAT(with("\n500\n", "\n4000000000000\n"), HasSubstr("ends early"));
+}
+
+TEST_F(Frames, DamagedTableNamesFileAndLine) {
+    std::string const good = read_file(source.folder / "frames.csv");
+    auto const with = [&](std::string const& from, std::string const& to) {
+        std::string text = good;
+        text.replace(text.find(from), from.size(), to);
+        write("frames.csv", text);
+        return refusal();
+    };
+    EXPECT_THAT(with("step,trough_x", "step,x"), HasSubstr("frames.csv:2: "));
+    EXPECT_THAT(with("60300,", "60300;"), HasSubstr("frames.csv:4: "));
+    EXPECT_THAT(with("60300,", "59000,"), HasSubstr("frames.csv:4: "));
+    EXPECT_THAT(with("60300,", "60299,"), AllOf(HasSubstr("frames.csv"), HasSubstr("step 60299")));
+}
+
+TEST_F(Frames, AnotherDriveIsNoticed) {
+    source.angular_frequency = 1.37 * omega;
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
+    source.angular_frequency = omega;
+    source.amplitude_x *= 1.2;
+    EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
+}
+
+TEST_F(Frames, NoFramesAndNoGrainsStillOpen) {
+    for (auto const* name : {"frames.60000.dump", "frames.60300.dump", "frames.60600.dump"}) {
+        fs::remove(source.folder / name);
+    }
+    write("frames.csv", "# SI\nstep,trough_x,trough_z\n");
+    EXPECT_EQ(export_frames(source, target).frames, 0);
+    EXPECT_TRUE(collection("grains.pvd").empty());
+
+    write("frames.csv", "# SI\nstep,trough_x,trough_z\n0,0,0\n");
+    write("frames.0.dump",
+          "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS pp pp ff\n0 1\n0 1\n0 1\n"
+          "ITEM: ATOMS id type x y z vx vy vz radius \n");
+    EXPECT_EQ(export_frames(source, target).frames, 1);
+    EXPECT_EQ(read("grains/000000.vtp")->GetNumberOfPoints(), 0);
+    EXPECT_GT(read("trough/000000.vtp")->GetNumberOfPoints(), 0);
+}
+
+TEST_F(Frames, SaysWhatIsMissing) {
+    EXPECT_THROW(export_frames(source, "/proc/no_such_folder"), MissingError);
+    fs::path const dump = source.folder;
+    source.folder = folder / "none";
+    EXPECT_THROW(export_frames(source, target), MissingError);
+    source.folder = dump;
+    source.trough = folder / "none.stl";
+    EXPECT_THROW(export_frames(source, target), MissingError);
+    source.trough = dump / "frames.csv";
+    EXPECT_THROW(export_frames(source, target), InputError);
+    source.trough = dump / "trough.stl";
+    fs::remove(dump / "frames.csv");
+    EXPECT_THROW(export_frames(source, target), MissingError);
+}
+
+}  // namespace
+}  // namespace vibrotrough::view
