@@ -6,7 +6,7 @@ angle, over the theory's lines.
 
 DIR holds campaign.h5. FILE.csv is a curve that the program computed, with at least the columns throw_number,
 vibration_angle_deg and velocity_efficiency (several angles one below the other; a column inclination_deg or friction
-makes more lines). Nothing of the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/efficiency.
+makes more lines). Nothing of the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
 """
 
 import argparse
@@ -163,10 +163,11 @@ def main():
     mark_uncertain(axes, columns)
     label(axes, columns, attributes, theory)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
-    output = options.output or options.directory / "efficiency"
+    output = options.output or options.directory / "report" / "efficiency"
     for kind in ("svg", "png"):
         path = output.with_name(f"{output.name}.{kind}")
         try:
+            output.parent.mkdir(parents=True, exist_ok=True)
             figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
         except OSError as error:
             raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
