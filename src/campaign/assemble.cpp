@@ -14,8 +14,13 @@
 namespace vibrotrough::campaign {
 namespace {
 
-double amplitude_along(Scenario const& scenario) {
-    return scenario.trough.amplitude * std::cos(scenario.trough.vibration_angle);
+std::vector<double> efficiency_of(Scenario const& scenario, measure::CycleSeries const& series) {
+    Trough const& trough = scenario.trough;
+    return measure::velocity_efficiency(series, trough.amplitude * std::cos(trough.vibration_angle));
+}
+
+measure::Precision wanted(Scenario const& scenario) {
+    return {scenario.measure.confidence, scenario.measure.half_width};
 }
 
 std::string outcome_of(std::vector<measure::PackingEstimate> const& packings) {
@@ -40,7 +45,7 @@ store::PackingRecord read_packing(PlannedCase const& planned, int packing, Finis
     record.mass = deck.mass;
     record.wall_time = marker.wall_time;
     record.series = measure::first_cycles(all, answer.used);
-    record.efficiency = measure::velocity_efficiency(record.series, amplitude_along(planned.scenario));
+    record.efficiency = efficiency_of(planned.scenario, record.series);
     record.estimate = answer.estimate;
     record.deck = read_file(folder / "in.liggghts");
     return record;
@@ -49,9 +54,11 @@ store::PackingRecord read_packing(PlannedCase const& planned, int packing, Finis
 }  // namespace
 
 measure::SequentialEstimate estimate_series(Scenario const& scenario, measure::CycleSeries const& series) {
-    auto const efficiency = measure::velocity_efficiency(series, amplitude_along(scenario));
-    return measure::estimate_sequentially(efficiency,
-                                          {scenario.measure.confidence, scenario.measure.half_width});
+    return measure::estimate_sequentially(efficiency_of(scenario, series), wanted(scenario));
+}
+
+bool enough_cycles(Scenario const& scenario, measure::CycleSeries const& series) {
+    return measure::cycles_needed(efficiency_of(scenario, series), wanted(scenario)).has_value();
 }
 
 store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine_version) {

@@ -3,7 +3,6 @@
 #include "campaign/plan.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
-#include "measure/estimate.hpp"
 
 #include <chrono>
 #include <functional>
@@ -38,8 +37,6 @@ class PackingRun {
     PlannedCase const& planned() const { return planned_; }
     int packing() const { return packing_; }
     int cycles() const { return cycles_; }
-    measure::PackingEstimate const& estimate() const { return estimate_; }
-    deck::Deck const& deck() const { return deck_; }
 
   private:
     PackingOutcome judge(engine::ExitStatus status);
@@ -51,7 +48,6 @@ class PackingRun {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string started_;
     int cycles_ = 0;
-    measure::PackingEstimate estimate_{};
     bool told_to_end_ = false;
     bool interrupted_ = false;
     std::uintmax_t seen_size_ = 0;

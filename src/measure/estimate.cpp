@@ -110,17 +110,24 @@ PackingEstimate estimate_packing(std::span<double const> values, Precision const
     if (kept.empty()) return estimate;
     estimate.mean = as_array(kept).mean();
     estimate.half_width = mean_half_width(as_array(kept), g, wanted.confidence);
-    if (n - discarded < fewest_cycles || 2 * discarded >= n - 1 || drifts(kept, g, wanted)) return estimate;
-    estimate.verdict = estimate.half_width <= wanted.half_width ? Verdict::precise : Verdict::not_precise;
+    if (2 * discarded >= n - 1 || drifts(kept, g, wanted)) return estimate;
+    bool const enough = estimate.measured >= fewest_cycles && estimate.measured >= fewest_independent * g;
+    estimate.verdict =
+        enough && estimate.half_width <= wanted.half_width ? Verdict::precise : Verdict::not_precise;
     return estimate;
 }
 
-SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted) {
-    for (std::size_t used = 20; used < values.size(); used += 5) {
-        PackingEstimate const estimate = estimate_packing(values.first(used), wanted);
-        if (estimate.verdict == Verdict::precise) return {estimate, static_cast<int>(used)};
+std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted) {
+    for (std::size_t used = 20; used <= values.size(); used += 5) {
+        if (estimate_packing(values.first(used), wanted).verdict == Verdict::precise)
+            return static_cast<int>(used);
     }
-    return {estimate_packing(values, wanted), static_cast<int>(values.size())};
+    return {};
+}
+
+SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted) {
+    int const used = cycles_needed(values, wanted).value_or(static_cast<int>(values.size()));
+    return {estimate_packing(values.first(static_cast<std::size_t>(used)), wanted), used};
 }
 
 CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence) {

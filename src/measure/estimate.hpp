@@ -2,6 +2,7 @@
 
 #include "measure/cycle_series.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,8 +39,10 @@ struct Precision {
     double half_width;  ///< > 0, in the unit of the values
 };
 
-/// Fewest cycles kept that an interval is computed from.
+/// Fewest cycles kept for an interval to be trusted, and fewest that are worth an independent one: a shorter
+/// series shows too little of its own correlation.
 constexpr int fewest_cycles = 12;
+constexpr double fewest_independent = 5;
 
 /// Velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
 /// @param amplitude_x  r cos(beta), m, > 0
@@ -56,12 +59,16 @@ double statistical_inefficiency(std::span<double const> values);
 
 /// Mean of one packing's cycle values: start-up cut by MSER, interval t_{n/g - 1} s sqrt(g / n). Not steady
 /// when MSER does not find the end of the start-up in the first half, or when the first and the last third of
-/// what is kept differ by more than their own intervals together and by more than the wanted half-width.
+/// what is kept differ by more than their own intervals together and by more than the wanted half-width. Not
+/// precise also while fewer than 12 cycles are kept, or fewer than 5 independent ones.
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
 
-/// The estimate at the first of the cycles 20, 25, 30 ... at which it is precise, else of all values. It
-/// depends on the values only, not on when somebody looked, so that a run gives the same answer again.
-/// `used` says how many values it rests on.
+/// The first of the cycles 20, 25, 30 ... at which the mean is precise; nothing while there is none. It
+/// depends on the values only, not on when somebody looked, so that the same run always gives the same
+/// answer.
+std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted);
+
+/// The estimate from the cycles needed, else from all values; `used` says how many it rests on.
 struct SequentialEstimate {
     PackingEstimate estimate;
     int used;
