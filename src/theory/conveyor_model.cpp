@@ -147,7 +147,8 @@ double ConveyorModel::stop_after(double sign, double t, double speed, double end
 
 double ConveyorModel::landing_after(double t, double gap, double gap_rate, double end) const {
     double from = t;
-    if (gap_rate >= 0 && normal_force(t) <= 1e-14 * weight_) {
+    bool const takes_off = gap == 0 && gap_rate == 0;
+    if (takes_off || (gap_rate >= 0 && normal_force(t) <= 0)) {
         // While the trough falls away faster than the mass the gap grows: (gap)'' + kappa (gap)' = -N.
         auto const lift = [&](double s) { return Sample{-normal_force(s), -normal_.rate(s), normal_bend_}; };
         from = first_zero(lift, t, end);
