@@ -3,10 +3,8 @@
 The program under test is named by the environment variable VIBROTROUGH_PROGRAM; LIGGGHTS is the one on the PATH.
 """
 
-import csv
 import json
 import os
-import re
 import shutil
 import signal
 import stat
@@ -145,17 +143,17 @@ class EndToEndTest(unittest.TestCase):
         command = [PROGRAM, *map(str, arguments)]
         return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, **settings)
 
-    def run_arguments(self, campaign, *more, output=None):
-        return ["run", campaign, "--output", output or self.output, "--jobs", 2, "--liggghts", self.engine, *more]
+    def run_arguments(self, campaign, output=None, jobs=2):
+        return ["run", campaign, "--output", output or self.output, "--jobs", jobs, "--liggghts", self.engine]
 
-    def run_campaign(self, campaign, *more, output=None, wanted=0):
-        done = self.call(*self.run_arguments(campaign, *more, output=output))
+    def run_campaign(self, campaign, output=None, jobs=2, wanted=0):
+        done = self.call(*self.run_arguments(campaign, output, jobs))
         self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
         return done
 
-    def start_campaign(self, campaign, *more):
+    def start_campaign(self, campaign):
         """Starts a run in a process group of its own, as a shell does, and returns at once."""
-        command = [PROGRAM, *map(str, self.run_arguments(campaign, *more))]
+        command = [PROGRAM, *map(str, self.run_arguments(campaign))]
         process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
         )
