@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import unittest
 
-from trough_program import PATIENCE, EndToEndTest
+from trough_program import PATIENCE, EndToEndTest, count_cycles
 
 SWEEP = {"trough.throw_number": [0.8, 2.0]}
 
@@ -21,8 +21,10 @@ class Deck(EndToEndTest):
             [shutil.which("liggghts"), "-in", "in.liggghts"], cwd=packing, capture_output=True, text=True, timeout=PATIENCE
         )
         self.assertEqual(done.returncode, 0, done.stdout[-2000:])
-        self.assertNotIn("WARNING", done.stdout)
-        return (packing / "cycles.csv").read_text()
+        # The deck sets thermo_modify again after this warning, which the engine always gives; no other is expected.
+        warnings = [line for line in done.stdout.splitlines() if "WARNING" in line and "thermo_style" not in line]
+        self.assertEqual(warnings, [])
+        return packing / "cycles.csv"
 
     def test_by_hand_as_by_the_driver(self):
         told = self.call("deck", self.campaign, "--output", self.decks)
@@ -39,13 +41,14 @@ class Deck(EndToEndTest):
             driven = self.output / "cases" / row["case"] / "packing-2"
             for name in ("in.liggghts", "trough.stl"):
                 self.assertEqual((by_hand / name).read_bytes(), (driven / name).read_bytes())
-            cycles, driven_cycles = self.run_by_hand(by_hand), (driven / "cycles.csv").read_text()
-            self.assertEqual(len(cycles.splitlines()), 1 + 1 + 1 + 60, "comment, header, start, cycles")
+            cycles, driven_cycles = self.run_by_hand(by_hand), driven / "cycles.csv"
+            self.assertEqual(count_cycles(cycles), 60)
             # The same program on the same machine with the same input: equal, digit for digit.
-            self.assertTrue(cycles.startswith(driven_cycles), "the driver's cycles are not those run by hand")
+            same = cycles.read_text().startswith(driven_cycles.read_text())
+            self.assertTrue(same, "the driver's cycles are not those run by hand")
         # At least one packing was stopped by the driver, or the comparison above has compared no stop.
-        lengths = [len(path.read_text().splitlines()) for path in self.output.glob("cases/*/packing-2/cycles.csv")]
-        self.assertLess(min(lengths), 63)
+        lengths = [count_cycles(path) for path in self.output.glob("cases/*/packing-2/cycles.csv")]
+        self.assertLess(min(lengths), 60)
 
     def test_the_frozen_case_gives_the_same_deck(self):
         self.call("deck", self.campaign, "--output", self.decks)

@@ -96,6 +96,11 @@ def engines_in(folder):
     return [number for number, name in processes_in(folder).items() if name == "liggghts"]
 
 
+def count_cycles(path):
+    """Whole cycles in a cycles.csv: its lines of numbers but the first, which is the start."""
+    return sum(line[:1].isdigit() for line in path.read_text().splitlines()) - 1
+
+
 def fingerprint(path):
     """Changes whenever the file is written again, even with the same content."""
     status = path.stat()
