@@ -15,5 +15,12 @@ void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
 void add_theory_point(CLI::App& theory, int& exit_code);
+void add_theory_map(CLI::App& theory, int& exit_code);
+void add_theory_trace(CLI::App& theory, int& exit_code);
+void add_theory_limits(CLI::App& theory, int& exit_code);
+void add_theory_friction(CLI::App& theory, int& exit_code);
+void add_theory_sensitivity(CLI::App& theory, int& exit_code);
+void add_theory_design(CLI::App& theory, int& exit_code);
+void add_theory_batch(CLI::App& theory, int& exit_code);
 
 }  // namespace vibrotrough::app

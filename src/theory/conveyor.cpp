@@ -25,6 +25,8 @@ constexpr int settling = 500;       // cycles before a mean without a period is 
 constexpr int batches = 20;         // of that mean
 constexpr int cycles_per_batch = 125;
 constexpr int plain_repeats = 60;      // of a period, before Newton takes over
+constexpr double closing = 1e-6;       // rad: how well an orbit that closes within state_match closes in time
+constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, between two periods
 constexpr double state_match = 1e-11;  // of gap, its rate and slip velocity, in their units
 
 void check_ranges(Conveyor const& c) {
@@ -112,6 +114,7 @@ class Solver {
         return passage;
     }
     void rebase() { state_.t -= two_pi * std::round(state_.t / two_pi); }
+    bool repeats(Passage const& two_periods, int cycles) const;
     ConveyorMotion periodic(int cycles);
     ConveyorMotion averaged();
 
@@ -197,20 +200,36 @@ std::size_t first_piece(std::vector<Piece> const& pieces) {
     return i;
 }
 
+/// Rebounds can amplify rounding from one period to the next until the two differ: then "periodic" has no
+/// meaning.
+bool Solver::repeats(Passage const& two_periods, int cycles) const {
+    WalkState s = state_;
+    double const length = two_pi * cycles, once = pass(s, cycles, Keep::nothing).displacement;
+    double impacts = 0;  // energy of the first period's minus that of the second's
+    for (Impact const& impact : two_periods.impacts) {
+        double const energy = impact.approach * impact.approach;
+        impacts += impact.t < state_.t + length ? energy : -energy;
+    }
+    return std::abs(two_periods.displacement - 2 * once) < repeat_match * length &&
+           std::abs(impacts) < repeat_match * length;
+}
+
 ConveyorMotion Solver::periodic(int cycles) {
     // Two periods from the section; the list of phases begins at an event within the first.
     WalkState s = state_;
     Passage scout = pass(s, 2 * cycles, Keep::pieces);
+    if (!repeats(scout, cycles)) return averaged();
     std::size_t const first = first_piece(scout.pieces);
     double const start = scout.pieces[first].start, length = two_pi * cycles;
     ConveyorMotion result;
     Motion& motion = result.motion;
     motion = no_motion(Outcome::periodic, 0);
-    double displacement = 0;
+    double displacement = 0, last_end = start;
     double const shift = two_pi * std::floor(start / two_pi);
     for (std::size_t i = first; i < scout.pieces.size(); ++i) {
         Piece piece = scout.pieces[i];
-        if (piece.start > start + length - 1e-9) break;
+        if (piece.start > start + length - closing) break;
+        last_end = piece.end;
         piece.end = std::min(piece.end, start + length);
         result.pieces.push_back(piece);
         displacement += piece.displacement;
@@ -221,7 +240,7 @@ ConveyorMotion Solver::periodic(int cycles) {
         }
     }
     for (Impact const& impact : scout.impacts) {
-        if (impact.t > start + 1e-12 && impact.t <= start + length + 1e-9) result.impacts.push_back(impact);
+        if (impact.t > start + closing && impact.t <= last_end) result.impacts.push_back(impact);
     }
     motion.velocity_efficiency = displacement / length;
     motion.period_cycles = cycles;

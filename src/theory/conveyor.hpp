@@ -85,8 +85,9 @@ struct ConveyorMotion {
 /// by steps that are certified to pass no zero, so no short phase is overlooked.
 ///
 /// The normal motion is repeated until its state at the start of a cycle returns after 1 to 64 cycles; then
-/// the motion along the trough is the fixed point of a map of one velocity. When nothing returns within 3000
-/// cycles, the mean over them is given with a half-width from 20 batches (Student's t).
+/// the motion along the trough is the fixed point of a map of one velocity. Two periods in a row must agree
+/// to 1e-9, because long chains of rebounds amplify rounding. When nothing returns within 3000 cycles, the
+/// mean over them is given with a half-width from 20 batches (Student's t).
 ///
 /// With static above kinetic friction more than one motion can be periodic: the one reached from rest is
 /// given.
