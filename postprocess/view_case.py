@@ -47,15 +47,25 @@ def open_collection(name):
     return reader
 
 
-def velocity_colours():
+def colour_by_velocity(view, shown):
     """Blue where grains lag behind the trough, red where they run ahead, to twice the trough's largest speed."""
+    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
     colours = GetColorTransferFunction(COLOURED_BY)
-    colours.ApplyPreset("Cool to Warm (Extended)", True)
-    colours.VectorMode = "Component"
-    colours.VectorComponent = 0
+    colours.ApplyPreset("Cool to Warm", True)
     colours.AutomaticRescaleRangeMode = "Never"
     colours.RescaleTransferFunction(-2.0 * SPEED, 2.0 * SPEED)
-    return colours
+    bar = GetScalarBar(colours, view)
+    bar.Title = "velocity along the trough, relative to it, m/s"
+    bar.ComponentTitle = ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Lower Center"
+    bar.ScalarBarLength = 0.4
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = bar.RangeLabelFormat = "%.2f"
+    bar.TitleColor = bar.LabelColor = INK
+    bar.TitleFontSize = 16
+    bar.LabelFontSize = 15
+    shown.SetScalarBarVisibility(view, True)
 
 
 def show_grains(view, grains):
@@ -79,27 +89,15 @@ def show_grains(view, grains):
         Hide(grains, view)
         shown = Show(spheres, view)
         SetActiveSource(grains)
-    colours = velocity_colours()
-    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
-    bar = GetScalarBar(colours, view)
-    bar.Title = "velocity along the trough, relative to it, m/s"
-    bar.ComponentTitle = ""
-    bar.Orientation = "Horizontal"
-    bar.WindowLocation = "Lower Center"
-    bar.ScalarBarLength = 0.4
-    bar.TitleColor = INK
-    bar.LabelColor = INK
-    bar.TitleFontSize = 14
-    bar.LabelFontSize = 13
-    shown.SetScalarBarVisibility(view, True)
+    colour_by_velocity(view, shown)
 
 
 def show_trough(view, trough):
     shown = Show(trough, view)
     shown.SetRepresentationType("Surface With Edges")
-    ColorBy(shown, None)
-    shown.AmbientColor = shown.DiffuseColor = [0.62, 0.64, 0.67]
-    shown.EdgeColor = [0.45, 0.47, 0.5]
+    shown.ColorArrayName = ["POINTS", ""]
+    shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
+    shown.EdgeColor = [0.55, 0.57, 0.6]
 
 
 def show_text(view, source, where):
@@ -107,6 +105,7 @@ def show_text(view, source, where):
     shown.WindowLocation = where
     shown.Color = INK
     shown.FontSize = 16
+    return shown
 
 
 def annotate(view, grains):
@@ -120,17 +119,19 @@ def annotate(view, grains):
 
 
 def look_along_the_width(view, trough, grains):
-    """From the side and a little from above, with the conveying direction to the right."""
-    low_x, high_x, low_y, high_y, _, _ = trough.GetDataInformation().GetBounds()
-    bottom = trough.GetDataInformation().GetBounds()[4]
-    top = max(grains.GetDataInformation().GetBounds()[5], bottom)
-    centre = [(low_x + high_x) / 2, (low_y + high_y) / 2, (bottom + top) / 2]
-    size = max(high_x - low_x, 1.5 * (top - bottom), high_y - low_y)
+    """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
+    left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
+    length, width = right - left, back - front
+    height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
+    focus = [(left + right) / 2, (front + back) / 2, floor + 0.6 * height]
+    away = 3.0 * max(length, width, height)
     view.CameraParallelProjection = 1
-    view.CameraFocalPoint = centre
-    view.CameraPosition = [centre[0] - 0.9 * size, centre[1] - 3.0 * size, centre[2] + 1.1 * size]
+    view.CameraFocalPoint = focus
+    view.CameraPosition = [focus[0] - 0.3 * away, focus[1] - away, focus[2] + 0.37 * away]
     view.CameraViewUp = [0.0, 0.0, 1.0]
-    view.CameraParallelScale = 0.55 * size
+    # The box as seen from there: turned by 17 degrees, tilted by 19; half its larger side plus margins.
+    seen_length, seen_depth = 0.96 * length + 0.29 * width, 0.96 * width + 0.29 * length
+    view.CameraParallelScale = max(0.37 * seen_length, 0.85 * height + 0.17 * seen_depth)
 
 
 def main():
@@ -140,7 +141,8 @@ def main():
     view.Background = [1.0, 1.0, 1.0]
     view.OrientationAxesLabelColor = INK
     if CAPTION:
-        show_text(view, Text(registrationName="caption", Text=CAPTION), "Upper Center")
+        shown = show_text(view, Text(registrationName="caption", Text=CAPTION), "Any Location")
+        shown.Position = [0.008, 0.91]  # below the time, whatever its length
     if not (has_frames("grains.pvd") and has_frames("trough.pvd")):
         show_text(view, Text(registrationName="note", Text="This case has no frames yet."), "Lower Left Corner")
         Render(view)

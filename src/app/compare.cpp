@@ -15,6 +15,7 @@ struct Options {
     std::string folder;
     bool json = false;
     bool csv = false;
+    bool curves = false;
 };
 
 int run(Options const& options) {
@@ -25,6 +26,8 @@ int run(Options const& options) {
     }
     if (options.json) {
         fmt::print("{}", compare::to_json(rows));
+    } else if (options.curves) {
+        fmt::print("{}", compare::theory_curves_csv(rows));
     } else if (options.csv) {
         fmt::print("{}", compare::to_csv(rows));
     } else {
@@ -42,7 +45,13 @@ void add_compare(CLI::App& program, int& exit_code) {
     command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
         ->required();
     CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
-    command->add_flag("--csv", options->csv, "Print CSV with the same columns")->excludes(json);
+    CLI::Option* const csv =
+        command->add_flag("--csv", options->csv, "Print CSV with the same columns")->excludes(json);
+    command
+        ->add_flag("--theory-curves", options->curves,
+                   "Print fine theory curves through the cases as CSV, for figures")
+        ->excludes(json)
+        ->excludes(csv);
     command->footer(
         "eta is the mean velocity of the layer relative to the trough over omega r cos(beta), +- the "
         "half-width of its\n"

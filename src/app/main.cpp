@@ -13,6 +13,7 @@ namespace {
 
 void add_commands(CLI::App& program, int& exit_code) {
     add_run(program, exit_code);
+    add_keys(program, exit_code);
     add_deck(program, exit_code);
     add_status(program, exit_code);
     add_compare(program, exit_code);
@@ -21,6 +22,13 @@ void add_commands(CLI::App& program, int& exit_code) {
         program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
     theory->require_subcommand(1);
     add_theory_point(*theory, exit_code);
+    add_theory_map(*theory, exit_code);
+    add_theory_trace(*theory, exit_code);
+    add_theory_limits(*theory, exit_code);
+    add_theory_friction(*theory, exit_code);
+    add_theory_sensitivity(*theory, exit_code);
+    add_theory_design(*theory, exit_code);
+    add_theory_batch(*theory, exit_code);
 }
 
 int run(int argc, char** argv) {

@@ -1,9 +1,7 @@
 #include "app/theory_options.hpp"
 
 #include "core/error.hpp"
-#include "core/quantity.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -13,98 +11,163 @@
 namespace vibrotrough::app {
 namespace {
 
+using theory::Input;
+
 constexpr double degree = std::numbers::pi / 180;
+constexpr double least_throw = 1e-300;  // above zero
 
-std::string const& required(std::string const& option, std::optional<std::string> const& text,
-                            std::string const& example) {
-    if (!text)
-        throw InputError(fmt::format("{} is missing; write for example {} {}", option, option, example));
-    return *text;
+void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {
+    if (!a || !b) return;
+    throw InputError(
+        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
 }
 
-/// tan(angle) from exactly one of an angle with a unit and its tangent; `missing` when neither may be left
-/// out.
-double read_tangent(std::string const& name, std::optional<std::string> const& angle,
-                    std::optional<std::string> const& tangent, double above_deg, std::string const& example) {
-    std::string const option = "--" + name, tan_option = "--tan-" + name;
-    double const tan_example = std::tan(30 * degree);
-    if (angle && tangent) {
-        throw InputError(fmt::format("{} {} and {} {} are both given; write only one of them", option, *angle,
-                                     tan_option, *tangent));
+double read_throw(std::string const& option, std::string const& text) {
+    double const value = read_number(option, text, "2");
+    if (value > 0 && value <= 1e4) return std::max(value, least_throw);
+    throw InputError(fmt::format("{} {}: must be above 0 and at most 10000; write for example {} 2", option,
+                                 text, option));
+}
+
+/// "3,0.1,30 deg": order, amplitude of acceleration, phase.
+theory::Harmonic read_harmonic(std::string const& option, std::string const& text) {
+    auto const first = text.find(','),
+               second = first == std::string::npos ? first : text.find(',', first + 1);
+    if (second == std::string::npos) {
+        throw InputError(
+            fmt::format("{} {}: needs order, amplitude and phase; write for example {} \"3,0.1,30 deg\"",
+                        option, text, option));
     }
-    if (tangent) return read_number(tan_option, *tangent, fmt::format("{:.3f}", tan_example));
-    return std::tan(read_angle(option, required(option, angle, '"' + example + '"'), example, above_deg, 90));
-}
-
-void require_between(std::string const& option, std::string const& text, double value, double low,
-                     double high, bool low_allowed, std::string const& example) {
-    bool const good = (low_allowed ? value >= low : value > low) && value <= high;
-    if (good) return;
-    throw InputError(fmt::format("{} {}: must be {} {:g} and at most {:g}; write for example {} {}", option,
-                                 text, low_allowed ? "at least" : "above", low, high, option, example));
+    theory::Harmonic harmonic{};
+    harmonic.order = read_count(option, text.substr(0, first), "\"3,0.1,30 deg\"", 1, 1000);
+    harmonic.amplitude = read_number_within(option, text.substr(first + 1, second - first - 1),
+                                            "\"3,0.1,30 deg\"", -1000, 1000);
+    harmonic.phase = read_angle(option, text.substr(second + 1), "3,0.1,30 deg", -720, 720);
+    return harmonic;
 }
 
 }  // namespace
 
-double read_number(std::string const& option, std::string const& text, std::string const& example) {
-    double value = 0;
-    char const* const end = text.data() + text.size();
-    auto const [stop, failure] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(value)) {
-        throw InputError(fmt::format("{} {}: '{}' is not a finite plain number; write for example {} {}",
-                                     option, text, text, option, example));
-    }
-    return value;
-}
-
-double read_angle(std::string const& option, std::string const& text, std::string const& example,
-                  double above_deg, double below_deg) {
-    double angle = 0;
-    try {
-        angle = parse_quantity(text, "radian");
-    } catch (QuantityError const& error) {
-        throw InputError(fmt::format("{} {}: {}; write an angle with its unit, for example {} \"{}\"", option,
-                                     text, error.what(), option, example));
-    }
-    if (!(angle > above_deg * degree && angle < below_deg * degree)) {
-        throw InputError(
-            fmt::format("{} {}: must lie between {:g} and {:g} degrees; write for example {} \"{}\"", option,
-                        text, above_deg, below_deg, option, example));
-    }
-    return angle;
-}
-
-void PointMassOptions::add_to(CLI::App& command) {
-    command.add_option("--throw-number", throw_number,
+void TheoryOptions::add_to(CLI::App& command, Extent extent) {
+    command.add_option("--throw-number", throw_number_,
                        "Gamma = omega^2 r sin(beta) / (g cos(alpha)): above 1 the mass flies");
-    command.add_option("--vibration-angle", vibration_angle,
+    command.add_option("--machine-number", machine_number_, "K = omega^2 r / g, instead of --throw-number");
+    command.add_option("--vibration-angle", vibration_angle_,
                        "beta, between the direction of vibration and the trough, with its unit: \"30 deg\"");
-    command.add_option("--tan-vibration-angle", tan_vibration_angle,
+    command.add_option("--tan-vibration-angle", tan_vibration_angle_,
                        "tan(beta), instead of --vibration-angle");
-    command.add_option("--inclination", inclination,
+    command.add_option("--inclination", inclination_,
                        "alpha, uphill positive, with its unit: \"-3 deg\" (level when not given)");
-    command.add_option("--tan-inclination", tan_inclination, "tan(alpha), instead of --inclination");
-    command.add_option("--friction", friction, "mu, friction coefficient of the mass on the trough");
+    command.add_option("--tan-inclination", tan_inclination_, "tan(alpha), instead of --inclination");
+    command.add_option("--friction", friction_, "mu, friction coefficient of the mass on the trough");
+    if (extent == Extent::complete) add_extensions(command);
 }
 
-theory::PointMass PointMassOptions::read() const {
-    theory::PointMass input{};
-    auto const& gamma = required("--throw-number", throw_number, "2");
-    input.throw_number = read_number("--throw-number", gamma, "2");
-    require_between("--throw-number", gamma, input.throw_number, 0, 1e4, false, "2");
-    input.tan_vibration_angle =
-        read_tangent("vibration-angle", vibration_angle, tan_vibration_angle, 0, "30 deg");
-    require_between("--tan-vibration-angle", tan_vibration_angle.value_or(""), input.tan_vibration_angle, 0,
-                    1e6, false, "0.5");
-    if (inclination || tan_inclination) {
-        input.tan_inclination = read_tangent("inclination", inclination, tan_inclination, -90, "-3 deg");
-        require_between("--tan-inclination", tan_inclination.value_or(""), input.tan_inclination, -1e6, 1e6,
-                        true, "-0.05");
+void TheoryOptions::add_extensions(CLI::App& command) {
+    char const* const group = "Beyond Sloot & Kruyt's plastic point mass";
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command.add_option(name, text, help)->group(group);
+    };
+    add("--restitution", restitution_, "e, normal, 0 (plastic) to below 1 (Eq. 23)");
+    add("--slowest-rebound", slowest_rebound_,
+        "Slower rebounds are contact, in omega r sin(beta); 1e-6 when not given");
+    add("--static-friction", static_friction_, "At least --friction, which is then the kinetic one");
+    add("--air-drag", air_drag_, "kappa: drag force = m omega kappa times velocity");
+    add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along over r cos(beta)");
+    add("--along-phase", along_phase_,
+        "Elliptical drive: lead of the motion along, with its unit: \"20 deg\"");
+    add("--wall-friction", wall_friction_, "Friction coefficient of the layer on the side walls");
+    add("--wall-pressure-ratio", wall_pressure_ratio_,
+        "Janssen's k, horizontal over vertical stress; 0.5 when not given");
+    add("--height-over-width", height_over_width_, "Of the layer, for side-wall friction");
+    command
+        .add_option("--harmonic-along", along_,
+                    "\"ORDER,AMPLITUDE,PHASE\" of further acceleration along, for example \"3,0.1,30 deg\"; "
+                    "repeatable")
+        ->group(group);
+    command.add_option("--harmonic-normal", normal_, "The same normal to the trough; repeatable")
+        ->group(group);
+    command
+        .add_flag("--table-1-rule", table_1_rule_,
+                  "Start a flight that interrupts an N' slide with the trough's velocity. Not physics: only "
+                  "reproduces "
+                  "the paper's Table 1 at e > 0")
+        ->group(group);
+}
+
+theory::Inputs TheoryOptions::given() const {
+    refuse_both("--throw-number", throw_number_, "--machine-number", machine_number_);
+    refuse_both("--vibration-angle", vibration_angle_, "--tan-vibration-angle", tan_vibration_angle_);
+    refuse_both("--inclination", inclination_, "--tan-inclination", tan_inclination_);
+    theory::Inputs inputs;
+    if (throw_number_) inputs.set(Input::throw_number, read_throw("--throw-number", *throw_number_));
+    if (machine_number_) inputs.set(Input::machine_number, read_throw("--machine-number", *machine_number_));
+    if (vibration_angle_) {
+        double const beta =
+            read_angle("--vibration-angle", *vibration_angle_, "30 deg", machine_number_ ? -1e-12 : 0, 90);
+        inputs.set(Input::tan_vibration_angle, std::tan(beta));
     }
-    auto const& mu = required("--friction", friction, "0.3");
-    input.friction = read_number("--friction", mu, "0.3");
-    require_between("--friction", mu, input.friction, 0, 1e6, true, "0.3");
-    return input;
+    if (inclination_) {
+        inputs.set(Input::tan_inclination,
+                   std::tan(read_angle("--inclination", *inclination_, "-3 deg", -90, 90)));
+    }
+    if (along_phase_) {
+        inputs.set(Input::along_phase_deg,
+                   read_angle("--along-phase", *along_phase_, "20 deg", -720, 720) / degree);
+    }
+    auto const set = [&](Input input, char const* option, Text const& text, char const* example, double low,
+                         double high) {
+        if (text) inputs.set(input, read_number_within(option, *text, example, low, high));
+    };
+    set(Input::tan_vibration_angle, "--tan-vibration-angle", tan_vibration_angle_, "0.5",
+        machine_number_ ? 0 : 1e-300, 1e6);
+    set(Input::tan_inclination, "--tan-inclination", tan_inclination_, "-0.05", -1e6, 1e6);
+    set(Input::friction, "--friction", friction_, "0.3", 0, 1e6);
+    set(Input::static_friction, "--static-friction", static_friction_, "0.4", 0, 1e6);
+    set(Input::restitution, "--restitution", restitution_, "0.2", 0, 0.999999);
+    set(Input::air_drag, "--air-drag", air_drag_, "0.01", 0, 1000);
+    set(Input::along_ratio, "--along-ratio", along_ratio_, "0.8", -1000, 1000);
+    set(Input::wall_friction, "--wall-friction", wall_friction_, "0.3", 0, 1000);
+    set(Input::wall_pressure_ratio, "--wall-pressure-ratio", wall_pressure_ratio_, "0.5", 0, 1);
+    set(Input::height_over_width, "--height-over-width", height_over_width_, "0.2", 0, 1000);
+    auto const standing = inputs.get(Input::static_friction), kinetic = inputs.get(Input::friction);
+    if (standing && kinetic && *standing < *kinetic) {
+        throw InputError(
+            fmt::format("--static-friction {}: is below --friction {}; write a value that is not",
+                        *static_friction_, *friction_));
+    }
+    return inputs;
+}
+
+void require_complete(theory::Inputs const& inputs) {
+    auto const missing = [](char const* option, char const* example) {
+        throw InputError(fmt::format("{} is missing; write for example {} {}", option, option, example));
+    };
+    if (!inputs.get(Input::throw_number) && !inputs.get(Input::machine_number))
+        missing("--throw-number", "2");
+    if (!inputs.get(Input::tan_vibration_angle) && !inputs.get(Input::vibration_angle_deg)) {
+        missing("--vibration-angle", "\"30 deg\"");
+    }
+    if (!inputs.get(Input::friction)) missing("--friction", "0.3");
+    if (auto const problem = inputs.incomplete()) throw InputError(*problem);
+}
+
+bool TheoryOptions::plastic() const {
+    return given().plastic() && along_.empty() && normal_.empty() && !table_1_rule_;
+}
+
+theory::Conveyor TheoryOptions::conveyor() const {
+    theory::Inputs const inputs = given();
+    require_complete(inputs);
+    theory::Conveyor conveyor = inputs.conveyor();
+    if (slowest_rebound_) {
+        conveyor.slowest_rebound =
+            read_number_within("--slowest-rebound", *slowest_rebound_, "1e-6", 1e-9, 1);
+    }
+    for (auto const& text : along_) conveyor.along.push_back(read_harmonic("--harmonic-along", text));
+    for (auto const& text : normal_) conveyor.normal.push_back(read_harmonic("--harmonic-normal", text));
+    if (table_1_rule_) conveyor.flight_start = theory::FlightStart::trough_velocity_rule;
+    return conveyor;
 }
 
 }  // namespace vibrotrough::app

@@ -3,7 +3,12 @@
 #include "theory/point_mass.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::compare {
 namespace {
@@ -40,11 +45,46 @@ void add_measurement(Row& row, store::CaseRecord const& record) {
     row.speed_dem_m_per_s = record.estimate.mean * velocity_scale(record.scenario.trough);
 }
 
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// What a line of the figure holds fixed.
+using Line = std::tuple<double, double, double>;  // vibration angle and inclination, deg; friction
+
+std::string curve(Line const& line, double from, double to) {
+    constexpr int points = 400;  // finer than a print shows
+    auto const [angle, inclination, friction] = line;
+    std::string text;
+    for (int i = 0; i <= points; ++i) {
+        double const gamma = from + (to - from) * i / points;
+        theory::Motion const motion = theory::solve({.throw_number = gamma,
+                                                     .tan_vibration_angle = std::tan(angle / degrees),
+                                                     .tan_inclination = std::tan(inclination / degrees),
+                                                     .friction = friction});
+        if (!motion.converged) continue;
+        text += fmt::format("{:.6g},{},{},{},{}\n", gamma, angle, inclination, friction,
+                            motion.velocity_efficiency);
+    }
+    return text;
+}
+
 }  // namespace
+
+std::string theory_curves_csv(std::vector<Row> const& rows) {
+    std::string text = "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency\n";
+    std::set<Line> lines;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (Row const& row : rows) {
+        if (!(row.vibration_angle_deg > 0)) continue;
+        lines.insert({row.vibration_angle_deg, row.inclination_deg, row.friction});
+        least = std::min(least, row.throw_number);
+        most = std::max(most, row.throw_number);
+    }
+    for (Line const& line : lines) text += curve(line, 0.9 * least, 1.1 * most);
+    return text;
+}
 
 Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
             std::string const& outcome) {
-    constexpr double degrees = 180 / std::numbers::pi;
     Trough const& trough = scenario.trough;
     Row row{};
     row.id = id;

@@ -37,6 +37,12 @@ struct Row {
 Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
             std::string const& outcome);
 
+/// The theory's velocity efficiency over a fine grid of throw numbers, for every vibration angle, inclination
+/// and friction among the rows, from a little below their smallest throw number to a little above their
+/// largest: CSV with the columns throw_number, vibration_angle_deg, inclination_deg, friction,
+/// velocity_efficiency. Throw numbers without a mean speed are left out.
+std::string theory_curves_csv(std::vector<Row> const& rows);
+
 /// The rows as a JSON array of objects; unknown numbers are null.
 std::string to_json(std::vector<Row> const& rows);
 

@@ -106,7 +106,7 @@ void describe_inputs(mustache::data& data, Scenario const& s) {
     data.set("width", text(s.layer.width));
     data.set("max_cycles", std::to_string(s.measure.max_cycles));
     data.set("gravity", text(gravity));
-    data.set("gravity_x", text(-std::sin(s.trough.inclination)));
+    data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
     data.set("amplitude_x", text(s.trough.amplitude * std::cos(s.trough.vibration_angle)));
     data.set("amplitude_z", text(s.trough.amplitude * std::sin(s.trough.vibration_angle)));

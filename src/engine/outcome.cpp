@@ -82,14 +82,15 @@ std::string to_string(Outcome outcome) {
 
 RunReport examine_run(std::filesystem::path const& folder, ExitStatus status) {
     Transcript const seen = read_transcript(folder / output_file);
-    if (status.signal != 0) {
-        return {Outcome::engine_crashed, fmt::format("the engine was killed by signal {} ({})", status.signal,
-                                                     strsignal(status.signal))};
-    }
     if (seen.failure) return {named_failure(*seen.failure), *seen.failure};
     if (seen.error) {
         bool const lost = seen.error->find("Lost atoms") != std::string::npos;
         return {lost ? Outcome::lost_grains : Outcome::engine_error, *seen.error};
+    }
+    // After an error message MPI_Abort may end the engine by a signal: the message is the reason.
+    if (status.signal != 0) {
+        return {Outcome::engine_crashed, fmt::format("the engine was killed by signal {} ({})", status.signal,
+                                                     strsignal(status.signal))};
     }
     if (status.code != 0) {
         return {Outcome::engine_error,

@@ -3,6 +3,7 @@
 #include "core/hash.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -185,15 +186,29 @@ void ImageWriter::attribute(std::string const& name, std::string const& value) {
 
 void ImageWriter::dataset(std::string const& path, Values const& values, Rank rank, std::string_view units,
                           std::string_view description) {
-    Packed const packed = std::visit([](auto const& all) { return pack(all); }, values);
     std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
     require(rank == Rank::array || count == 1, "write " + path + ", a scalar is one value");
+    write(path, values, data_space(count, rank), units, description);
+}
 
+void ImageWriter::table(std::string const& path, Values const& values, std::size_t rows, std::size_t columns,
+                        std::string_view units, std::string_view description) {
+    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
+    require(count == rows * columns, "write " + path + ", it has not rows times columns values");
+    std::array<hsize_t, 2> const extent{rows, columns};
+    write(path, values,
+          Handle(H5Screate_simple(2, extent.data(), nullptr), H5Sclose, "make the shape of " + path), units,
+          description);
+}
+
+void ImageWriter::write(std::string const& path, Values const& values, Handle const& space,
+                        std::string_view units, std::string_view description) {
+    Packed const packed = std::visit([](auto const& all) { return pack(all); }, values);
+    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
     Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make link properties");
     require(H5Pset_create_intermediate_group(links.id(), 1) >= 0, "ask for groups");
     Handle const creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset properties");
     require(H5Pset_obj_track_times(creation.id(), 0) >= 0, "leave out times");  // same values, same bytes
-    Handle const space = data_space(count, rank);
     Handle const data(H5Dcreate2(file_.id(), path.c_str(), packed.type.id(), space.id(), links.id(),
                                  creation.id(), H5P_DEFAULT),
                       H5Dclose, "make the dataset " + path);

@@ -65,11 +65,18 @@ class ImageWriter {
     void dataset(std::string const& path, Values const& values, Rank rank, std::string_view units,
                  std::string_view description);
 
+    /// The same in two dimensions, row by row.
+    void table(std::string const& path, Values const& values, std::size_t rows, std::size_t columns,
+               std::string_view units, std::string_view description);
+
     /// The bytes of the file, and after HDF5's end a line with their SHA-256. HDF5's
     /// readers do not look there; ours does, because HDF5 itself may crash on a damaged file.
     std::string bytes() const;
 
   private:
+    void write(std::string const& path, Values const& values, Handle const& space, std::string_view units,
+               std::string_view description);
+
     Hdf5Session session_;
     Handle file_;
 };

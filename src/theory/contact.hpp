@@ -8,16 +8,23 @@
 #include <cmath>
 #include <numbers>
 
-// The motion along the trough while the mass touches it, and while it flies. Internal to the room.
+// The motion along the trough while the mass touches it. Internal to the room.
 // Lengths along the trough in r cos(beta), time in 1/omega, relative velocity v = x' - cos t.
 namespace vibrotrough::theory::detail {
 
 inline constexpr double pi = std::numbers::pi;
 inline constexpr double two_pi = 2 * pi;
+inline constexpr double unknown = -1;  ///< no hint
 
-/// sin(t0 + h) - sin(t0) - h cos(t0).
-inline double sine_excess(double t0, double h) {
-    return std::sin(t0 + h) - std::sin(t0) - h * std::cos(t0);
+/// A time with its sine and cosine, which cost more than everything else that is done with it.
+struct Instant {
+    double t, sine, cosine;
+    static Instant at(double t) { return {t, std::sin(t), std::cos(t)}; }
+};
+
+/// sin(b) - sin(a) - (b - a) cos(a).
+inline double sine_excess(Instant a, Instant b) {
+    return b.sine - a.sine - (b.t - a.t) * a.cosine;
 }
 
 /// A slide in one direction (Eq. 6 relative to the trough): its speed w = |v| changes by w' = b sin t - c.
@@ -25,25 +32,20 @@ inline double sine_excess(double t0, double h) {
 class Slide {
   public:
     Slide() = default;
-    Slide(double sign, double b, double c) : sign_(sign), b_(b), c_(c) {
-        double const size = std::abs(b);
-        if (c >= size) return;  // slows down always
-        double const s = std::max(c / size, -1.0);
-        double const delta = std::asin(s);  // Eqs. 7, 8
-        begin_ = b >= 0 ? delta : delta + pi;
-        length_ = pi - 2 * delta;
-    }
+    Slide(double sign, double b, double c);
 
     double sign() const { return sign_; }
     bool can_start() const { return length_ > 0; }
-    double begin() const { return begin_; }
-    double acceleration(double t) const { return b_ * std::sin(t) - c_; }
-    double speed(double w0, double t0, double h) const {
-        return w0 - c_ * h - b_ * (std::cos(t0 + h) - std::cos(t0));
+    /// Where it can start (Eqs. 7, 8), in the cycle of [0, 2 pi).
+    Instant begin() const { return {begin_, begin_sine_, begin_cosine_}; }
+    double acceleration(double sine) const { return b_ * sine - c_; }
+    double speed(double w0, Instant from, double t, double cosine) const {
+        return w0 - c_ * (t - from.t) - b_ * (cosine - from.cosine);
     }
     /// Eq. 10, with an initial speed.
-    double distance(double w0, double t0, double h) const {
-        return w0 * h - c_ * h * h / 2 - b_ * sine_excess(t0, h);
+    double distance(double w0, Instant from, Instant to) const {
+        double const h = to.t - from.t;
+        return w0 * h - c_ * h * h / 2 - b_ * sine_excess(from, to);
     }
     /// How long from t until a slide can start; infinite when never.
     double wait(double t) const {
@@ -51,85 +53,102 @@ class Slide {
         double const p = position(t);
         return p < length_ ? 0 : two_pi - p;
     }
-    /// Duration until the speed is zero (Eq. 11), at most h_max: then h_max is returned.
-    /// A slide that begins where it can start is told so: rounding could put it just before that.
-    double duration(double w0, double t0, double h_max, bool begins) const;
+    /// When the speed is zero (Eq. 11), at the latest at `limit`; whether it stopped is in `stopped`.
+    /// @param begins  it starts where it can start: rounding could put the instant just before that
+    /// @param hint    a guess of the duration, or `unknown`; it changes the cost, not the answer
+    Instant stop(double w0, Instant from, Instant limit, bool begins, double hint, bool& stopped) const;
 
   private:
     double position(double t) const {
-        double p = std::fmod(t - begin_, two_pi);
-        if (p < 0) p += two_pi;
-        return two_pi - p > 1e-15 * (1 + std::abs(t)) ? p : 0;  // rounding: just before the begin is the begin
+        double const x = t - begin_;
+        double const p = x - two_pi * std::floor(x * (1 / two_pi));
+        return two_pi - p > 1e-15 * (1 + std::abs(t)) ? p
+                                                      : 0;  // rounding: just before the begin is the begin
     }
-    double stop_between(double w0, double t0, double lo, double hi) const;
+    Instant stop_between(double w0, Instant from, double lo, double hi, double steepest, double hint) const;
 
     double sign_ = 1, b_ = 0, c_ = 0;
     double begin_ = 0, length_ = 0;  // where it speeds up: [begin, begin + length] modulo 2 pi
+    double begin_sine_ = 0, begin_cosine_ = 1;
 };
 
 /// What acts on the mass along the trough.
 struct Law {
-    double inverse_throw;     ///< 1 / Gamma
     double friction_tangent;  ///< mu tan(beta)
     double gravity;           ///< tan(alpha) tan(beta) / Gamma
     Slide positive, negative;
-    double take_off;  ///< arcsin(1 / Gamma); only for Gamma > 1
 };
 
 Law make_law(PointMass const& input);
 
-/// A flight of the normal motion: fixed by Gamma alone, whatever happens along the trough.
-struct Flight {
-    double start, end;
-    double approach;  ///< normal velocity against the trough at landing, in omega r sin(beta), >= 0
-};
-
-/// Tangential state with its derivative with respect to the velocity at the start of the period.
+/// Tangential velocity with its derivative with respect to the velocity at the start of the period.
 struct Tangent {
     double v;
     double slope;
 };
 
-/// Follows the contact from t to t_end; `record(kind, start, end, displacement)` is told each phase.
+/// Durations of the slides of an earlier evaluation nearby, in order: guesses for this one.
+struct Hints {
+    std::array<double, 8> duration{unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+    std::size_t next = 0;
+    double guess() const { return next < duration.size() ? duration[next] : unknown; }
+    void learn(double h) {
+        if (next < duration.size()) duration[next] = h;
+        ++next;
+    }
+};
+
+inline constexpr int most_contact_phases = 1000000;
+
+inline PhaseKind slide_kind(bool positive, bool landed) {
+    if (positive) return landed ? PhaseKind::positive_slide_after_landing : PhaseKind::positive_slide;
+    return landed ? PhaseKind::negative_slide_after_landing : PhaseKind::negative_slide;
+}
+
+/// Past a stop: either the mass slides back at once, and its velocity then depends on the time of the stop,
+/// or it rests and forgets. Gives d v / d v0 after the stop.
+inline double slope_past_stop(Slide const& slide, Slide const& back, double sine, double slope) {
+    double const slowing = slide.acceleration(sine), reversed = back.acceleration(sine);
+    return reversed > 0 && slowing < 0 ? slope * std::min(-reversed / slowing, 1.0) : 0;
+}
+
+/// Follows the contact from `at` to `end`. `record(kind, from, to, displacement, slope)` is told each phase.
 template <class Record>
-Tangent follow_contact(Law const& law, Tangent s, double t, double t_end, bool landed, Record&& record) {
-    for (int guard = 0; t < t_end; ++guard) {
-        if (guard > 1000000) throw PhaseError("contact does not end");
-        Slide const* slide = nullptr;
-        bool begins = false;
-        if (s.v > 0) slide = &law.positive;
-        if (s.v < 0) slide = &law.negative;
-        if (slide == nullptr) {
-            double const wait_p = law.positive.wait(t), wait_n = law.negative.wait(t);
+Tangent follow_contact(Law const& law, Tangent s, Instant at, Instant const end, bool landed, Hints& hints,
+                       Record& record) {
+    for (int guard = 0; at.t < end.t; ++guard) {
+        if (guard > most_contact_phases) throw PhaseError("the contact does not end");
+        bool forward = s.v > 0, begins = false;
+        if (s.v == 0) {
+            double const wait_p = law.positive.wait(at.t), wait_n = law.negative.wait(at.t);
             double const wait = std::min(wait_p, wait_n);
+            forward = wait_p <= wait_n;
             if (wait > 0) {
-                double const end = std::min(t + wait, t_end);
-                record(PhaseKind::rest, t, end, 0.0);
+                bool const to_end = wait >= end.t - at.t;
+                Instant next = end;
+                if (!to_end) {
+                    next = (forward ? law.positive : law.negative).begin();
+                    next.t = at.t + wait;
+                }
+                record(PhaseKind::rest, at, next, 0.0, 0.0);
+                s = {0, 0};
+                if (to_end) return s;
+                at = next;
                 landed = false;
-                t = end;
                 begins = true;
             }
-            s = {0, wait > 0 ? 0 : s.slope};
-            if (t >= t_end) break;
-            slide = wait_p <= wait_n ? &law.positive : &law.negative;
         }
+        Slide const& slide = forward ? law.positive : law.negative;
         double const w0 = std::abs(s.v);
-        double const h = slide->duration(w0, t, t_end - t, begins);
-        auto const kind =
-            slide->sign() > 0
-                ? (landed ? PhaseKind::positive_slide_after_landing : PhaseKind::positive_slide)
-                : (landed ? PhaseKind::negative_slide_after_landing : PhaseKind::negative_slide);
-        bool const stops = h < t_end - t;
-        double const end = stops ? t + h : t_end;
-        record(kind, t, end, slide->sign() * slide->distance(w0, t, h));
+        bool stopped = false;
+        Instant const to = slide.stop(w0, at, end, begins, hints.guess(), stopped);
+        hints.learn(stopped ? to.t - at.t : unknown);
+        record(slide_kind(forward, landed), at, to, slide.sign() * slide.distance(w0, at, to), s.slope);
         landed = false;
-        if (!stops) return {slide->sign() * std::max(slide->speed(w0, t, h), 0.0), s.slope};
-        // Past the stop: either it slides back at once, and the velocity then depends on the time of the
-        // stop, or it rests and forgets.
-        Slide const& back = slide->sign() > 0 ? law.negative : law.positive;
-        double const slowing = slide->acceleration(end), reversed = back.acceleration(end);
-        s = {0, reversed > 0 && slowing < 0 ? s.slope * std::min(-reversed / slowing, 1.0) : 0};
-        t = end;
+        if (!stopped) return {slide.sign() * std::max(slide.speed(w0, at, to.t, to.cosine), 0.0), s.slope};
+        Slide const& back = forward ? law.negative : law.positive;
+        s = {0, slope_past_stop(slide, back, to.sine, s.slope)};
+        at = to;
     }
     return s;
 }

@@ -3,76 +3,23 @@
 #include "theory/contact.hpp"
 #include "theory/errors.hpp"
 #include "theory/flight.hpp"
+#include "theory/input_check.hpp"
 #include "theory/periodic.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace vibrotrough::theory {
 namespace {
 
-using detail::Flight;
-using detail::follow_contact;
+using detail::Instant;
 using detail::Law;
 using detail::NormalMotion;
-using detail::Tangent;
 using detail::two_pi;
 
 constexpr double shortest_phase = 1e-12;  // rad; shorter ones are rounding, not motion
-
-std::string number(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-void require(bool good, char const* name, double value, char const* range) {
-    if (good) return;
-    throw std::invalid_argument(std::string(name) + " = " + number(value) + " is outside its range " + range);
-}
-
-void check(PointMass const& p) {
-    require(p.throw_number > 0 && p.throw_number <= 1e4, "throw_number", p.throw_number, "(0, 1e4]");
-    require(p.tan_vibration_angle > 0 && p.tan_vibration_angle <= 1e6, "tan_vibration_angle",
-            p.tan_vibration_angle, "(0, 1e6]");
-    require(std::abs(p.tan_inclination) <= 1e6, "tan_inclination", p.tan_inclination, "[-1e6, 1e6]");
-    require(p.friction >= 0 && p.friction <= 1e6, "friction", p.friction, "[0, 1e6]");
-}
-
-std::string described(PointMass const& p) {
-    return "throw_number=" + number(p.throw_number) +
-           " tan_vibration_angle=" + number(p.tan_vibration_angle) +
-           " tan_inclination=" + number(p.tan_inclination) + " friction=" + number(p.friction);
-}
-
-/// Eqs. 17, 18: the landing slows the slip by mu tan(beta) times the approach velocity, and at most stops it.
-Tangent landed(Tangent s, double impulse) {
-    if (std::abs(s.v) <= impulse) return {0, 0};
-    return {s.v - std::copysign(impulse, s.v), s.slope};
-}
-
-/// One period of the normal motion along the trough, from velocity v at its start.
-template <class Record>
-Tangent follow_period(Law const& law, NormalMotion const& normal, double v, Record&& record) {
-    Tangent s{v, 1};
-    auto const& flights = normal.flights;
-    if (flights.empty()) return follow_contact(law, s, normal.start, normal.end, false, record);
-    for (std::size_t i = 0; i < flights.size(); ++i) {
-        Flight const& flight = flights[i];
-        double const h = flight.end - flight.start;
-        // Eq. 16: weightless but for gravity along the trough.
-        record(PhaseKind::flight, flight.start, flight.end,
-               s.v * h - law.gravity * h * h / 2 - detail::sine_excess(flight.start, h));
-        s.v += -law.gravity * h - (std::cos(flight.end) - std::cos(flight.start));
-        s = landed(s, law.friction_tangent * flight.approach);
-        double const next = i + 1 < flights.size() ? flights[i + 1].start : normal.end;
-        s = follow_contact(law, s, flight.end, next, true, record);
-    }
-    return s;
-}
 
 Motion resting_motion() {
     return {.velocity_efficiency = 0,
@@ -96,19 +43,14 @@ Motion endless_motion(PointMass const& input) {
             .outcome = level ? Outcome::indifferent : Outcome::runs_away};
 }
 
-/// Without flight the period may start anywhere: where a slide begins, so that a rest before it makes v = 0
-/// exact.
-void start_at_slide(NormalMotion& normal, Law const& law) {
-    detail::Slide const& first = law.positive.can_start() ? law.positive : law.negative;
-    double const begin = std::fmod(first.begin() + 2 * two_pi, two_pi);
-    normal = {.flights = {}, .start = begin, .end = begin + two_pi, .cycles = 1};
-}
-
 std::vector<Phase> record_period(Law const& law, NormalMotion const& normal, double v) {
     std::vector<Phase> phases;
-    follow_period(law, normal, v, [&](PhaseKind kind, double start, double end, double displacement) {
-        if (end - start > shortest_phase) phases.push_back({kind, start, end, displacement});
-    });
+    detail::Hints hints;
+    detail::follow_period(law, normal, v, hints,
+                          [&](PhaseKind kind, Instant from, Instant to, double displacement, double) {
+                              if (to.t - from.t > shortest_phase)
+                                  phases.push_back({kind, from.t, to.t, displacement});
+                          });
     return phases;
 }
 
@@ -129,13 +71,15 @@ void describe(Motion& motion, double length) {
 
 /// No period was found: the mean over the second half of what was followed.
 Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
-    double const middle = (normal.start + normal.end) / 2;
+    double const middle = (normal.start.t + normal.end.t) / 2;
     double displacement = 0, time = 0;
-    follow_period(law, normal, 0, [&](PhaseKind, double start, double end, double moved) {
-        if (start < middle) return;
-        displacement += moved;
-        time += end - start;
-    });
+    detail::Hints hints;
+    detail::follow_period(law, normal, 0, hints,
+                          [&](PhaseKind, Instant from, Instant to, double moved, double) {
+                              if (from.t < middle) return;
+                              displacement += moved;
+                              time += to.t - from.t;
+                          });
     return {.velocity_efficiency = displacement / time,
             .mode = "",
             .phases = {},
@@ -145,33 +89,45 @@ Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
             .outcome = Outcome::unsettled};
 }
 
+/// Without flight: moves the start of the period from within a slide to where the positive slide starts, or
+/// the negative one where there is none.
+void start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
+    for (auto const first : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
+        for (Phase const& phase : motion.phases) {
+            if (phase.kind != first || phase.start == normal.start.t) continue;
+            normal.start = Instant::at(phase.start);
+            normal.end = normal.start;
+            normal.end.t += two_pi;
+            motion.phases = record_period(law, normal, 0);
+            return;
+        }
+    }
+}
+
 Motion solve_checked(PointMass const& input) {
     if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) return endless_motion(input);
     Law const law = detail::make_law(input);
-    NormalMotion normal = detail::normal_motion(input.throw_number);
-    if (normal.cycles == 0) return unsettled_motion(law, normal);
-    bool const flies = !normal.flights.empty();
-    if (!flies && !law.positive.can_start() && !law.negative.can_start()) return resting_motion();
-    if (!flies) start_at_slide(normal, law);
-    auto const ignore = [](PhaseKind, double, double, double) {};
-    double v = detail::fixed_point([&](double v0) { return follow_period(law, normal, v0, ignore); }, 0);
+    NormalMotion normal;
+    bool const flies = input.throw_number > 1;
+    if (flies) {
+        detail::find_normal_motion(input.throw_number, normal);
+        if (normal.cycles == 0) return unsettled_motion(law, normal);
+    } else if (!detail::start_at_slide(law, normal)) {
+        return resting_motion();
+    }
+    detail::Hints hints;
+    auto const ignore = [](PhaseKind, Instant, Instant, double, double) {};
+    auto const period = [&](double v0) { return detail::follow_period(law, normal, v0, hints, ignore); };
+    auto const start = detail::fixed_point(period, 0, 0);
     Motion motion{.velocity_efficiency = 0,
                   .mode = "",
-                  .phases = record_period(law, normal, v),
+                  .phases = record_period(law, normal, start.v),
                   .flight_number = 0,
                   .period_cycles = normal.cycles,
                   .converged = true,
                   .outcome = Outcome::periodic};
-    if (!flies && v != 0) {  // start where the positive slide does
-        for (Phase const& phase : motion.phases) {
-            if (phase.kind != PhaseKind::positive_slide || phase.start == normal.start) continue;
-            normal.start = phase.start;
-            normal.end = phase.start + two_pi;
-            motion.phases = record_period(law, normal, 0);
-            break;
-        }
-    }
-    describe(motion, normal.end - normal.start);
+    if (!flies && start.v != 0) start_at_first_slide(motion, law, normal);
+    describe(motion, normal.end.t - normal.start.t);
     return motion;
 }
 
@@ -215,11 +171,11 @@ double machine_number(PointMass const& input) {
 }
 
 Motion solve(PointMass const& input) {
-    check(input);
+    detail::check_ranges(input);
     try {
         return solve_checked(input);
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + described(input) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::described(input) + ")");
     }
 }
 

@@ -71,6 +71,10 @@ double machine_number(PointMass const& input);
 ///
 /// mu = |tan(alpha)| has many periodic motions: the slowest one is given.
 ///
+/// Error of eta below 1e-9 where rounding is small against friction and the motion is not marginal:
+/// 1e-6 max(1, Gamma) < mu tan(beta) < 1e4 and |tan(alpha)| < 0.999 mu. Outside, eta is known to about
+/// 1e-15 / (mu tan(beta)), 1e-15 mu tan(beta) and, at |tan(alpha)| = mu, 1e-7.
+///
 /// @throws std::invalid_argument when an input is out of its range (see PointMass)
 /// @throws PhaseError when a phase cannot be solved
 Motion solve(PointMass const& input);

@@ -13,7 +13,7 @@ struct FrameSource {
     double angular_frequency;      ///< omega, rad/s: the trough's displacement is A sin(omega t)
     double amplitude_x;            ///< m, r cos(beta)
     double amplitude_z;            ///< m, r sin(beta)
-    std::string caption;           ///< one line shown in the scene; may be empty
+    std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
 };
 
 struct ExportedFrames {

@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""Draws velocity efficiency against throw number from campaign.h5: DEM points with error bars, one colour per vibration
+angle, over the theory's lines.
+
+    plot_campaign.py DIR [--theory FILE.csv] [--output NAME]
+
+DIR holds campaign.h5. FILE.csv is what the program computed of the theory, with at least the columns throw_number,
+vibration_angle_deg and velocity_efficiency (a fine curve, drawn as a line) or efficiency_theory (the theory at the cases,
+as `vibrotrough compare --csv` prints it, drawn as small crosses joined by a thin line). Several angles, and where there are
+columns inclination_deg or friction several of those, stand one below the other. Nothing of the theory is computed here.
+Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
+"""
+
+import argparse
+import csv
+import math
+import pathlib
+import sys
+from collections import defaultdict
+
+import h5py
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+# Okabe and Ito's colours, told apart by the colour-blind; markers and dashes say the same in black and white.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (3, 1)), (0, (1, 1))]
+
+
+class Problem(Exception):
+    """Something the user can mend; the text is one line."""
+
+
+def read_campaign(path):
+    """Columns of campaign.h5 as arrays, and its root attributes."""
+    try:
+        with h5py.File(path) as file:
+            columns = {
+                name: data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:] for name, data in file.items()
+            }
+            return columns, dict(file.attrs)
+    except OSError as error:
+        raise Problem(f"cannot read {path} ({error}); give a campaign's folder") from error
+
+
+def read_theory(path):
+    """Lines of the theory: vibration angle in degrees (rounded) -> list of (throw numbers, efficiencies), and their style."""
+    points = defaultdict(list)
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = csv.DictReader(file)
+            fine = "velocity_efficiency" in (rows.fieldnames or [])
+            for row in rows:
+                key = (row["vibration_angle_deg"], row.get("inclination_deg"), row.get("friction"))
+                value = row["velocity_efficiency" if fine else "efficiency_theory"]
+                points[key].append((float(row["throw_number"]), float(value) if value else math.nan))
+    except (OSError, KeyError, ValueError) as error:
+        raise Problem(f"cannot use {path} as a theory curve ({error!r}); see --help for its columns") from error
+    lines = defaultdict(list)
+    for key, pairs in points.items():
+        lines[same_angle(float(key[0]))].append(np.array(sorted(pairs)).T)
+    return lines, {"linewidth": 1.6} if fine else {"linewidth": 0.8, "marker": "x", "markersize": 5}
+
+
+def same_angle(degrees):
+    """Angles that differ only by rounding are one."""
+    return round(degrees, 4)
+
+
+def series_of(columns):
+    """What the cases differ in besides throw number and vibration angle, for the legend: rows -> label."""
+    shown = {
+        "inclination": ("\u03b1 = {:.3g}\u00b0", math.degrees(1.0)),
+        "friction": ("\u03bc = {:.3g}", 1.0),
+        "amplitude": ("r = {:.3g} mm", 1e3),
+        "grain_diameter": ("d = {:.3g} mm", 1e3),
+        "grain_friction": ("grain \u03bc = {:.3g}", 1.0),
+        "layer_grains": ("{:.0f} grains", 1.0),
+    }
+    varied = [name for name in shown if len(np.unique(columns[name])) > 1]
+    groups = defaultdict(list)
+    for row in range(len(columns["case"])):
+        groups[tuple(columns[name][row] for name in varied)].append(row)
+    return {
+        ", ".join(shown[name][0].format(shown[name][1] * value) for name, value in zip(varied, key)): rows
+        for key, rows in sorted(groups.items())
+    }
+
+
+def draw(axes, columns, theory, style):
+    angles = np.array([same_angle(angle) for angle in np.degrees(columns["vibration_angle"])])
+    every_angle = sorted(set(angles) | set(theory))
+    for index, angle in enumerate(every_angle):
+        colour, dash = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
+        for throw_number, efficiency in theory.get(angle, []):
+            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, **style)
+        for number, (label, rows) in enumerate(series_of(columns).items()):
+            rows = [row for row in rows if angles[row] == angle]
+            if not rows:
+                continue
+            rows.sort(key=lambda row: columns["throw_number"][row])
+            name = f"\u03b2 = {angle:.3g}\u00b0"
+            axes.errorbar(
+                columns["throw_number"][rows],
+                columns["efficiency"][rows],
+                yerr=columns["efficiency_half_width"][rows],
+                color=colour,
+                marker=MARKERS[(index + number) % len(MARKERS)],
+                markerfacecolor=colour if number == 0 else "white",
+                linestyle="none",
+                capsize=3,
+                label=f"{name}, {label}" if label else name,
+            )
+
+
+def mark_uncertain(axes, columns):
+    """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
+    drawn = np.isfinite(columns["efficiency"])
+    if not drawn.all():
+        text = f"{np.count_nonzero(~drawn)} of {len(drawn)} cases have no mean (not steady)"
+        axes.figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color="#666666")
+    rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
+    if rows:
+        axes.scatter(
+            columns["throw_number"][rows],
+            columns["efficiency"][rows],
+            s=160,
+            facecolors="none",
+            edgecolors="#777777",
+            label="not steady or not precise",
+            zorder=1,
+        )
+
+
+def label(axes, columns, attributes, theory):
+    confidence = np.unique(columns["confidence"])
+    bars = f"{100 * confidence[0]:.3g} % interval" if len(confidence) == 1 else "confidence interval"
+    axes.set_xlabel("throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)  [-]")
+    axes.set_ylabel("velocity efficiency \u03b7 = v / (\u03c9 r cos \u03b2)  [-]")
+    axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
+    axes.grid(True, color="#e5e5e5", linewidth=0.6)
+    axes.set_axisbelow(True)
+    title = f"points: DEM with {bars}" + ("\nlines: point-mass theory" if theory else "")
+    axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="best")
+    corner = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
+    axes.figure.text(0.99, 0.01, corner, ha="right", va="bottom", fontsize=7, color="#666666")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
+    parser.add_argument("--theory", type=pathlib.Path, metavar="FILE.csv", help="theory curve made by vibrotrough")
+    parser.add_argument("--output", type=pathlib.Path, metavar="NAME", help="path of the figures without .svg and .png")
+    options = parser.parse_args()
+
+    columns, attributes = read_campaign(options.directory / "campaign.h5")
+    if len(columns.get("case", [])) == 0:
+        raise Problem(f"{options.directory / 'campaign.h5'} holds no finished case; run the campaign first")
+    theory, style = read_theory(options.theory) if options.theory else ({}, {})
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10})
+    figure, axes = plt.subplots(figsize=(7.2, 4.8))
+    draw(axes, columns, theory, style)
+    mark_uncertain(axes, columns)
+    label(axes, columns, attributes, theory)
+    figure.tight_layout(rect=(0, 0.02, 1, 1))
+    output = options.output or options.directory / "report" / "efficiency"
+    for kind in ("svg", "png"):
+        path = output.with_name(f"{output.name}.{kind}")
+        try:
+            output.parent.mkdir(parents=True, exist_ok=True)
+            figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+        except OSError as error:
+            raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
+        print(path)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Problem as problem:
+        sys.exit(f"plot_campaign.py: {problem}")

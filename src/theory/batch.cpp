@@ -1,0 +1,61 @@
+#include "theory/batch.hpp"
+
+#include <ctime>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace vibrotrough::theory {
+namespace {
+
+/// The wrong point that comes first, whatever thread meets it first.
+class FirstMistake {
+  public:
+    void note(std::size_t index, std::string const& message) {
+        std::lock_guard const lock(mutex_);
+        if (found_ && index >= index_) return;
+        found_ = true;
+        index_ = index;
+        message_ = message;
+    }
+    void raise() const {
+        if (found_) throw std::invalid_argument("point " + std::to_string(index_ + 1) + ": " + message_);
+    }
+
+  private:
+    std::mutex mutex_;
+    bool found_ = false;
+    std::size_t index_ = 0;
+    std::string message_;
+};
+
+}  // namespace
+
+BatchAnswer solve_batch(std::vector<Inputs> const& inputs, int jobs) {
+    BatchAnswer answer{std::vector<MapPoint>(inputs.size()), 0};
+    FirstMistake mistake;
+    tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
+    std::clock_t const start = std::clock();
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, inputs.size(), 64), [&](auto const& range) {
+            EfficiencySolver solver;
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                try {
+                    answer.points[i] = solve_inputs(inputs[i], solver);
+                } catch (std::invalid_argument const& error) {
+                    mistake.note(i, error.what());
+                }
+            }
+        });
+    });
+    mistake.raise();
+    auto const count = static_cast<double>(inputs.empty() ? 1 : inputs.size());
+    answer.cpu_seconds_per_solution = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count;
+    return answer;
+}
+
+}  // namespace vibrotrough::theory

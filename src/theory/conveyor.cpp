@@ -1,0 +1,312 @@
+#include "theory/conveyor.hpp"
+
+#include "theory/conveyor_walk.hpp"
+#include "theory/input_check.hpp"
+#include "theory/periodic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <boost/math/distributions/students_t.hpp>
+
+namespace vibrotrough::theory {
+namespace {
+
+using detail::Passage;
+using detail::two_pi;
+using detail::Walk;
+using detail::WalkState;
+using Keep = Walk::Keep;
+
+constexpr int longest_period = 64;  // cycles
+constexpr int settling = 500;       // cycles before a mean without a period is taken
+constexpr int batches = 20;         // of that mean
+constexpr int cycles_per_batch = 125;
+constexpr int plain_repeats = 60;      // of a period, before Newton takes over
+constexpr double closing = 1e-6;       // rad: how well an orbit that closes within state_match closes in time
+constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, between two periods
+constexpr double state_match = 1e-11;  // of gap, its rate and slip velocity, in their units
+
+void check_ranges(Conveyor const& c) {
+    using detail::require_range;
+    detail::check_ranges(c.point);
+    require_range(
+        c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
+        "static_friction", c.static_friction, "[friction, 1e6]");
+    require_range(c.restitution >= 0 && c.restitution < 1, "restitution", c.restitution, "[0, 1)");
+    require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
+                  "[1e-9, 1]");
+    require_range(c.air_drag >= 0 && c.air_drag <= 1e3, "air_drag", c.air_drag, "[0, 1000]");
+    require_range(std::abs(c.along_ratio) <= 1e3, "along_ratio", c.along_ratio, "[-1000, 1000]");
+    require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
+    for (auto const* harmonics : {&c.along, &c.normal}) {
+        for (Harmonic const& h : *harmonics) {
+            require_range(h.order >= 1 && h.order <= 1000, "order", h.order, "[1, 1000]");
+            require_range(std::abs(h.amplitude) <= 1e3, "amplitude", h.amplitude, "[-1000, 1000]");
+            require_range(std::abs(h.phase) <= 100, "phase", h.phase, "[-100, 100]");
+        }
+    }
+    require_range(c.wall_friction >= 0 && c.wall_friction <= 1e3, "wall_friction", c.wall_friction,
+                  "[0, 1000]");
+    require_range(c.wall_pressure_ratio >= 0 && c.wall_pressure_ratio <= 1, "wall_pressure_ratio",
+                  c.wall_pressure_ratio, "[0, 1]");
+    require_range(c.height_over_width >= 0 && c.height_over_width <= 1e3, "height_over_width",
+                  c.height_over_width, "[0, 1000]");
+}
+
+Motion no_motion(Outcome outcome, double eta) {
+    return {.velocity_efficiency = eta,
+            .mode = "",
+            .phases = {},
+            .flight_number = 0,
+            .period_cycles = 0,
+            .converged = false,
+            .outcome = outcome};
+}
+
+WalkState at_rest(ConveyorModel const& model) {
+    WalkState s;
+    s.flying = model.normal_force(0) < 0;
+    return s;
+}
+
+double normal_mismatch(WalkState const& a, WalkState const& b) {
+    if (a.flying != b.flying) return HUGE_VAL;
+    return std::max(std::abs(a.gap - b.gap), std::abs(a.gap_rate - b.gap_rate));
+}
+
+double mismatch(WalkState const& a, WalkState const& b) {
+    return std::max(normal_mismatch(a, b), std::abs(a.v - b.v));
+}
+
+/// After how many of the earlier `starts` (the last of them one step ago) the state is back; 0 when it is
+/// not.
+template <class Mismatch>
+int steps_to_return(WalkState const& now, std::vector<WalkState> const& starts, int most,
+                    Mismatch const& differ) {
+    auto const off = [&](int n) { return differ(now, starts[starts.size() - static_cast<std::size_t>(n)]); };
+    for (int n = 1; n <= std::min(most, static_cast<int>(starts.size())); ++n) {
+        if (!(off(n) < state_match)) continue;
+        for (int shorter = 1; shorter < n; ++shorter) {  // an alternating approach closes in on 2 before 1
+            if (n % shorter == 0 && off(shorter) < 1e3 * state_match) return shorter;
+        }
+        return n;
+    }
+    return 0;
+}
+
+class Solver {
+  public:
+    explicit Solver(Conveyor const& conveyor)
+        : model_(std::make_shared<ConveyorModel const>(conveyor)), walk_(*model_), state_(at_rest(*model_)) {}
+
+    ConveyorMotion solve();
+
+  private:
+    bool gravity_wins() const;
+    int find_normal_period();
+    int settle_along(int cycles);
+    Passage pass(WalkState& s, int cycles, Keep keep) const {
+        Passage passage;
+        walk_.advance(s, s.t + two_pi * cycles, passage, keep);
+        return passage;
+    }
+    void rebase() { state_.t -= two_pi * std::round(state_.t / two_pi); }
+    bool repeats(Passage const& two_periods, int cycles) const;
+    ConveyorMotion periodic(int cycles);
+    ConveyorMotion averaged();
+
+    std::shared_ptr<ConveyorModel const> model_;
+    Walk walk_;
+    WalkState state_;
+    bool runs_away_ = false;
+};
+
+bool Solver::gravity_wins() const {
+    auto const friction = effective_friction(model_->conveyor());
+    return model_->drag() == 0 && std::abs(model_->conveyor().point.tan_inclination) > friction.standing;
+}
+
+/// Cycles after which the normal motion returns; 0 when it does not. The state is left there.
+int Solver::find_normal_period() {
+    std::vector<WalkState> starts;
+    for (int cycle = 0; cycle < settling + batches * cycles_per_batch; ++cycle) {
+        starts.push_back(state_);
+        pass(state_, 1, Keep::nothing);
+        rebase();
+        int const n = steps_to_return(state_, starts, longest_period, normal_mismatch);
+        if (n > 0) return n;
+    }
+    return 0;
+}
+
+/// Makes the motion along the trough periodic, given a normal motion that is. @return its period, 0 if none
+int Solver::settle_along(int cycles) {
+    bool const one_friction = model_->conveyor().static_friction <= model_->conveyor().point.friction;
+    bool const by_rule = model_->conveyor().flight_start != FlightStart::actual_velocity;
+    std::vector<WalkState> starts;
+    int const repeats = one_friction && !by_rule ? plain_repeats : 3000;
+    for (int i = 0; i < repeats; ++i) {
+        starts.push_back(state_);
+        state_.slope = 1;
+        Passage const passage = pass(state_, cycles, Keep::nothing);
+        rebase();
+        double const drift = state_.v - starts.back().v;
+        if (!passage.stopped && state_.slope == 1 && std::abs(drift) > 0 && std::abs(state_.v) > 10 &&
+            drift * state_.v > 0 &&
+            std::abs(model_->gravity()) > model_->kinetic_tangent() * model_->weight()) {
+            runs_away_ = true;
+            return 0;
+        }
+        int const n = steps_to_return(state_, starts, longest_period / cycles, mismatch);
+        if (n > 0) return n * cycles;
+    }
+    if (repeats > plain_repeats) return 0;
+    WalkState const start = state_;
+    auto const map = [&](double v) {
+        WalkState s = start;
+        s.v = v;
+        s.slope = 1;
+        s.starting = 0;
+        pass(s, cycles, Keep::nothing);
+        return detail::Tangent{s.v, s.slope};
+    };
+    state_.v = detail::fixed_point(map, start.v, 1e-14).v;
+    state_.starting = 0;
+    return cycles;
+}
+
+/// Where the list of phases begins: at a take-off from contact, else at any flight, else at the positive
+/// slide, else at the negative one, else at the beginning.
+std::size_t first_piece(std::vector<Piece> const& pieces) {
+    auto const find = [&](auto const& wanted) {
+        for (std::size_t i = 1; i < pieces.size(); ++i) {
+            if (wanted(pieces[i], pieces[i - 1])) return i;
+        }
+        return std::size_t{0};
+    };
+    auto const is = [](PhaseKind kind) {
+        return [kind](Piece const& p, Piece const&) { return p.kind == kind; };
+    };
+    auto const takes_off = [](Piece const& p, Piece const& before) {
+        return p.kind == PhaseKind::flight && before.kind != PhaseKind::flight;
+    };
+    std::size_t i = find(takes_off);
+    for (auto const kind : {PhaseKind::flight, PhaseKind::positive_slide, PhaseKind::negative_slide}) {
+        if (i == 0) i = find(is(kind));
+    }
+    return i;
+}
+
+/// Rebounds can amplify rounding from one period to the next until the two differ: then "periodic" has no
+/// meaning.
+bool Solver::repeats(Passage const& two_periods, int cycles) const {
+    WalkState s = state_;
+    double const length = two_pi * cycles, once = pass(s, cycles, Keep::nothing).displacement;
+    double impacts = 0;  // energy of the first period's minus that of the second's
+    for (Impact const& impact : two_periods.impacts) {
+        double const energy = impact.approach * impact.approach;
+        impacts += impact.t < state_.t + length ? energy : -energy;
+    }
+    return std::abs(two_periods.displacement - 2 * once) < repeat_match * length &&
+           std::abs(impacts) < repeat_match * length;
+}
+
+ConveyorMotion Solver::periodic(int cycles) {
+    // Two periods from the section; the list of phases begins at an event within the first.
+    WalkState s = state_;
+    Passage scout = pass(s, 2 * cycles, Keep::pieces);
+    if (!repeats(scout, cycles)) return averaged();
+    std::size_t const first = first_piece(scout.pieces);
+    double const start = scout.pieces[first].start, length = two_pi * cycles;
+    ConveyorMotion result;
+    Motion& motion = result.motion;
+    motion = no_motion(Outcome::periodic, 0);
+    double displacement = 0, last_end = start;
+    double const shift = two_pi * std::floor(start / two_pi);
+    for (std::size_t i = first; i < scout.pieces.size(); ++i) {
+        Piece piece = scout.pieces[i];
+        if (piece.start > start + length - closing) break;
+        last_end = piece.end;
+        piece.end = std::min(piece.end, start + length);
+        result.pieces.push_back(piece);
+        displacement += piece.displacement;
+        motion.phases.push_back({piece.kind, piece.start - shift, piece.end - shift, piece.displacement});
+        motion.mode += to_string(piece.kind);
+        if (piece.kind == PhaseKind::flight) {
+            motion.flight_number = std::max(motion.flight_number, (piece.end - piece.start) / two_pi);
+        }
+    }
+    for (Impact const& impact : scout.impacts) {
+        if (impact.t > start + closing && impact.t <= last_end) result.impacts.push_back(impact);
+    }
+    motion.velocity_efficiency = displacement / length;
+    motion.period_cycles = cycles;
+    motion.converged = true;
+    return result;
+}
+
+ConveyorMotion Solver::averaged() {
+    ConveyorMotion result;
+    pass(state_, settling, Keep::nothing);
+    rebase();
+    std::vector<double> means;
+    double const length = two_pi * cycles_per_batch;
+    for (int i = 0; i < batches; ++i) {
+        means.push_back(pass(state_, cycles_per_batch, Keep::nothing).displacement / length);
+        rebase();
+    }
+    double mean = 0, square = 0;
+    for (double const m : means) mean += m / batches;
+    for (double const m : means) square += (m - mean) * (m - mean) / (batches - 1);
+    boost::math::students_t const student(batches - 1);
+    result.half_width = boost::math::quantile(student, 0.975) * std::sqrt(square / batches);
+    result.cycles_followed = batches * cycles_per_batch;
+    result.motion = no_motion(Outcome::unsettled, mean);
+    Passage last = pass(state_, cycles_per_batch, Keep::pieces);
+    result.pieces = std::move(last.pieces);
+    result.impacts = std::move(last.impacts);
+    return result;
+}
+
+ConveyorMotion Solver::solve() {
+    double const tan_alpha = model_->conveyor().point.tan_inclination;
+    double const infinity = std::numeric_limits<double>::infinity();
+    ConveyorMotion result;
+    if (gravity_wins()) {
+        result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
+    } else if (model_->kinetic_tangent() == 0 && tan_alpha == 0 && model_->drag() == 0) {
+        result.motion = no_motion(Outcome::indifferent, 0);
+    } else {
+        int const normal = find_normal_period();
+        int const cycles = normal > 0 ? settle_along(normal) : 0;
+        if (runs_away_) {
+            result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
+        } else {
+            result = cycles > 0 ? periodic(cycles) : averaged();
+        }
+    }
+    result.model = model_;
+    return result;
+}
+
+}  // namespace
+
+EffectiveFriction effective_friction(Conveyor const& c) {
+    double const wall = c.wall_pressure_ratio * c.wall_friction * c.height_over_width;
+    double const kinetic = c.point.friction;
+    return {kinetic + wall, std::max(kinetic, c.static_friction) + wall};
+}
+
+ConveyorMotion solve(Conveyor const& conveyor) {
+    check_ranges(conveyor);
+    try {
+        return Solver(conveyor).solve();
+    } catch (PhaseError const& error) {
+        throw PhaseError(std::string(error.what()) + " (" + detail::described(conveyor.point) + ")");
+    }
+}
+
+}  // namespace vibrotrough::theory

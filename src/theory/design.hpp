@@ -1,0 +1,48 @@
+#pragma once
+
+#include "theory/quantities.hpp"
+
+#include <string>
+#include <vector>
+
+namespace vibrotrough::theory {
+
+struct Range {
+    double low, high;
+};
+
+/// Within what a machine may be chosen.
+struct DesignLimits {
+    double friction;                        ///< mu, given
+    Range frequency{5, 60};                 ///< Hz
+    Range amplitude{0.0005, 0.015};         ///< m
+    Range vibration_angle{0.0873, 1.0472};  ///< rad, within (0, pi/2)
+    Range inclination{0, 0};                ///< rad, within (-pi/2, pi/2)
+    double most_machine_number = 5;         ///< K: what the structure bears
+    double most_throw_number = 3.29;        ///< Gamma: beyond a flight of one cycle landings get irregular
+    double least_mass_flow = 0;             ///< kg/s, 0: none; needs a layer
+    double gravity = 9.80665;
+    double bulk_density = 0, layer_height = 0, layer_width = 0;
+};
+
+struct Design {
+    double frequency, amplitude, vibration_angle, inclination;  ///< SI, rad
+    double throw_number, machine_number, velocity_efficiency;
+    double conveying_speed;  ///< m/s
+    double mass_flow;        ///< kg/s; 0 without a layer
+    std::string mode;
+    bool feasible;  ///< all limits are kept; when not, the flow asked for is not reached
+    std::vector<std::string> active_limits;  ///< that hold the speed back: "machine_number <= 5" and the like
+};
+
+/// The fastest conveying of the plastic point mass within limits: NLopt's ISRES over frequency, amplitude,
+/// vibration angle and inclination, with the machine number and throw number as constraints, polished by
+/// COBYLA.
+///
+/// The search is global but random with a fixed seed: another machine within 0.1 % of the speed may exist.
+/// A limit is called active when the optimum lies within 0.1 % of it.
+///
+/// @throws std::invalid_argument when a limit has no sense
+Design fastest_design(DesignLimits const& limits);
+
+}  // namespace vibrotrough::theory

@@ -1,0 +1,86 @@
+#include "theory/inputs.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double zero_vibration_tangent = 1e-12;
+
+constexpr std::array<std::string_view, input_count> names{
+    "throw_number",    "machine_number",  "vibration_angle_deg", "tan_vibration_angle", "inclination_deg",
+    "tan_inclination", "friction",        "static_friction",     "restitution",         "air_drag",
+    "along_ratio",     "along_phase_deg", "wall_friction",       "wall_pressure_ratio", "height_over_width"};
+
+}  // namespace
+
+std::string_view name_of(Input input) {
+    return names[static_cast<std::size_t>(input)];
+}
+
+std::optional<Input> input_named(std::string_view name) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == name) return static_cast<Input>(i);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> Inputs::incomplete() const {
+    auto const count = [&](Input a, Input b) { return (get(a) ? 1 : 0) + (get(b) ? 1 : 0); };
+    auto const pair = [](Input a, Input b) {
+        return std::string(name_of(a)) + " and " + std::string(name_of(b));
+    };
+    int const drive = count(Input::throw_number, Input::machine_number);
+    int const angle = count(Input::vibration_angle_deg, Input::tan_vibration_angle);
+    int const slope = count(Input::inclination_deg, Input::tan_inclination);
+    if (drive != 1) return "give exactly one of " + pair(Input::throw_number, Input::machine_number);
+    if (angle != 1)
+        return "give exactly one of " + pair(Input::vibration_angle_deg, Input::tan_vibration_angle);
+    if (slope > 1) return "give at most one of " + pair(Input::inclination_deg, Input::tan_inclination);
+    if (!get(Input::friction)) return "friction is missing";
+    return std::nullopt;
+}
+
+bool Inputs::plastic() const {
+    for (auto i = static_cast<std::size_t>(Input::static_friction); i < input_count; ++i) {
+        if (value_[i]) return false;
+    }
+    return true;
+}
+
+PointMass Inputs::point() const {
+    if (auto const problem = incomplete()) throw std::invalid_argument(*problem);
+    PointMass p{};
+    p.friction = *get(Input::friction);
+    if (auto const tan_alpha = get(Input::tan_inclination)) p.tan_inclination = *tan_alpha;
+    if (auto const alpha = get(Input::inclination_deg)) p.tan_inclination = std::tan(*alpha * degree);
+    if (auto const tan_beta = get(Input::tan_vibration_angle)) p.tan_vibration_angle = *tan_beta;
+    if (auto const beta = get(Input::vibration_angle_deg)) p.tan_vibration_angle = std::tan(*beta * degree);
+    if (auto const gamma = get(Input::throw_number)) {
+        p.throw_number = *gamma;
+    } else {
+        if (p.tan_vibration_angle == 0) p.tan_vibration_angle = zero_vibration_tangent;
+        double const a = p.tan_inclination, b = p.tan_vibration_angle;
+        p.throw_number = *get(Input::machine_number) * b / std::sqrt(1 + b * b) * std::sqrt(1 + a * a);
+    }
+    return p;
+}
+
+Conveyor Inputs::conveyor() const {
+    Conveyor c{};
+    c.point = point();
+    if (auto const v = get(Input::static_friction)) c.static_friction = *v;
+    if (auto const v = get(Input::restitution)) c.restitution = *v;
+    if (auto const v = get(Input::air_drag)) c.air_drag = *v;
+    if (auto const v = get(Input::along_ratio)) c.along_ratio = *v;
+    if (auto const v = get(Input::along_phase_deg)) c.along_phase = *v * degree;
+    if (auto const v = get(Input::wall_friction)) c.wall_friction = *v;
+    if (auto const v = get(Input::wall_pressure_ratio)) c.wall_pressure_ratio = *v;
+    if (auto const v = get(Input::height_over_width)) c.height_over_width = *v;
+    return c;
+}
+
+}  // namespace vibrotrough::theory

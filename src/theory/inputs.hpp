@@ -1,0 +1,60 @@
+#pragma once
+
+#include "theory/conveyor.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vibrotrough::theory {
+
+/// What describes a motion, one number each: the axes of maps and the columns of batches.
+enum class Input : std::size_t {
+    throw_number,
+    machine_number,
+    vibration_angle_deg,
+    tan_vibration_angle,
+    inclination_deg,
+    tan_inclination,
+    friction,
+    static_friction,
+    restitution,
+    air_drag,
+    along_ratio,
+    along_phase_deg,
+    wall_friction,
+    wall_pressure_ratio,
+    height_over_width,
+};
+inline constexpr std::size_t input_count = 15;
+
+/// The name in text: that of the enumerator.
+std::string_view name_of(Input input);
+std::optional<Input> input_named(std::string_view name);
+
+/// The numbers given for a motion; those that are not given have their default.
+///
+/// Exactly one of throw_number and machine_number, one of the two vibration angles, at most one of the two
+/// inclinations, and friction must be given. A vibration angle of zero, which only a machine number allows,
+/// is taken as tan(beta) = 1e-12: eta is known to that.
+class Inputs {
+  public:
+    void set(Input input, double value) { value_[static_cast<std::size_t>(input)] = value; }
+    void clear(Input input) { value_[static_cast<std::size_t>(input)].reset(); }
+    std::optional<double> get(Input input) const { return value_[static_cast<std::size_t>(input)]; }
+
+    /// What is missing or doubly given, in plain words; nothing when the set is complete.
+    std::optional<std::string> incomplete() const;
+    /// Only Sloot & Kruyt's plastic point mass is described: the fast solver may be used.
+    bool plastic() const;
+    /// @throws std::invalid_argument when the set is not complete
+    PointMass point() const;
+    Conveyor conveyor() const;
+
+  private:
+    std::array<std::optional<double>, input_count> value_;
+};
+
+}  // namespace vibrotrough::theory

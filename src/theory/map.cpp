@@ -1,0 +1,161 @@
+#include "theory/map.hpp"
+
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr int bisections = 30;  // of an edge of the grid: 1e-9 of it
+
+ModeCode mode_code(Motion const& motion) {
+    ModeCode code = 0;
+    int length = 0;
+    for (Phase const& phase : motion.phases) code = with_phase(code, phase.kind, length++);
+    return code;
+}
+
+/// A map under construction: its points and how to solve one.
+class Grid {
+  public:
+    Grid(Inputs fixed, Map& map) : fixed_(std::move(fixed)), map_(map) {}
+
+    MapPoint solve(double x, double y, EfficiencySolver& solver) const {
+        Inputs inputs = fixed_;
+        inputs.set(map_.x.input, x);
+        inputs.set(map_.y.input, y);
+        return solve_inputs(inputs, solver);
+    }
+    MapPoint& at(int i, int j) const { return map_.points[static_cast<std::size_t>(j * map_.x.count + i)]; }
+    void solve_line(int line, bool along_y, EfficiencySolver& solver) const {
+        int const length = along_y ? map_.y.count : map_.x.count;
+        for (int k = 0; k < length; ++k) {
+            int const i = along_y ? line : k, j = along_y ? k : line;
+            at(i, j) = solve(map_.x.value(i), map_.y.value(j), solver);
+        }
+    }
+    void locate_boundaries(int row, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const;
+
+  private:
+    struct Crossing {
+        double x, y;
+        ModeCode mode_a, mode_b;
+    };
+    std::optional<Crossing> crossing(int i0, int j0, int i1, int j1, EfficiencySolver& solver) const;
+
+    Inputs fixed_;
+    Map& map_;
+};
+
+/// Where the mode changes on the edge between two nodes.
+std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, EfficiencySolver& solver) const {
+    ModeCode const a = at(i0, j0).mode, b = at(i1, j1).mode;
+    if (a == b) return std::nullopt;
+    double const x0 = map_.x.value(i0), y0 = map_.y.value(j0), dx = map_.x.value(i1) - x0,
+                 dy = map_.y.value(j1) - y0;
+    double lo = 0, hi = 1;
+    ModeCode beyond = b;
+    for (int n = 0; n < bisections; ++n) {
+        double const middle = (lo + hi) / 2;
+        ModeCode const mode = solve(x0 + middle * dx, y0 + middle * dy, solver).mode;
+        if (mode == a) {
+            lo = middle;
+        } else {
+            hi = middle;
+            beyond = mode;
+        }
+    }
+    double const s = (lo + hi) / 2;
+    return Crossing{x0 + s * dx, y0 + s * dy, a, beyond};
+}
+
+void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const {
+    for (int i = 0; i + 1 < map_.x.count; ++i) {
+        ModeCode const corner = at(i, j).mode;
+        if (corner == at(i + 1, j).mode && corner == at(i, j + 1).mode && corner == at(i + 1, j + 1).mode)
+            continue;
+        std::array<std::optional<Crossing>, 4> const edges{
+            crossing(i, j, i + 1, j, solver), crossing(i + 1, j, i + 1, j + 1, solver),
+            crossing(i, j + 1, i + 1, j + 1, solver), crossing(i, j, i, j + 1, solver)};
+        std::vector<Crossing> points;
+        for (auto const& edge : edges) {
+            if (edge) points.push_back(*edge);
+        }
+        if (points.size() == 2) {
+            found.push_back(
+                {points[0].x, points[0].y, points[1].x, points[1].y, points[0].mode_a, points[0].mode_b});
+            continue;
+        }
+        double x = 0, y = 0;  // several modes meet in this cell: join the crossings at their middle
+        for (Crossing const& p : points) {
+            x += p.x / static_cast<double>(points.size());
+            y += p.y / static_cast<double>(points.size());
+        }
+        for (Crossing const& p : points) found.push_back({p.x, p.y, x, y, p.mode_a, p.mode_b});
+    }
+}
+
+template <class Work>
+void for_lines(int lines, Work const& work) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, lines, 4), [&](tbb::blocked_range<int> const& range) {
+        EfficiencySolver solver;
+        for (int line = range.begin(); line < range.end(); ++line) work(line, solver);
+    });
+}
+
+}  // namespace
+
+MapPoint solve_inputs(Inputs const& inputs, EfficiencySolver& solver) {
+    if (inputs.plastic()) {
+        Efficiency const e = solver(inputs.point());
+        return {e.velocity_efficiency, 0, e.mode, e.period_cycles, e.outcome};
+    }
+    ConveyorMotion const m = solve(inputs.conveyor());
+    return {m.motion.velocity_efficiency, m.half_width, mode_code(m.motion), m.motion.period_cycles,
+            m.motion.outcome};
+}
+
+Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options) {
+    if (x.input == y.input) throw std::invalid_argument("both axes are " + std::string(name_of(x.input)));
+    for (MapAxis const* axis : {&x, &y}) {
+        bool const good =
+            axis->count >= 1 && axis->count <= 20000 && std::isfinite(axis->from) && std::isfinite(axis->to);
+        if (!good) throw std::invalid_argument("an axis needs 1 to 20000 values between finite ends");
+        if (fixed.get(axis->input)) {
+            throw std::invalid_argument(std::string(name_of(axis->input)) + " is both an axis and fixed");
+        }
+    }
+    Map map{x, y, {}, {}, 0};
+    map.points.resize(static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count));
+    Grid const grid(fixed, map);
+    // The solver is fastest when the throw number, and with it the flight, changes slowest.
+    bool const along_y = x.input == Input::throw_number;
+    tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
+    std::clock_t const start = std::clock();
+    arena.execute([&] {
+        for_lines(along_y ? x.count : y.count,
+                  [&](int line, EfficiencySolver& solver) { grid.solve_line(line, along_y, solver); });
+    });
+    map.cpu_seconds_per_solution =
+        static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(map.points.size());
+    if (!options.boundaries || y.count < 2) return map;
+    std::vector<std::vector<BoundaryPiece>> found(static_cast<std::size_t>(y.count - 1));
+    arena.execute([&] {
+        for_lines(y.count - 1, [&](int line, EfficiencySolver& solver) {
+            grid.locate_boundaries(line, solver, found[static_cast<std::size_t>(line)]);
+        });
+    });
+    for (auto const& row : found) map.boundaries.insert(map.boundaries.end(), row.begin(), row.end());
+    return map;
+}
+
+}  // namespace vibrotrough::theory

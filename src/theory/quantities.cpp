@@ -1,0 +1,200 @@
+#include "theory/quantities.hpp"
+
+#include "theory/conveyor_model.hpp"
+#include "theory/input_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include <boost/math/quadrature/gauss.hpp>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+/// A piece with its velocities.
+class PieceMotion {
+  public:
+    PieceMotion(ConveyorModel const& model, Piece const& piece)
+        : model_(model), piece_(piece), x_(velocity_x()), y_(velocity_y()) {}
+
+    bool flies() const { return piece_.kind == PhaseKind::flight; }
+    bool rests() const { return piece_.kind == PhaseKind::rest; }
+    double vx(double t) const { return rests() ? model_.trough_vx(t) : x_(t); }
+    double vy(double t) const { return flies() ? y_(t) : model_.trough_vy(t); }
+    double slip(double t) const { return vx(t) - model_.trough_vx(t); }
+    double moved(double t) const {
+        return rests() ? 0 : x_.travel(t) - (model_.trough_x(t) - model_.trough_x(piece_.start));
+    }
+    double gap(double t) const {
+        if (!flies()) return 0;
+        return piece_.gap + y_.travel(t) - (model_.trough_y(t) - model_.trough_y(piece_.start));
+    }
+    double normal_force(double t) const { return flies() ? 0 : std::max(model_.normal_force(t), 0.0); }
+    double tangential_force(double t) const {
+        if (flies()) return 0;
+        return rests() ? model_.needed_friction(t) : -sign() * model_.kinetic_tangent() * normal_force(t);
+    }
+
+  private:
+    double sign() const {
+        bool const forward = piece_.kind == PhaseKind::positive_slide ||
+                             piece_.kind == PhaseKind::positive_slide_after_landing;
+        return forward ? 1 : -1;
+    }
+    DrivenVelocity velocity_x() const {
+        double const u = piece_.along_velocity;
+        if (flies()) return model_.flight_velocity_x(piece_.start, u);
+        return model_.slide_velocity(sign(), piece_.start, u);
+    }
+    DrivenVelocity velocity_y() const {
+        return model_.flight_velocity_y(piece_.start, model_.trough_vy(piece_.start) + piece_.gap_rate);
+    }
+
+    ConveyorModel const& model_;
+    Piece piece_;
+    DrivenVelocity x_, y_;
+};
+
+/// The integral over a piece, by Gauss's rule on stretches of at most a quarter of the fastest harmonic.
+double integral(Piece const& piece, double stretch, std::function<double(double)> const& f) {
+    int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / stretch)));
+    double sum = 0;
+    for (int i = 0; i < parts; ++i) {
+        double const a = piece.start + (piece.end - piece.start) * i / parts;
+        double const b = piece.start + (piece.end - piece.start) * (i + 1) / parts;
+        sum += boost::math::quadrature::gauss<double, 15>::integrate(f, a, b);
+    }
+    return sum;
+}
+
+void require_pieces(ConveyorMotion const& motion) {
+    if (motion.pieces.empty()) {
+        throw std::invalid_argument("this motion has no cycle to look at: " +
+                                    to_string(motion.motion.outcome));
+    }
+}
+
+double duration(ConveyorMotion const& motion) {
+    return motion.pieces.back().end - motion.pieces.front().start;
+}
+
+double shortest_stretch(Conveyor const& conveyor) {
+    int order = 1;
+    for (Harmonic const& h : conveyor.along) order = std::max(order, h.order);
+    for (Harmonic const& h : conveyor.normal) order = std::max(order, h.order);
+    return two_pi / 4 / order;
+}
+
+/// cos^2 and sin^2 of the vibration angle: energies add up with them.
+struct Weights {
+    double along, normal;
+};
+Weights weights(Conveyor const& conveyor) {
+    double const b = conveyor.point.tan_vibration_angle;
+    return {1 / (1 + b * b), b * b / (1 + b * b)};
+}
+
+}  // namespace
+
+std::vector<TraceSample> trace(ConveyorMotion const& motion, int count) {
+    require_pieces(motion);
+    detail::require_range(count >= 2 && count <= 10'000'000, "samples", count, "[2, 1e7]");
+    ConveyorModel const& model = *motion.model;
+    std::vector<TraceSample> samples;
+    double const start = motion.pieces.front().start, step = duration(motion) / (count - 1);
+    double before = 0;
+    std::size_t p = 0;
+    for (int i = 0; i < count; ++i) {
+        double const t = start + i * step;
+        while (p + 1 < motion.pieces.size() && t >= motion.pieces[p].end)
+            before += motion.pieces[p++].displacement;
+        Piece const& piece = motion.pieces[p];
+        PieceMotion const m(model, piece);
+        samples.push_back({t, piece.kind, model.trough_vx(t), model.trough_vy(t), m.vx(t), m.vy(t),
+                           model.trough_ax(t), model.trough_ay(t), before + m.moved(t),
+                           std::max(m.gap(t), 0.0), m.normal_force(t), m.tangential_force(t)});
+    }
+    return samples;
+}
+
+EnergyBalance energy_balance(ConveyorMotion const& motion) {
+    require_pieces(motion);
+    ConveyorModel const& model = *motion.model;
+    auto const [along, normal] = weights(model.conveyor());
+    double const stretch = shortest_stretch(model.conveyor());
+    EnergyBalance sum{};
+    for (Piece const& piece : motion.pieces) {
+        PieceMotion const m(model, piece);
+        auto const over = [&](auto const& f) { return integral(piece, stretch, f); };
+        sum.trough_work += over([&](double t) {
+            return along * m.tangential_force(t) * model.trough_vx(t) +
+                   normal * m.normal_force(t) * model.trough_vy(t);
+        });
+        sum.friction_loss += over([&](double t) { return -along * m.tangential_force(t) * m.slip(t); });
+        if (model.drag() > 0) {
+            sum.drag_loss += model.drag() * over([&](double t) {
+                                 return along * m.vx(t) * m.vx(t) + normal * m.vy(t) * m.vy(t);
+                             });
+        }
+        sum.lift += along * model.gravity() * piece.displacement;
+    }
+    for (Impact const& impact : motion.impacts) {
+        double const pushed = impact.approach + impact.rebound,
+                     dragged = impact.along_after - impact.along_before;
+        sum.trough_work +=
+            normal * pushed * model.trough_vy(impact.t) + along * dragged * model.trough_vx(impact.t);
+        sum.impact_loss +=
+            normal * (impact.approach * impact.approach - impact.rebound * impact.rebound) / 2 +
+            along * (impact.along_before * impact.along_before - impact.along_after * impact.along_after) / 2;
+    }
+    double const cycles = duration(motion) / two_pi;
+    return {sum.trough_work / cycles, sum.friction_loss / cycles, sum.impact_loss / cycles,
+            sum.drag_loss / cycles, sum.lift / cycles};
+}
+
+double angular_frequency(PointMass const& point, Machine const& machine) {
+    detail::require_range(machine.amplitude > 0 && machine.amplitude <= 10, "amplitude", machine.amplitude,
+                          "(0, 10] m");
+    detail::require_range(machine.gravity > 0 && machine.gravity <= 1e3, "gravity", machine.gravity,
+                          "(0, 1000] m/s2");
+    return std::sqrt(machine_number(point) * machine.gravity / machine.amplitude);
+}
+
+EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine const& machine) {
+    require_pieces(motion);
+    Conveyor const& conveyor = motion.model->conveyor();
+    auto const [along, normal] = weights(conveyor);
+    EngineerQuantities q{};
+    q.angular_frequency = angular_frequency(conveyor.point, machine);
+    q.frequency = q.angular_frequency / two_pi;
+    double const speed = q.angular_frequency * machine.amplitude;  // omega r
+    double const vx = speed * std::sqrt(along), vy = speed * std::sqrt(normal);
+    q.conveying_speed = motion.motion.velocity_efficiency * vx;
+    q.mass_flow = machine.bulk_density * machine.layer_height * machine.layer_width * q.conveying_speed;
+    for (Impact const& impact : motion.impacts) {
+        double const down = impact.approach * vy;
+        q.normal_impact_speed = std::max(q.normal_impact_speed, down);
+        q.impact_speed = std::max(q.impact_speed, std::hypot(down, impact.along_before * vx));
+        q.largest_impulse = std::max(q.largest_impulse, (impact.approach + impact.rebound) * vy);
+    }
+    q.impacts_per_cycle = static_cast<double>(motion.impacts.size()) * two_pi / duration(motion);
+    EnergyBalance const energy = energy_balance(motion);
+    q.friction_energy = energy.friction_loss * speed * speed;
+    q.impact_energy = energy.impact_loss * speed * speed;
+    q.trough_work = energy.trough_work * speed * speed;
+    q.mean_power = q.trough_work * q.frequency;
+    int const samples = 2000;
+    for (TraceSample const& s : trace(motion, samples)) {
+        q.largest_normal_force = std::max(q.largest_normal_force, s.normal_force * q.angular_frequency * vy);
+        q.largest_tangential_force =
+            std::max(q.largest_tangential_force, std::abs(s.tangential_force) * q.angular_frequency * vx);
+    }
+    return q;
+}
+
+}  // namespace vibrotrough::theory

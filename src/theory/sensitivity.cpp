@@ -1,0 +1,50 @@
+#include "theory/sensitivity.hpp"
+
+#include "theory/map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr double relative_step = 1e-5;
+
+double efficiency(Inputs const& inputs) {
+    EfficiencySolver solver;
+    MapPoint const point = solve_inputs(inputs, solver);
+    if (point.outcome != Outcome::periodic) {
+        throw std::invalid_argument("no sensitivity: " + to_string(point.outcome));
+    }
+    return point.velocity_efficiency;
+}
+
+/// An input that may not be negative is changed to one side at zero.
+bool at_its_end(Input input, double value) {
+    return value == 0 && input != Input::inclination_deg && input != Input::tan_inclination &&
+           input != Input::along_phase_deg;
+}
+
+}  // namespace
+
+std::vector<Sensitivity> sensitivities(Inputs const& inputs) {
+    double const eta = efficiency(inputs);
+    std::vector<Sensitivity> answers;
+    for (std::size_t i = 0; i < input_count; ++i) {
+        auto const input = static_cast<Input>(i);
+        auto const value = inputs.get(input);
+        if (!value) continue;
+        double const step = *value == 0 ? relative_step : std::abs(*value) * relative_step;
+        double const low = at_its_end(input, *value) ? *value : *value - step, high = *value + step;
+        Inputs changed = inputs;
+        changed.set(input, low);
+        double const below = efficiency(changed);
+        changed.set(input, high);
+        double const slope = (efficiency(changed) - below) / (high - low);
+        answers.push_back({input, *value, slope, eta == 0 ? 0 : slope * *value / eta});
+    }
+    return answers;
+}
+
+}  // namespace vibrotrough::theory

@@ -1,0 +1,84 @@
+#include "view/theory_map_vtk.hpp"
+
+#include "core/atomic_file.hpp"
+#include "view/vtk_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLImageDataWriter.h>
+
+namespace vibrotrough::view {
+namespace {
+
+double spacing(theory::MapAxis const& axis) {
+    double const step = axis.count > 1 ? (axis.to - axis.from) / (axis.count - 1) : 1;
+    return step != 0 ? step : 1;
+}
+
+}  // namespace
+
+void write_theory_image(std::filesystem::path const& path, theory::Map const& map) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(map.x.count, map.y.count, 1);
+    image->SetOrigin(map.x.from, map.y.from, 0);
+    image->SetSpacing(spacing(map.x), spacing(map.y), 1);
+    vtkNew<vtkDoubleArray> efficiency;
+    efficiency->SetName("velocity_efficiency");
+    vtkNew<vtkIntArray> mode, period;
+    mode->SetName("mode");
+    period->SetName("period_cycles");
+    std::vector<theory::ModeCode> modes{0};
+    for (theory::MapPoint const& point : map.points) {
+        double const eta = point.velocity_efficiency;
+        efficiency->InsertNextValue(std::isfinite(eta) ? eta : std::numeric_limits<double>::quiet_NaN());
+        auto place = std::find(modes.begin(), modes.end(), point.mode);
+        if (place == modes.end()) place = modes.insert(modes.end(), point.mode);
+        mode->InsertNextValue(static_cast<int>(place - modes.begin()));
+        period->InsertNextValue(point.period_cycles);
+    }
+    image->GetPointData()->AddArray(efficiency);
+    image->GetPointData()->AddArray(mode);
+    image->GetPointData()->AddArray(period);
+    image->GetPointData()->SetActiveScalars("velocity_efficiency");
+    vtkNew<vtkStringArray> names;
+    names->SetName("modes");
+    for (theory::ModeCode const code : modes)
+        names->InsertNextValue(code == 0 ? "none" : theory::to_string(code));
+    image->GetFieldData()->AddArray(names);
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writer->SetInputData(image);
+    writer->SetDataModeToBinary();  // never appended: ParaView 5.11 reads it as empty
+    writer->SetCompressorTypeToZLib();
+    writer->WriteToOutputStringOn();
+    writer->Write();
+    write_file_atomically(path, writer->GetOutputString());
+}
+
+void write_theory_boundaries(std::filesystem::path const& path, theory::Map const& map) {
+    vtkNew<vtkPolyData> lines;
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> cells;
+    for (theory::BoundaryPiece const& piece : map.boundaries) {
+        vtkIdType const ends[2] = {points->InsertNextPoint(piece.x0, piece.y0, 0),
+                                   points->InsertNextPoint(piece.x1, piece.y1, 0)};
+        cells->InsertNextCell(2, ends);
+    }
+    lines->SetPoints(points);
+    lines->SetLines(cells);
+    write_vtp(path, *lines);
+}
+
+}  // namespace vibrotrough::view

@@ -1,0 +1,151 @@
+#include "deck/deck.hpp"
+
+#include "core/atomic_file.hpp"
+#include "scenario/campaign_file.hpp"
+#include "scenario/example_campaign.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <regex>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::deck {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Scenario scenario(std::string const& text = example_campaign) {
+    return parse_campaign(text, "test.toml").cases.front();
+}
+
+std::string in_file(Scenario const& s, int packing = 1) {
+    return make_deck(s, packing).files.at("in.liggghts");
+}
+
+/// The number after `before` in the deck.
+double number_after(std::string const& deck, std::string const& before) {
+    auto const at = deck.find(before);
+    EXPECT_NE(at, std::string::npos) << before;
+    return std::stod(deck.substr(at + before.size()));
+}
+
+// Rayleigh time by hand for R = 1.35 mm, rho = 1400, E = 5 MPa, nu = 0.35:
+// G = 5e6 / 2.7 = 1.851852e6, pi R sqrt(rho / G) / (0.1631 nu + 0.8766) = 1.24895e-4 s.
+TEST(Deck, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
+    Scenario const s = scenario();
+    TimeGrid const time = choose_time_step(s);
+    double const rayleigh = 1.24895e-4;
+    EXPECT_LE(time.time_step, 0.2 * rayleigh * 1.0001);  // the hand value has six digits
+    EXPECT_GE(time.time_step,
+              0.2 * rayleigh * 0.999);  // at most one step in 2600 is lost to the whole number
+    EXPECT_NEAR(time.time_step / time.rayleigh_fraction, rayleigh, 1e-4 * rayleigh);
+    EXPECT_NEAR(time.time_step * time.steps_per_cycle * s.trough.frequency, 1, 1e-14);
+}
+
+// t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5): a hundred times faster impacts shorten it by 100^(1/5) = 2.5.
+TEST(Deck, FastImpactsShortenTheTimeStep) {
+    Scenario fast = scenario();
+    fast.trough.amplitude *= 100;
+    TimeGrid const time = choose_time_step(fast);
+    EXPECT_NEAR(time.hertz_fraction, 0.1, 1e-3);  // the whole number of steps takes less than 1e-3
+    EXPECT_LT(time.rayleigh_fraction, 0.2);
+}
+
+TEST(Deck, StepsDivideIntoFrames) {
+    for (int const frames : {1, 7, 12, 100}) {
+        Scenario s = scenario();
+        s.output.frames_per_cycle = frames;
+        EXPECT_EQ(choose_time_step(s).steps_per_cycle % frames, 0) << frames;
+    }
+}
+
+// m = rho pi / 6 sum d^3 over three classes of equal number.
+TEST(Deck, KnowsItsMassAndWeight) {
+    Scenario const s = scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
+    Deck const deck = make_deck(s, 1);
+    double const volume = 100 * pi / 6 * (std::pow(2.7e-3, 3) + std::pow(3e-3, 3) + std::pow(3.3e-3, 3));
+    EXPECT_NEAR(deck.mass, 1400 * volume, 1e-12);
+    EXPECT_NEAR(deck.weight, deck.mass * gravity * std::cos(10 * pi / 180), 1e-12);
+}
+
+TEST(Deck, CountsEqualWithinOne) {
+    for (int const grains : {1, 2, 3, 100, 101, 500}) {
+        std::string const deck =
+            in_file(scenario(with("height = \"12 mm\"", fmt::format("grains = {}", grains))));
+        std::regex const target("particles_in_region ([0-9]+)");
+        int last = 0, most = 0, least = grains;
+        for (std::sregex_iterator match(deck.begin(), deck.end(), target), end; match != end; ++match) {
+            int const total = std::stoi((*match)[1]);
+            most = std::max(most, total - last);
+            least = std::min(least, total - last);
+            last = total;
+        }
+        EXPECT_EQ(last, grains);
+        EXPECT_LE(most - least, 1);
+    }
+}
+
+TEST(Deck, OneSizeIsOneClass) {
+    std::string const deck = in_file(scenario(with("diameter_spread = 0.1", "diameter_spread = 0.0")));
+    EXPECT_EQ(deck.find("class2"), std::string::npos);
+}
+
+// g (-sin(alpha), 0, -cos(alpha)): uphill positive, gravity pulls a layer on an incline backwards.
+TEST(Deck, TiltsGravityNotTheTrough) {
+    std::string const deck = in_file(scenario(with("inclination = \"0 deg\"", "inclination = \"30 deg\"")));
+    EXPECT_NEAR(number_after(deck, "fix gravity     all gravity 9.81 vector "), -0.5, 1e-15);
+    EXPECT_NE(deck.find("vector -0.49999999999999994 0 -0.8660254037844387"), std::string::npos);
+}
+
+TEST(Deck, AvoidsTheKnownPitfalls) {
+    for (std::string const& text :
+         {example_campaign, with("rolling_friction = 0.0", "rolling_friction = 0.1")}) {
+        std::string const deck = in_file(scenario(text));
+        // Coulomb friction needs both options, in the pair style and in the wall.
+        std::regex const coulomb("limitForce on tangential_damping off");
+        EXPECT_EQ(std::distance(std::sregex_iterator(deck.begin(), deck.end(), coulomb), {}), 2);
+        // Every thermo_style resets "lost", whose default hides lost grains.
+        std::regex const style("thermo_style.*\\nthermo_modify +lost error");
+        std::regex const any_style("\\nthermo_style");
+        EXPECT_EQ(std::distance(std::sregex_iterator(deck.begin(), deck.end(), style), {}),
+                  std::distance(std::sregex_iterator(deck.begin(), deck.end(), any_style), {}));
+        // Phase 0 is step 0: the clock is reset before the drive starts.
+        EXPECT_LT(deck.find("reset_timestep  0"), deck.find("move/mesh"));
+        EXPECT_LT(deck.find("move/mesh"), deck.find("fix means"));
+        EXPECT_EQ(deck.find("{{"), std::string::npos);
+    }
+    EXPECT_EQ(in_file(scenario()).find("rolling_friction epsd2"), std::string::npos);
+}
+
+TEST(Deck, SoftGrainsNeedAWord) {
+    EXPECT_EQ(in_file(scenario()).find("soft_particles"), std::string::npos);
+    std::string const soft = in_file(scenario(with("5 MPa", "1 MPa")));
+    EXPECT_LT(soft.find("soft_particles  yes"), soft.find("create_box"));
+}
+
+TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
+    Scenario s = scenario();
+    s.output.frames_per_cycle = 10;
+    Deck const first = make_deck(s, 1), second = make_deck(s, 2);
+    EXPECT_NE(first.seed, second.seed);
+    EXPECT_EQ(first.time.steps_per_cycle, second.time.steps_per_cycle);
+    EXPECT_NE(first.files.at("in.liggghts").find("dump            frames"), std::string::npos);
+    EXPECT_EQ(second.files.at("in.liggghts").find("dump            frames"), std::string::npos);
+    EXPECT_THROW(make_deck(s, 0), std::invalid_argument);
+    EXPECT_THROW(make_deck(s, 1001), std::invalid_argument);
+    EXPECT_NO_THROW(make_deck(s, 1000));
+}
+
+// Gold deck: a change of the deck shows here, a change of the physics in tests/end_to_end. When a template
+// was changed on purpose, write the new deck over the old one and say why in the commit:
+//   vibrotrough deck tests/deck/gold/campaign.toml --output DIR
+TEST(Deck, IsTheGoldDeck) {
+    std::filesystem::path const gold = GOLD_FOLDER;
+    Deck const deck = make_deck(read_campaign(gold / "campaign.toml").cases.front(), 2);
+    for (auto const& [name, content] : deck.files) EXPECT_EQ(content, read_file(gold / name)) << name;
+}
+
+}  // namespace
+}  // namespace vibrotrough::deck

@@ -1,0 +1,129 @@
+#include "engine/engine.hpp"
+
+#include "core/error.hpp"
+#include "engine/outcome.hpp"
+
+#include <csignal>
+#include <fstream>
+
+#include <boost/asio/steady_timer.hpp>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+// These tests run the real LIGGGHTS, on decks without a grain.
+class EngineTest : public testing::Test {
+  protected:
+    EngineTest() { fs::create_directories(folder); }
+    ~EngineTest() override { fs::remove_all(folder); }
+
+    void write_deck(std::string const& text) { std::ofstream(folder / "in.liggghts") << text; }
+
+    std::string error_for(fs::path const& asked) {
+        try {
+            find_engine(asked);
+        } catch (MissingError const& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    fs::path folder = testing::TempDir() + "engine_" + std::to_string(::getpid());
+    boost::asio::io_context context;
+};
+
+char const* const endless =
+    "atom_style granular\nregion r block 0 1 0 1 0 1\ncreate_box 1 r\nlabel again\n"
+    "variable i loop 100000000\nnext i\njump in.liggghts again\n";
+
+TEST_F(EngineTest, IsFoundAndNamesItsVersion) {
+    Engine const engine = find_engine({});
+    EXPECT_NE(engine.version.find("LIGGGHTS"), std::string::npos) << engine.version;
+    EXPECT_TRUE(engine.program.is_absolute());
+}
+
+TEST_F(EngineTest, IsRefusedWhenItIsNone) {
+    EXPECT_NE(error_for("/nonexistent/liggghts").find("there is no file /nonexistent/liggghts"),
+              std::string::npos);
+    EXPECT_NE(error_for("/bin/true").find("does not say that it is LIGGGHTS"), std::string::npos);
+    EXPECT_NE(error_for("/").find("there is no file"), std::string::npos);
+    std::ofstream(folder / "not_executable") << "x";
+    EXPECT_NE(error_for(folder / "not_executable"), "no error");
+}
+
+TEST_F(EngineTest, RunsADeckInItsFolder) {
+    write_deck(
+        "print \"VIBROTROUGH SETTLED floor_force -2 mass 1\"\nprint \"VIBROTROUGH DONE step 7 grains 1\"\n");
+    int ended = 0;
+    EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
+        ++ended;
+        RunReport const report = examine_run(folder, status);
+        EXPECT_EQ(report.outcome, Outcome::completed) << report.message;
+        EXPECT_EQ(report.last_step, 7);
+    });
+    context.run();
+    EXPECT_EQ(ended, 1);
+    EXPECT_TRUE(fs::exists(folder / "log.liggghts"));
+}
+
+TEST_F(EngineTest, AnErrorMessageIsKept) {
+    write_deck("fix nonsense all no/such/style\n");
+    EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
+        RunReport const report = examine_run(folder, status);
+        EXPECT_EQ(report.outcome, Outcome::engine_error);
+        EXPECT_EQ(report.message.find("ERROR"), 0u) << report.message;
+    });
+    context.run();
+}
+
+// Three engines at a time, and each end starts another: none is forgotten.
+TEST_F(EngineTest, ManyRunSideBySide) {
+    Engine const engine = find_engine({});
+    std::vector<std::unique_ptr<EngineProcess>> processes;
+    int ended = 0;
+    std::function<void()> start = [&] {
+        fs::path const own = folder / std::to_string(processes.size());
+        fs::create_directories(own);
+        std::ofstream(own / "in.liggghts") << "print hello\n";
+        processes.push_back(std::make_unique<EngineProcess>(context, engine, own, [&](ExitStatus status) {
+            EXPECT_EQ(status.code, 0);
+            ++ended;
+            if (processes.size() < 9) start();
+        }));
+    };
+    for (int i = 0; i < 3; ++i) start();
+    context.run();
+    EXPECT_EQ(ended, 9);
+}
+
+TEST_F(EngineTest, EndsWhenAsked) {
+    write_deck(endless);
+    bool ended = false;
+    EngineProcess process(context, find_engine({}), folder, [&](ExitStatus) { ended = true; });
+    boost::asio::steady_timer timer(context, std::chrono::milliseconds(700));
+    timer.async_wait([&](auto const&) { process.terminate(); });
+    context.run_for(std::chrono::seconds(60));  // SIGKILL follows after 5 s; the rest is for a busy machine
+    EXPECT_TRUE(ended);
+}
+
+TEST_F(EngineTest, DestructionKillsAndCallsNobody) {
+    write_deck(endless);
+    bool called = false;
+    auto process =
+        std::make_unique<EngineProcess>(context, find_engine({}), folder, [&](ExitStatus) { called = true; });
+    process.reset();
+    context.run_for(std::chrono::seconds(60));
+    EXPECT_FALSE(called);
+    EXPECT_TRUE(context.stopped()) << "the engine is still waited for";
+}
+
+TEST_F(EngineTest, AMissingFolderIsAnError) {
+    EXPECT_THROW(EngineProcess(context, find_engine({}), folder / "none", [](ExitStatus) {}), MissingError);
+}
+
+}  // namespace
+}  // namespace vibrotrough::engine

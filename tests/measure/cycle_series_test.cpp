@@ -1,0 +1,82 @@
+#include "measure/cycle_series.hpp"
+
+#include "core/error.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough::measure {
+namespace {
+
+class CyclesFile : public testing::Test {
+  protected:
+    ~CyclesFile() override { std::filesystem::remove(path); }
+
+    CycleSeries read(std::string const& text) {
+        std::ofstream(path) << text;
+        return read_cycles(path, 100, 50);
+    }
+    std::string error_of(std::string const& text) {
+        try {
+            read(text);
+        } catch (InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    std::filesystem::path path = testing::TempDir() + "cycles_" + std::to_string(::getpid()) + ".csv";
+    std::string const whole =
+        "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n"
+        "0,50,0.01,0.005,0,0,0,0,0\n# driven from here\n"
+        "100,50,0.02,0.006,0.1,0.12,-0.5,-9,0.25\n200,50,0.04,0.006,0.1,0.22,0.5,-10,0.5\n";
+};
+
+TEST_F(CyclesFile, IsRead) {
+    CycleSeries const series = read(whole);
+    EXPECT_EQ(series.cycles(), 2);
+    EXPECT_EQ(series.x, (std::vector<double>{0.01, 0.02, 0.04}));
+    EXPECT_EQ(series.z, (std::vector<double>{0.005, 0.006, 0.006}));
+    EXPECT_EQ(series.vz, (std::vector<double>{0, 0.1, 0.1}));
+    EXPECT_EQ(series.mean_velocity, (std::vector<double>{0.12, 0.22}));
+    EXPECT_EQ(series.tangential_force, (std::vector<double>{-0.5, 0.5}));
+    EXPECT_EQ(series.normal_force, (std::vector<double>{9, 10}));  // pressing is positive
+    EXPECT_EQ(series.flight_fraction, (std::vector<double>{0.25, 0.5}));
+    CycleSeries const first = first_cycles(series, 1);
+    EXPECT_EQ(first.cycles(), 1);
+    EXPECT_EQ(first.x.size(), 2u);
+    EXPECT_EQ(first.vz.size(), 2u);
+    // W = <F_z> - m (v_z(n) - v_z(0)) / (n T) = 9.5 - 2 * 0.1 / (2 * 0.5)
+    EXPECT_NEAR(weight_by_momentum(series, 2, 0.5), 9.3, 1e-12);
+}
+
+// The engine is read while it writes: at every moment the whole lines are taken and the rest is left.
+TEST_F(CyclesFile, IsReadAtAnyMoment) {
+    for (std::size_t size = 0; size <= whole.size(); ++size) {
+        CycleSeries const series = read(whole.substr(0, size));
+        EXPECT_LE(series.cycles(), 2);
+        EXPECT_TRUE(series.x.empty() || series.x.size() == static_cast<std::size_t>(series.cycles()) + 1);
+    }
+}
+
+TEST_F(CyclesFile, IsRefusedWhenDamaged) {
+    auto const replaced = [&](std::string const& from, std::string const& to) {
+        std::string text = whole;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_NE(error_of(replaced("step,", "stop,")).find(":2: is no table of cycles"), std::string::npos);
+    for (auto const& [from, to] : std::vector<std::pair<std::string, std::string>>{{"200,50", "300,50"},
+                                                                                   {"100,50", "x,50"},
+                                                                                   {"-9,0.25", "-9"},
+                                                                                   {"-9,0.25", "-9,0.25,1"},
+                                                                                   {"-9,0.25", "-9;0.25"}}) {
+        EXPECT_NE(error_of(replaced(from, to)).find("the line is damaged"), std::string::npos) << to;
+    }
+    EXPECT_NE(error_of(replaced("200,50", "200,49")).find(":6: 49 grains instead of 50"), std::string::npos);
+    EXPECT_THROW(read_cycles("no-such-file", 1, 1), MissingError);
+}
+
+}  // namespace
+}  // namespace vibrotrough::measure

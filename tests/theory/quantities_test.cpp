@@ -1,0 +1,164 @@
+#include "theory/quantities.hpp"
+
+#include "theory/design.hpp"
+#include "theory/sensitivity.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double between(double low, double high) {
+    auto const part = *rc::gen::inRange<std::int64_t>(0, 1'000'000'001);
+    return low + (high - low) * static_cast<double>(part) * 1e-9;
+}
+
+Conveyor any_conveyor() {
+    Conveyor c{};
+    double const mu = between(0.1, 0.8);
+    c.point = {between(0.2, 3.2), std::tan(between(5, 70) * pi / 180), between(-0.8, 0.8) * mu, mu};
+    if (*rc::gen::arbitrary<bool>()) c.static_friction = mu * between(1, 1.5);
+    if (*rc::gen::arbitrary<bool>()) c.restitution = between(0, 0.4);
+    if (*rc::gen::arbitrary<bool>()) c.air_drag = between(0, 0.2);
+    if (*rc::gen::arbitrary<bool>()) c.along_ratio = between(0.5, 1.5), c.along_phase = between(-1, 1);
+    if (*rc::gen::arbitrary<bool>()) c.normal = {{*rc::gen::inRange(2, 6), between(0, 0.3), between(-3, 3)}};
+    if (*rc::gen::arbitrary<bool>()) c.along = {{*rc::gen::inRange(2, 6), between(0, 0.3), between(-3, 3)}};
+    if (*rc::gen::arbitrary<bool>()) c.wall_friction = between(0, 0.4), c.height_over_width = between(0, 1);
+    return c;
+}
+
+// Over a period the kinetic energy returns: work of the trough = friction + impact + drag losses + lift, for
+// every combination of the models. Tolerance: the quadrature (1e-12) and the state's return (1e-11 in
+// velocity); what rebounds below slowest_rebound = 1e-6 carry is its square.
+RC_GTEST_PROP(EnergyBalance, WorkOfTheTroughIsLossesAndLift, ()) {
+    Conveyor const conveyor = any_conveyor();
+    ConveyorMotion const motion = solve(conveyor);
+    RC_PRE(motion.motion.converged);
+    EnergyBalance const energy = energy_balance(motion);
+    RC_LOG() << "Gamma " << conveyor.point.throw_number << " tan(beta) " << conveyor.point.tan_vibration_angle
+             << " tan(alpha) " << conveyor.point.tan_inclination << " mu " << conveyor.point.friction << " mu_s "
+             << conveyor.static_friction << " e " << conveyor.restitution << " drag " << conveyor.air_drag << " mode "
+             << motion.motion.mode << " first " << motion.pieces.front().along_velocity << " n "
+             << motion.motion.period_cycles << " defect " << energy.defect();
+    RC_ASSERT(std::abs(energy.defect()) < 1e-9 * motion.motion.period_cycles);
+    RC_ASSERT(energy.friction_loss >= -1e-12);
+    RC_ASSERT(energy.impact_loss >= 0);
+}
+
+// The trace is the motion: its slip integrates to eta, its flight leaves the trough. Tolerance: the trapezoid
+// rule at 20000 samples, with a jump at each impact.
+TEST(Trace, IntegratesToTheEfficiency) {
+    Conveyor conveyor{};
+    conveyor.point = {2, 0.5, -0.05, 0.23};
+    ConveyorMotion const motion = solve(conveyor);
+    auto const samples = trace(motion, 20001);
+    double slip = 0;
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+        auto const &a = samples[i], &b = samples[i + 1];
+        slip += (b.t - a.t) * (a.mass_vx - a.trough_vx + b.mass_vx - b.trough_vx) / 2;
+    }
+    EXPECT_NEAR(slip / (2 * pi), motion.motion.velocity_efficiency, 1e-3);
+    EXPECT_NEAR(samples.back().displacement / (2 * pi), motion.motion.velocity_efficiency, 1e-9);
+    EXPECT_NEAR(samples.front().t, std::asin(0.5), 1e-9);  // take-off at arcsin(1/Gamma)
+    for (auto const& s : samples) {
+        if (s.kind == PhaseKind::flight) {
+            EXPECT_EQ(s.normal_force, 0);
+        } else {
+            EXPECT_EQ(s.gap, 0);
+            EXPECT_LE(std::abs(s.tangential_force), 0.23 * 0.5 * s.normal_force + 1e-12);  // Coulomb
+        }
+    }
+}
+
+// omega^2 = Gamma g cos(alpha) / (r sin(beta)); v = eta omega r cos(beta); mass flow = density H W v. The
+// mean normal force is the weight: mean over the cycle of N plus impulses = g cos(alpha). Tolerance:
+// rounding; trapezoid.
+TEST(Quantities, AreInSiUnits) {
+    Conveyor conveyor{};
+    conveyor.point = {2, std::tan(pi / 6), 0, 0.3};
+    ConveyorMotion const motion = solve(conveyor);
+    Machine const machine{
+        .amplitude = 0.006, .gravity = 9.81, .bulk_density = 800, .layer_height = 0.012, .layer_width = 0.2};
+    EngineerQuantities const q = engineer_quantities(motion, machine);
+    double const omega = std::sqrt(2 * 9.81 / (0.006 * 0.5));
+    EXPECT_NEAR(q.frequency, omega / (2 * pi), 1e-12);
+    double const speed = motion.motion.velocity_efficiency * omega * 0.006 * std::cos(pi / 6);
+    EXPECT_NEAR(q.conveying_speed, speed, 1e-12);
+    EXPECT_NEAR(q.mass_flow, 800 * 0.012 * 0.2 * speed, 1e-10);
+    EXPECT_NEAR(q.mean_power, q.trough_work * q.frequency, 1e-12);
+    EXPECT_NEAR(q.impacts_per_cycle, 1, 1e-9);
+    EXPECT_NEAR(q.trough_work, q.friction_energy + q.impact_energy, 1e-9);  // level: no lift
+    double impulse = motion.impacts[0].approach;
+    auto const samples = trace(motion, 20001);
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+        impulse +=
+            (samples[i + 1].t - samples[i].t) * (samples[i].normal_force + samples[i + 1].normal_force) / 2;
+    }
+    EXPECT_NEAR(impulse / (2 * pi), 1 / 2.0, 1e-3);  // in omega^2 r sin(beta): 1/Gamma
+    EXPECT_GT(q.impact_speed, q.normal_impact_speed * 0.999);
+}
+
+// d eta / d input against a secant of the solver itself with another step. Tolerance: the secant's second
+// order.
+TEST(Sensitivities, AreDerivatives) {
+    Inputs inputs;
+    inputs.set(Input::throw_number, 1.7);
+    inputs.set(Input::tan_vibration_angle, 0.4);
+    inputs.set(Input::tan_inclination, 0.02);
+    inputs.set(Input::friction, 0.3);
+    auto const answers = sensitivities(inputs);
+    ASSERT_EQ(answers.size(), 4u);
+    double const h = 1e-3;
+    double const secant = (solve(PointMass{1.7 + h, 0.4, 0.02, 0.3}).velocity_efficiency -
+                           solve(PointMass{1.7 - h, 0.4, 0.02, 0.3}).velocity_efficiency) /
+                          (2 * h);
+    EXPECT_EQ(answers[0].input, Input::throw_number);
+    EXPECT_NEAR(answers[0].derivative, secant, 1e-4);
+    EXPECT_LT(answers[2].derivative, 0);  // uphill is slower
+}
+
+// No machine of a grid over the same limits is faster, and the limit that is named is the one that holds.
+// Tolerance: 0.1 %, what the search states.
+TEST(Design, IsNotBeatenByAGrid) {
+    DesignLimits limits{.friction = 0.3};
+    limits.most_machine_number = 4;
+    Design const design = fastest_design(limits);
+    ASSERT_TRUE(design.feasible);
+    EXPECT_LE(design.machine_number, 4 * (1 + 1e-6));
+    EXPECT_FALSE(design.active_limits.empty());
+    double best = 0;
+    for (int i = 0; i <= 40; ++i) {
+        double const amplitude = 0.0005 * std::pow(30, i / 40.0);
+        for (int j = 0; j <= 60; ++j) {
+            double const beta = 0.0873 + (1.0472 - 0.0873) * j / 60;
+            for (int k = 1; k <= 40; ++k) {
+                double const machine = 4.0 * k / 40, omega = std::sqrt(machine * limits.gravity / amplitude);
+                double const frequency = omega / (2 * pi), gamma = machine * std::sin(beta);
+                if (frequency < 5 || frequency > 60 || gamma > 3.29) continue;
+                double const eta = solve(PointMass{gamma, std::tan(beta), 0, 0.3}).velocity_efficiency;
+                best = std::max(best, eta * omega * amplitude * std::cos(beta));
+            }
+        }
+    }
+    EXPECT_GE(design.conveying_speed, best * 0.999);
+    EXPECT_LE(design.conveying_speed, best * 1.05);
+}
+
+TEST(Design, SaysWhenTheFlowIsNotReached) {
+    DesignLimits limits{.friction = 0.3};
+    limits.least_mass_flow = 1e6;
+    limits.bulk_density = 800, limits.layer_height = 0.02, limits.layer_width = 0.2;
+    Design const design = fastest_design(limits);
+    EXPECT_FALSE(design.feasible);
+    limits.friction = -1;
+    EXPECT_THROW(fastest_design(limits), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrotrough::theory

@@ -1,0 +1,90 @@
+"""Run by pvbatch: opens the exported sample's scene and holds what ParaView shows to the engine's dumps.
+
+usage: check_scene.py FOLDER DUMPS PICTURE
+"""
+
+import math
+import os
+import sys
+
+from paraview.simple import FindSource, GetActiveView, GetAnimationScene, Render, SaveScreenshot
+from paraview.vtk.vtkIOImage import vtkPNGReader
+
+STEPS = [60000, 60300, 60600]
+TIME_STEP = 2.4493014e-5
+OMEGA = 2 * math.pi / (3000 * TIME_STEP)
+AMPLITUDE_X, AMPLITUDE_Z = 0.00536656, 0.00268328
+ARRAYS = {"radius": 1, "velocity": 3, "velocity_relative_to_trough": 3, "id": 1}
+
+
+def open_scene(folder):
+    path = os.path.join(folder, "view_case.py")
+    with open(path, encoding="utf-8") as file:
+        exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__"})
+
+
+def read_dump(path):
+    """Rows of x y z vx vy vz radius."""
+    with open(path, encoding="ascii") as file:
+        return [[float(word) for word in line.split()[2:]] for line in file.readlines()[9:]]
+
+
+def near(found, wanted, tolerance, what):
+    assert abs(found - wanted) <= tolerance, f"{what}: ParaView has {found}, wanted {wanted} +- {tolerance}"
+
+
+def check_frame(step, dumps):
+    time = step * TIME_STEP
+    GetAnimationScene().AnimationTime = time
+    Render()
+    rows = read_dump(os.path.join(dumps, f"frames.{step}.dump"))
+    grains = FindSource("grains").GetDataInformation()
+    assert grains.GetNumberOfPoints() == len(rows) == 500, f"{grains.GetNumberOfPoints()} grains at step {step}"
+    arrays = FindSource("grains").PointData
+    assert {name: arrays[name].GetNumberOfComponents() for name in arrays.keys()} == ARRAYS
+
+    # Spheres of true size reach from the least x - r to the largest x + r. A sphere of 20 facets around falls short of
+    # its radius by at most 1 - cos(pi / 20) = 1.3 %: 2e-5 m of 1.65 mm.
+    bounds = FindSource("spheres").GetDataInformation().GetBounds()
+    for axis in range(3):
+        near(bounds[2 * axis], min(row[axis] - row[6] for row in rows), 2.2e-5, f"spheres, axis {axis}, low")
+        near(bounds[2 * axis + 1], max(row[axis] + row[6] for row in rows), 2.2e-5, f"spheres, axis {axis}, high")
+
+    # Velocities below 1 m/s, single precision: 1.2e-7.
+    low, high = arrays["velocity_relative_to_trough"].GetRange(0)
+    trough_speed = AMPLITUDE_X * OMEGA * math.cos(OMEGA * time)
+    near(low, min(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, least")
+    near(high, max(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, largest")
+
+    # The table has six digits of 5 mm, the trough single precision of 4 cm: 5e-9 m together.
+    trough = FindSource("trough").GetDataInformation().GetBounds()
+    near(trough[0], AMPLITUDE_X * math.sin(OMEGA * time), 1e-8, "trough, x")
+    near(trough[4], AMPLITUDE_Z * math.sin(OMEGA * time), 1e-8, "trough, z")
+
+
+def check_picture(path):
+    """Grains that run ahead of the trough are red: half as much of the picture at least as when it is right (29 %)."""
+    view = GetActiveView()
+    view.ViewSize = [400, 250]
+    SaveScreenshot(path, view, ImageResolution=[400, 250])
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    pixels = reader.GetOutput().GetPointData().GetScalars()
+    count = pixels.GetNumberOfTuples()
+    red = sum(1 for i in range(count) if pixels.GetComponent(i, 0) > 1.3 * pixels.GetComponent(i, 2))
+    assert red > 0.15 * count, f"{path}: only {red} of {count} pixels are red"
+    print(f"{path}: {red} of {count} pixels are red")
+
+
+def main(folder, dumps, picture):
+    os.chdir("/")  # the scene must open from any folder
+    open_scene(folder)
+    times = list(GetAnimationScene().TimeKeeper.TimestepValues)
+    assert times == [step * TIME_STEP for step in STEPS], f"times {times}"
+    for step in STEPS:
+        check_frame(step, dumps)
+    check_picture(picture)
+
+
+main(*sys.argv[1:])
