@@ -2,9 +2,10 @@
 
 import os
 import signal
+import subprocess
 import unittest
 
-from trough_program import EndToEndTest, campaign_text, engines_in, wait_until
+from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, wait_until
 
 ENGINE_ADVICE = "apt-get install --no-install-recommends liggghts"
 
@@ -134,6 +135,14 @@ class SomethingMissing(EndToEndTest):
                 done = self.call(*command, "--output", folder)
                 self.assert_one_line_error(done, 3, f"cannot make the folder {folder}", "choose another place")
         self.assertEqual(self.take_starts(), [])
+
+    def test_output_that_does_not_arrive(self):
+        decks = self.folder / "decks"
+        for arguments in (("deck", self.campaign, "--output", decks), ("--help",), ("theory", "point", "--help")):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertRegex(done.stderr, r"\Avibrotrough: .*No space left on device[^\n]*\n\Z")
 
     def test_one_driver_at_a_time(self):
         driver = self.start_campaign(self.campaign)
