@@ -4,9 +4,11 @@ angle, over the theory's lines.
 
     plot_campaign.py DIR [--theory FILE.csv] [--output NAME]
 
-DIR holds campaign.h5. FILE.csv is a curve that the program computed, with at least the columns throw_number,
-vibration_angle_deg and velocity_efficiency (several angles one below the other; a column inclination_deg or friction
-makes more lines). Nothing of the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/efficiency.
+DIR holds campaign.h5. FILE.csv is what the program computed of the theory, with at least the columns throw_number,
+vibration_angle_deg and velocity_efficiency (a fine curve, drawn as a line) or efficiency_theory (the theory at the cases,
+as `vibrotrough compare --csv` prints it, drawn as small crosses joined by a thin line). Several angles, and where there are
+columns inclination_deg or friction several of those, stand one below the other. Nothing of the theory is computed here.
+Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
 """
 
 import argparse
@@ -46,20 +48,22 @@ def read_campaign(path):
 
 
 def read_theory(path):
-    """Lines of the theory: vibration angle in degrees (rounded) -> list of (throw numbers, efficiencies)."""
+    """Lines of the theory: vibration angle in degrees (rounded) -> list of (throw numbers, efficiencies), and their style."""
     points = defaultdict(list)
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
+            rows = csv.DictReader(file)
+            fine = "velocity_efficiency" in (rows.fieldnames or [])
+            for row in rows:
                 key = (row["vibration_angle_deg"], row.get("inclination_deg"), row.get("friction"))
-                value = row["velocity_efficiency"]
+                value = row["velocity_efficiency" if fine else "efficiency_theory"]
                 points[key].append((float(row["throw_number"]), float(value) if value else math.nan))
     except (OSError, KeyError, ValueError) as error:
         raise Problem(f"cannot use {path} as a theory curve ({error!r}); see --help for its columns") from error
     lines = defaultdict(list)
     for key, pairs in points.items():
         lines[same_angle(float(key[0]))].append(np.array(sorted(pairs)).T)
-    return lines
+    return lines, {"linewidth": 1.6} if fine else {"linewidth": 0.8, "marker": "x", "markersize": 5}
 
 
 def same_angle(degrees):
@@ -87,13 +91,13 @@ def series_of(columns):
     }
 
 
-def draw(axes, columns, theory):
+def draw(axes, columns, theory, style):
     angles = np.array([same_angle(angle) for angle in np.degrees(columns["vibration_angle"])])
     every_angle = sorted(set(angles) | set(theory))
     for index, angle in enumerate(every_angle):
         colour, dash = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
         for throw_number, efficiency in theory.get(angle, []):
-            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, linewidth=1.6)
+            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, **style)
         for number, (label, rows) in enumerate(series_of(columns).items()):
             rows = [row for row in rows if angles[row] == angle]
             if not rows:
@@ -140,14 +144,14 @@ def label(axes, columns, attributes, theory):
     axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     axes.set_axisbelow(True)
-    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "")
+    title = f"points: DEM with {bars}" + ("\nlines: point-mass theory" if theory else "")
     axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="best")
     corner = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
     axes.figure.text(0.99, 0.01, corner, ha="right", va="bottom", fontsize=7, color="#666666")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
     parser.add_argument("--theory", type=pathlib.Path, metavar="FILE.csv", help="theory curve made by vibrotrough")
     parser.add_argument("--output", type=pathlib.Path, metavar="NAME", help="path of the figures without .svg and .png")
@@ -156,17 +160,18 @@ def main():
     columns, attributes = read_campaign(options.directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{options.directory / 'campaign.h5'} holds no finished case; run the campaign first")
-    theory = read_theory(options.theory) if options.theory else {}
+    theory, style = read_theory(options.theory) if options.theory else ({}, {})
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10})
     figure, axes = plt.subplots(figsize=(7.2, 4.8))
-    draw(axes, columns, theory)
+    draw(axes, columns, theory, style)
     mark_uncertain(axes, columns)
     label(axes, columns, attributes, theory)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
-    output = options.output or options.directory / "efficiency"
+    output = options.output or options.directory / "report" / "efficiency"
     for kind in ("svg", "png"):
         path = output.with_name(f"{output.name}.{kind}")
         try:
+            output.parent.mkdir(parents=True, exist_ok=True)
             figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
         except OSError as error:
             raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error

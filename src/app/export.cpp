@@ -52,8 +52,8 @@ int run(Options const& options) {
         auto const frames = export_case(planned);
         if (!frames) continue;
         ++exported;
-        fmt::print("case {}: {} frames; open with: paraview --state={}\n", planned.id, frames->frames,
-                   fs::absolute(frames->scene).lexically_normal().string());
+        fmt::print("case {}: {} frames; open with: sh {}\n", planned.id, frames->frames,
+                   (fs::absolute(frames->scene).lexically_normal().parent_path() / "view.sh").string());
     }
     if (!known) {
         throw InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",

@@ -25,6 +25,7 @@ fs::path marker(PlannedCase const& planned, int packing) {
     return planned.packing_folder(packing) / "packing.json";
 }
 
+/// Empty when there is no cycles.csv.
 std::string digest_of_cycles(PlannedCase const& planned, int packing) {
     fs::path const cycles = planned.packing_folder(packing) / "cycles.csv";
     return fs::is_regular_file(cycles) ? sha256_hex(read_file(cycles)) : std::string();
@@ -49,8 +50,11 @@ std::string to_string(CaseState state) {
 std::optional<Failure> read_failure(PlannedCase const& planned) {
     auto const json = read_json(planned.failure_file());
     if (!json) return {};
-    return Failure{json->value("outcome", "unknown"), json->value("message", ""), json->value("packing", 0),
-                   json->value("attempts", 1)};
+    try {
+        return Failure{json->at("outcome"), json->at("message"), json->at("packing"), json->at("attempts")};
+    } catch (Json::exception const&) {
+        return {};
+    }
 }
 
 void write_failure(PlannedCase const& planned, Failure const& failure) {
@@ -82,9 +86,14 @@ CaseState case_state(PlannedCase const& planned) {
 
 std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing) {
     auto const json = read_json(marker(planned, packing));
-    if (!json || json->value("cycles_sha256", "") != digest_of_cycles(planned, packing)) return {};
-    return FinishedPacking{json->value("wall_time", 0.0), json->value("started", ""),
-                           json->value("finished", "")};
+    std::string const digest = digest_of_cycles(planned, packing);
+    if (!json || digest.empty()) return {};
+    try {
+        if (json->at("cycles_sha256") != digest) return {};
+        return FinishedPacking{json->at("wall_time"), json->at("started"), json->at("finished")};
+    } catch (Json::exception const&) {
+        return {};
+    }
 }
 
 void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished) {

@@ -7,7 +7,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace vibrotrough::campaign {
@@ -18,6 +17,15 @@ int open_lock(std::filesystem::path const& folder) {
     return ::open((folder / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
 }
 
+/// A write lock on the whole file, bound to the open file as flock() is, but one that can be asked for
+/// without taking it: a look at the lock must not keep a driver from starting.
+struct flock whole_file() {
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    lock.l_whence = SEEK_SET;
+    return lock;
+}
+
 }  // namespace
 
 FolderLock::FolderLock(std::filesystem::path const& folder) : descriptor_(open_lock(folder)) {
@@ -25,7 +33,8 @@ FolderLock::FolderLock(std::filesystem::path const& folder) : descriptor_(open_l
         throw MissingError(fmt::format("cannot write in {} ({}); choose another folder with --output",
                                        folder.string(), std::strerror(errno)));
     }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    struct flock lock = whole_file();
+    if (::fcntl(descriptor_, F_OFD_SETLK, &lock) != 0) {
         ::close(descriptor_);
         throw MissingError(
             fmt::format("another vibrotrough is running the campaign in {}; wait for it, or stop it with "
@@ -41,7 +50,8 @@ FolderLock::~FolderLock() {
 bool FolderLock::is_held(std::filesystem::path const& folder) {
     int const descriptor = ::open((folder / ".lock").c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return false;
-    bool const held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
+    struct flock lock = whole_file();
+    bool const held = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
     ::close(descriptor);
     return held;
 }

@@ -88,11 +88,14 @@ class LocalExecutor {
     }
 
     void start(Job const& job) {
+        PlannedCase const& planned = plan_.cases[job.case_index];
+        make_folder(planned.folder);
+        write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
         running_.emplace_back();
         auto const place = std::prev(running_.end());
         try {
             *place = std::make_unique<PackingRun>(
-                context_, engine_, plan_.cases[job.case_index], job.packing,
+                context_, engine_, planned, job.packing,
                 [this, job, place](PackingOutcome const& outcome) { ended(job, place, outcome); });
         } catch (...) {
             running_.erase(place);

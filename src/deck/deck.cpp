@@ -106,7 +106,7 @@ void describe_inputs(mustache::data& data, Scenario const& s) {
     data.set("width", text(s.layer.width));
     data.set("max_cycles", std::to_string(s.measure.max_cycles));
     data.set("gravity", text(gravity));
-    data.set("gravity_x", text(-std::sin(s.trough.inclination)));
+    data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
     data.set("amplitude_x", text(s.trough.amplitude * std::cos(s.trough.vibration_angle)));
     data.set("amplitude_z", text(s.trough.amplitude * std::sin(s.trough.vibration_angle)));
@@ -149,7 +149,7 @@ void describe_space(mustache::data& data, Scenario const& s, TimeGrid const& tim
     data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / time.time_step))));
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time)));
-    data.set("settled_energy", rounded(1e-5 * layer_mass(s) * gravity * diameter));
+    data.set("settled_energy", rounded(1e-7 * layer_mass(s) * gravity * diameter));
 }
 
 std::string render(mustache::data& data) {

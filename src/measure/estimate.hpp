@@ -58,9 +58,10 @@ int startup_length(std::span<double const> values);
 double statistical_inefficiency(std::span<double const> values);
 
 /// Mean of one packing's cycle values: start-up cut by MSER, interval t_{n/g - 1} s sqrt(g / n). Not steady
-/// when MSER does not find the end of the start-up in the first half, or when the first and the last third of
-/// what is kept differ by more than their own intervals together and by more than the wanted half-width. Not
-/// precise also while fewer than 12 cycles are kept, or fewer than 5 independent ones.
+/// when MSER does not find the end of the start-up in the first half and the second quarter still differs
+/// from the second half by more than the wanted half-width, or when the first and the last third of what is
+/// kept differ by more than their own intervals together and by more than the wanted half-width. Not precise
+/// also while fewer than 12 cycles are kept, or fewer than 5 independent ones.
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
 
 /// The first of the cycles 20, 25, 30 ... at which the mean is precise; nothing while there is none. It

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace vibrotrough {
 namespace {
 
@@ -228,6 +230,17 @@ std::span<Key const> all_keys() {
 Key const* find_key(std::string_view path) {
     auto const found = std::ranges::find(keys, path, &Key::path);
     return found == keys.end() ? nullptr : &*found;
+}
+
+std::string key_reference() {
+    std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
+    for (Key const& key : keys) {
+        std::string needed = key.fallback ? fmt::format("{:g}", *key.fallback) : "required";
+        if (!key.group.empty()) needed = fmt::format("one for the {}", key.group);
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
+                            key.meaning);
+    }
+    return text;
 }
 
 std::string_view nearest_key(std::string_view path) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace vibrotrough {
@@ -31,5 +32,8 @@ Key const* find_key(std::string_view path);
 
 /// The known path nearest to a misspelt one, or an empty text when none is near.
 std::string_view nearest_key(std::string_view path);
+
+/// The reference of all keys as a Markdown table, as it stands in README.md.
+std::string key_reference();
 
 }  // namespace vibrotrough

@@ -1,5 +1,6 @@
-# Writes a header that holds the scene's template as a raw string literal.
-file(READ ${TEMPLATE} content)
+# Writes a header that holds the scene's template and its starter as raw string literals.
+file(READ ${SCENE} scene)
+file(READ ${STARTER} starter)
 file(WRITE ${OUTPUT} "#pragma once
 
 #include <string_view>
@@ -7,7 +8,10 @@ file(WRITE ${OUTPUT} "#pragma once
 namespace vibrotrough::view {
 
 /// postprocess/view_case.py
-inline constexpr std::string_view scene_template = R\"scene(${content})scene\";
+inline constexpr std::string_view scene_template = R\"scene(${scene})scene\";
+
+/// postprocess/view.sh
+inline constexpr std::string_view scene_starter = R\"scene(${starter})scene\";
 
 }  // namespace vibrotrough::view
 ")

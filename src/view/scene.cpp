@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "view/scene_template.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -44,10 +45,7 @@ std::filesystem::path write_scene(FrameSource const& source, std::filesystem::pa
     write_file_atomically(target / "view_case.py", script);
 
     std::filesystem::path const starter = target / "view.sh";
-    write_file_atomically(starter,
-                          "#!/bin/sh\n"
-                          "# Opens this folder in ParaView.\n"
-                          "exec paraview --state=\"$(dirname \"$(readlink -f \"$0\")\")/view_case.py\"\n");
+    write_file_atomically(starter, scene_starter);
     std::error_code failure;
     std::filesystem::permissions(starter, std::filesystem::perms{0755}, failure);
     if (failure) {

@@ -100,6 +100,15 @@ TEST(Estimate, SaysWhenALayerIsNotSteady) {
     EXPECT_EQ(estimate_packing(std::vector<double>{0.8}, wanted).verdict, Verdict::not_steady);
 }
 
+// A layer may wander slowly for ever; when it wanders by less than was asked, it is steady as far as asked.
+TEST(Estimate, WanderingWithinWhatWasAskedIsSteady) {
+    std::vector<double> values = Series{.sigma = 0.001}.make(40, 1);
+    for (std::size_t i = 0; i < 20; ++i) values[i] += 0.015;
+    EXPECT_EQ(startup_length(values), 20);
+    EXPECT_EQ(estimate_packing(values, {0.95, 0.03}).verdict, Verdict::precise);
+    EXPECT_EQ(estimate_packing(values, {0.95, 0.01}).verdict, Verdict::not_steady);
+}
+
 TEST(Estimate, SaysWhenAMeanIsNotPrecise) {
     EXPECT_EQ(estimate_packing(Series{.sigma = 0.3}.make(40, 3), wanted).verdict, Verdict::not_precise);
     EXPECT_EQ(estimate_packing(Series{}.make(40, 3), wanted).verdict, Verdict::precise);

@@ -54,6 +54,13 @@ def main(script, campaign, work):
     picture = matplotlib.image.imread(png)
     assert picture.shape[:2] == (720, 1080) and picture[..., :3].min() < 0.1 < 0.9 < picture[..., :3].max()
 
+    # The theory at the cases, as `vibrotrough compare --csv` prints it.
+    (work / "compare.csv").write_text(
+        "case,throw_number,vibration_angle_deg,inclination_deg,friction,efficiency_theory\n"
+        "a,2.1,28.6479,0,0.23,0.55\nb,8.4,28.6479,0,0.23,0.61\n", encoding="utf-8")
+    done = plot(script, campaign, "--theory", work / "compare.csv", "--output", work / "deep" / "er" / "efficiency")
+    assert done.returncode == 0 and len(lines_in(work / "deep" / "er" / "efficiency.svg", "#0072b2")) > 0, done.stderr
+
     # The same campaign gives the same file, and mistakes give one line and an exit code.
     before = svg.read_bytes()
     plot(script, campaign, "--theory", work / "theory.csv", "--output", work / "efficiency")

@@ -42,7 +42,8 @@ TEST(CampaignFile, MultipliesTheSweep) {
 
 TEST(CampaignFile, SweepsQuantitiesAndWholeNumbers) {
     EXPECT_DOUBLE_EQ(
-        parse_campaign(sweep(R"("layer.height" = ["12 mm", "18 mm"])"), "c").cases[1].layer.height.value(), 0.018);
+        parse_campaign(sweep(R"("layer.height" = ["12 mm", "18 mm"])"), "c").cases[1].layer.height.value(),
+        0.018);
     EXPECT_EQ(parse_campaign(sweep(R"("layer.grains" = [100, 200])"), "c").cases[1].layer.grains, 200);
     EXPECT_EQ(parse_campaign(sweep("trough.friction = [0.1, 0.2]"), "c").cases[1].trough.friction, 0.2);
     auto const angles = parse_campaign(

@@ -1,0 +1,9 @@
+#!/bin/sh
+# Opens this folder in ParaView: the whole scene, or the bare frames when ParaView lacks its Python modules.
+here=$(dirname "$(readlink -f "$0")")
+if command -v pvbatch >/dev/null && ! echo 'import paraview.simple' | pvbatch /dev/stdin 2>/dev/null; then
+    echo "ParaView's Python modules are missing (Debian: python3-paraview), so only the bare frames open:" >&2
+    echo "press Apply, then draw grains.pvd as Point Gaussian, scaled by radius." >&2
+    exec paraview "$here/grains.pvd" "$here/trough.pvd"
+fi
+exec paraview --state="$here/view_case.py"

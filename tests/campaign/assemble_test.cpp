@@ -1,0 +1,155 @@
+#include "campaign/assemble.hpp"
+
+#include "campaign_folder.hpp"
+#include "core/error.hpp"
+#include "store/result_file.hpp"
+
+namespace vibrotrough::campaign {
+namespace {
+
+/// eta with an even scatter of 0.01 about `mean`: steady, uncorrelated from cycle to cycle on average.
+auto around(double mean, double scatter = 0.01) {
+    return [=](int k) { return mean + (k % 2 == 0 ? scatter : -scatter); };
+}
+
+auto ramp(int k) {
+    return 0.2 + 0.01 * k;
+}
+
+class Assemble : public CampaignFolder {
+  protected:
+    void write_packings(std::string const& first, std::string const& second) const {
+        write_packing(1, first, {3.5, "2026-11-21T12:00:05Z", "2026-11-21T12:00:20Z"});
+        write_packing(2, second, {4.0, "2026-11-21T12:00:00Z", "2026-11-21T12:00:10Z"});
+    }
+    std::string cycles(int count, std::function<double(int)> const& eta) const {
+        return cycles_text(scenario, count, eta);
+    }
+    store::CaseRecord assembled() const { return assemble(planned, "LIGGGHTS 3.8.0"); }
+};
+
+TEST_F(Assemble, MeasuresWhatTheCyclesSay) {
+    write_packings(cycles(60, around(0.5)), cycles(60, around(0.6)));
+    store::CaseRecord const record = assembled();
+    EXPECT_EQ(record.outcome, "finished");
+    ASSERT_EQ(record.packings.size(), 2u);
+    auto const& estimate = record.packings[0].estimate;
+    // x is written with 15 digits of 0.018 m ... 1 m: 1e-15 of it in a displacement of 0.016 m.
+    EXPECT_NEAR(estimate.mean, 0.5, 1e-12);
+    EXPECT_NEAR(record.packings[1].estimate.mean, 0.6, 1e-12);
+    // 20 cycles with s = 0.01 sqrt(20/19): t_19 s / sqrt(20), t_19 = 2.0930 for 95 % from any table.
+    EXPECT_NEAR(estimate.half_width, 2.0930 * 0.01 / std::sqrt(19), 1e-6);
+    EXPECT_EQ(estimate.discarded, 0);
+    EXPECT_EQ(estimate.verdict, measure::Verdict::precise);
+    // The case: mean of the means, and t_1 = 12.706 of their deviation 0.0707 over sqrt(2).
+    EXPECT_NEAR(record.estimate.mean, 0.55, 1e-12);
+    EXPECT_NEAR(record.estimate.half_width, 12.706 * 0.1 / 2, 1e-4);
+    EXPECT_EQ(record.estimate.packings, 2);
+}
+
+TEST_F(Assemble, KeepsOnlyTheCyclesNeeded) {
+    // The engine had run on, by 40 cycles and by 1, before it was told to stop.
+    write_packings(cycles(60, around(0.5)), cycles(21, around(0.5)));
+    for (store::PackingRecord const& packing : assembled().packings) {
+        EXPECT_EQ(packing.series.cycles(), 20);
+        EXPECT_EQ(packing.series.x.size(), 21u);
+        EXPECT_EQ(packing.efficiency.size(), 20u);
+        EXPECT_EQ(packing.estimate.measured, 20);
+    }
+    auto const result = [&] { return assembled().packings[0].efficiency; };
+    auto const before = result();
+    write_packing(1, cycles(37, around(0.5)));
+    EXPECT_EQ(result(), before) << "the answer must not depend on when the driver looked";
+}
+
+TEST_F(Assemble, SaysWhenTheLayerIsNotSteady) {
+    write_packings(cycles(60, ramp), cycles(60, around(0.5)));
+    EXPECT_EQ(assembled().outcome, "not-steady");
+    EXPECT_EQ(assembled().packings[0].series.cycles(), 60)
+        << "all cycles belong to an answer that was not found";
+}
+
+TEST_F(Assemble, SaysWhenTheMeanIsNotPrecise) {
+    write_packings(cycles(60, around(0.5)), cycles(60, around(0.5, 0.3)));
+    store::CaseRecord const record = assembled();
+    EXPECT_EQ(record.outcome, "not-precise");
+    EXPECT_EQ(record.packings[1].series.cycles(), 60);
+    EXPECT_GT(record.packings[1].estimate.half_width, scenario.measure.half_width);
+    // The case cannot be better known than its worst packing.
+    EXPECT_GE(record.estimate.half_width, record.packings[1].estimate.half_width);
+}
+
+TEST_F(Assemble, NotSteadyOutweighsNotPrecise) {
+    write_packings(cycles(60, around(0.5, 0.3)), cycles(60, ramp));
+    EXPECT_EQ(assembled().outcome, "not-steady");
+}
+
+TEST_F(Assemble, SaysWhereItComesFrom) {
+    write_packings(cycles(30, around(0.5)), cycles(30, around(0.5)));
+    store::CaseRecord const record = assembled();
+    EXPECT_EQ(record.id, planned.id);
+    EXPECT_EQ(record.scenario_toml, to_toml(scenario));
+    EXPECT_EQ(record.provenance.engine_version, "LIGGGHTS 3.8.0");
+    EXPECT_EQ(record.provenance.started, "2026-11-21T12:00:00Z") << "the earlier of the two";
+    EXPECT_EQ(record.provenance.finished, "2026-11-21T12:00:20Z") << "the later of the two";
+    EXPECT_EQ(record.packings[0].deck, "# deck 1\n");
+    EXPECT_EQ(record.packings[1].deck, "# deck 2\n");
+    EXPECT_EQ(record.packings[0].wall_time, 3.5);
+    EXPECT_NE(record.packings[0].seed, record.packings[1].seed);
+    deck::Deck const deck = deck::make_deck(scenario, 2);
+    EXPECT_EQ(record.packings[1].seed, deck.seed);
+    EXPECT_EQ(record.packings[1].steps_per_cycle, deck.time.steps_per_cycle);
+    EXPECT_EQ(record.packings[1].mass, deck.mass);
+}
+
+TEST_F(Assemble, IsWhatTheStoreGivesBack) {
+    write_packings(cycles(30, around(0.5)), cycles(30, around(0.6)));
+    store::CaseRecord const record = assembled();
+    store::write_result(planned.result_file(), record);
+    auto const read = read_whole_result(planned);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->outcome, record.outcome);
+    EXPECT_EQ(read->estimate.mean, record.estimate.mean);
+    EXPECT_EQ(read->packings[1].efficiency, record.packings[1].efficiency);
+}
+
+TEST_F(Assemble, RefusesUnfinishedPackings) {
+    EXPECT_THROW(assembled(), InputError);
+    write_packing(1, cycles(30, around(0.5)));
+    try {
+        assembled();
+        FAIL() << "a case with one of two packings was put together";
+    } catch (InputError const& error) {
+        EXPECT_EQ(std::string(error.what()), "packing 2 of case " + planned.id + " is not finished");
+    }
+}
+
+TEST_F(Assemble, RefusesDamagedCycles) {
+    std::string const good = cycles(30, around(0.5));
+    Scenario other = scenario;
+    other.layer.grains -= 1;
+    std::string const lost_grain = cycles_text(other, 30, around(0.5));
+    std::string const short_line = good + "1,2,3\n";
+    std::string const last_line = good.substr(good.rfind('\n', good.size() - 2) + 1);
+    std::string const twice = good + last_line;
+    for (std::string const& damaged : {lost_grain, short_line, twice, std::string("no table\n")}) {
+        write_packings(damaged, good);
+        EXPECT_THROW(assembled(), InputError) << damaged.substr(0, 100);
+    }
+}
+
+TEST_F(Assemble, EnoughCyclesAsTheEstimateSays) {
+    auto const series = [&](int count, auto const& eta) {
+        write_packing(1, cycles(count, eta));
+        return measure::read_cycles(planned.packing_folder(1) / "cycles.csv",
+                                    deck::choose_time_step(scenario).steps_per_cycle, scenario.layer.grains);
+    };
+    EXPECT_FALSE(enough_cycles(scenario, series(19, around(0.5))));
+    EXPECT_TRUE(enough_cycles(scenario, series(20, around(0.5))));
+    EXPECT_TRUE(enough_cycles(scenario, series(33, around(0.5)))) << "enough once is enough for ever";
+    EXPECT_FALSE(enough_cycles(scenario, series(60, around(0.5, 0.3))));
+    EXPECT_FALSE(enough_cycles(scenario, series(60, ramp)));
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "campaign/case_state.hpp"
+#include "campaign/plan.hpp"
+#include "scenario/campaign_file.hpp"
+#include "scenario/example_campaign.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough::campaign {
+
+/// Without the sync to disk of write_file_atomically, which would make many writes slow.
+inline void overwrite(std::filesystem::path const& path, std::string const& bytes) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// cycles.csv as the deck writes it, for a layer whose velocity efficiency in cycle k = 1 ... n is eta(k).
+inline std::string cycles_text(Scenario const& scenario, int cycles, std::function<double(int)> const& eta) {
+    int const steps = deck::choose_time_step(scenario).steps_per_cycle;
+    double const amplitude_x = scenario.trough.amplitude * std::cos(scenario.trough.vibration_angle);
+    std::string text =
+        "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n";
+    double x = 0.018;
+    for (int k = 0; k <= cycles; ++k) {
+        if (k > 0) x += eta(k) * 2 * std::numbers::pi * amplitude_x;
+        text += fmt::format("{},{},{:.15g},0.01,0,0.1,0.01,{},0.5\n", k * steps, scenario.layer.grains, x,
+                            k > 0 ? -0.09 : 0.0);
+    }
+    return text;
+}
+
+/// A campaign folder of one case with two packings; nothing is written at first.
+class CampaignFolder : public testing::Test {
+  protected:
+    ~CampaignFolder() override { std::filesystem::remove_all(folder); }
+
+    /// The packing's files as an engine that ended well leaves them.
+    void write_packing(int packing, std::string const& cycles, FinishedPacking const& marker = {}) const {
+        overwrite(planned.packing_folder(packing) / "in.liggghts", fmt::format("# deck {}\n", packing));
+        overwrite(planned.packing_folder(packing) / "cycles.csv", cycles);
+        write_finished_packing(planned, packing, marker);
+    }
+
+    std::string campaign_text = with("packings = 3", "packings = 2");
+    std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / fmt::format("campaign_{}", ::getpid());
+    Plan plan = make_plan(parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
+    PlannedCase planned = plan.cases.front();
+    Scenario scenario = planned.scenario;
+};
+
+}  // namespace vibrotrough::campaign

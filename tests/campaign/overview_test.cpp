@@ -1,0 +1,70 @@
+#include "campaign/overview.hpp"
+
+#include "campaign/folder_lock.hpp"
+#include "campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "store/result_file.hpp"
+#include "store/sample_record.hpp"
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Overview : public CampaignFolder {
+  protected:
+    Overview() { fs::create_directories(folder); }
+    CaseOverview look() const { return look_at(plan).at(0); }
+};
+
+TEST_F(Overview, OpenThenRunningThenInterrupted) {
+    EXPECT_EQ(look().outcome, "open");
+    EXPECT_EQ(look().packings_done, 0);
+    {
+        FolderLock const driver(folder);
+        EXPECT_EQ(look().outcome, "open") << "a driver that has not come to this case";
+        write_packing(2, "cycles");
+        EXPECT_EQ(look().outcome, "running");
+    }
+    EXPECT_EQ(look().outcome, "interrupted");
+    EXPECT_EQ(look().packings_done, 1);
+    EXPECT_FALSE(look().record);
+}
+
+TEST_F(Overview, FailureUntilItIsTriedAgain) {
+    write_failure(planned, {"lost-grains", "3 grains left the box", 1, 1});
+    EXPECT_EQ(look().outcome, "lost-grains");
+    EXPECT_EQ(look().message, "3 grains left the box");
+    FolderLock const driver(folder);
+    EXPECT_EQ(look().outcome, "running");
+    EXPECT_EQ(look().message, "");
+}
+
+TEST_F(Overview, ResultSaysTheOutcome) {
+    fs::create_directories(planned.folder);
+    write_failure(planned, {"lost-grains", "3 grains left the box", 1, 1});
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    FolderLock const driver(folder);
+    EXPECT_EQ(look().outcome, "not-precise");  // the sample's
+    EXPECT_EQ(look().message, "");
+    EXPECT_EQ(look().packings_done, 2);
+    ASSERT_TRUE(look().record);
+    EXPECT_EQ(look().record->estimate.mean, 0.82);
+}
+
+TEST_F(Overview, CampaignFileHoldsWhatThereIs) {
+    write_campaign_file(plan);  // nothing finished yet: an empty table, not an error
+    std::string const empty = read_file(folder / "campaign.h5");
+    EXPECT_TRUE(empty.starts_with("\x89HDF\r\n"));
+    fs::create_directories(planned.folder);
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    write_campaign_file(plan);
+    std::string const one = read_file(folder / "campaign.h5");
+    EXPECT_NE(one, empty);
+    EXPECT_NE(one.find(planned.id), std::string::npos);
+    write_campaign_file(plan);
+    EXPECT_EQ(read_file(folder / "campaign.h5"), one) << "the same cases give the same bytes";
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,148 @@
+#include "campaign/plan.hpp"
+
+#include "campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> ids_of(std::string const& text, std::string const& engine = "LIGGGHTS 3.8.0") {
+    std::vector<std::string> ids;
+    for (PlannedCase const& planned :
+         make_plan(parse_campaign(text, "campaign.toml"), "runs/any", engine).cases)
+        ids.push_back(planned.id);
+    return ids;
+}
+
+std::string id_of(std::string const& text) {
+    return ids_of(text).at(0);
+}
+
+TEST(CaseId, IsTwelveHexadecimalDigitsAndAlwaysTheSame) {
+    std::string const id = id_of(example_campaign);
+    EXPECT_EQ(id.size(), 12u);
+    EXPECT_EQ(id.find_first_not_of("0123456789abcdef"), std::string::npos);
+    EXPECT_EQ(id_of(example_campaign), id);
+}
+
+TEST(CaseId, DoesNotDependOnNameFolderCommentsOrUnits) {
+    std::string const id = id_of(example_campaign);
+    EXPECT_EQ(id_of(with("pvc-horizontal", "another")), id);
+    EXPECT_EQ(id_of(with("[trough]", "# a comment\n\n[trough]")), id);
+    EXPECT_EQ(id_of(with("\"6 mm\"", "\"0.006 m\"")), id);
+    Campaign const campaign = parse_campaign(example_campaign, "campaign.toml");
+    EXPECT_EQ(make_plan(campaign, "elsewhere", "LIGGGHTS 3.8.0").cases.at(0).id, id);
+}
+
+TEST(CaseId, DoesNotDependOnTheOtherCases) {
+    auto const swept = ids_of(example_campaign + "[sweep]\n\"trough.throw_number\" = [1.0, 2.0, 3.0]\n");
+    auto const reversed = ids_of(example_campaign + "[sweep]\n\"trough.throw_number\" = [3.0, 2.0]\n");
+    EXPECT_EQ(swept.at(1), id_of(example_campaign));
+    EXPECT_EQ(reversed, (std::vector{swept.at(2), swept.at(1)}));
+}
+
+TEST(CaseId, ChangesWithEveryInput) {
+    std::vector<std::pair<std::string, std::string>> const changes{
+        {"inclination = \"0 deg\"", "inclination = \"0.001 deg\""},
+        {"30 deg", "30.001 deg"},
+        {"6 mm", "6.001 mm"},
+        {"throw_number = 2.0", "throw_number = 2.001"},
+        {"friction = 0.23", "friction = 0.231"},
+        {"restitution = 0.5", "restitution = 0.51"},
+        {"diameter = \"3 mm\"", "diameter = \"3.001 mm\""},
+        {"diameter_spread = 0.1", "diameter_spread = 0.11"},
+        {"1400 kg/m3", "1401 kg/m3"},
+        {"5 MPa", "5.001 MPa"},
+        {"poisson_ratio = 0.35", "poisson_ratio = 0.36"},
+        {"friction = 0.5", "friction = 0.51"},
+        {"restitution = 0.5\nrolling", "restitution = 0.51\nrolling"},
+        {"rolling_friction = 0.0", "rolling_friction = 0.1"},
+        {"36 mm", "36.001 mm"},
+        {"18 mm", "18.001 mm"},
+        {"height = \"12 mm\"", "height = \"12.001 mm\""},
+        {"height = \"12 mm\"", "grains = 500"},
+        // What is measured and written is part of the case, too.
+        {"packings = 3", "packings = 4"},
+        {"confidence = 0.95", "confidence = 0.9"},
+        {"half_width = 0.02", "half_width = 0.03"},
+        {"max_cycles = 200", "max_cycles = 201"},
+        {"frames_per_cycle = 0", "frames_per_cycle = 1"},
+    };
+    std::set<std::string> ids{id_of(example_campaign)};
+    for (auto const& [from, to] : changes) {
+        EXPECT_TRUE(ids.insert(id_of(with(from, to))).second) << from << " -> " << to << " kept an id";
+    }
+    EXPECT_TRUE(ids.insert(ids_of(example_campaign, "LIGGGHTS 3.9.0").at(0)).second) << "engine version";
+}
+
+TEST(MakePlan, PutsEachCaseBelowTheFolder) {
+    Campaign const campaign = parse_campaign(example_campaign, "campaign.toml");
+    Plan const plan = make_plan(campaign, "runs/x", "LIGGGHTS 3.8.0");
+    EXPECT_EQ(plan.name, "pvc-horizontal");
+    PlannedCase const& planned = plan.cases.at(0);
+    EXPECT_EQ(planned.folder, fs::path("runs/x/cases") / planned.id);
+    EXPECT_EQ(planned.result_file(), planned.folder / "result.h5");
+    EXPECT_EQ(planned.packing_folder(2), planned.folder / "packing-2");
+}
+
+class OpenPlan : public CampaignFolder {
+  protected:
+    OpenPlan() {
+        overwrite(folder / "given.toml", campaign_text);
+        freeze(plan, folder / "given.toml", {"/opt/liggghts", "LIGGGHTS 3.8.0"});
+    }
+
+    std::string refusal() const {
+        try {
+            open_plan(folder);
+        } catch (InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+};
+
+TEST_F(OpenPlan, GivesThePlanThatWasFrozen) {
+    EXPECT_EQ(read_file(folder / "campaign.toml"), campaign_text);
+    Plan const opened = open_plan(folder);
+    EXPECT_EQ(opened.name, plan.name);
+    EXPECT_EQ(opened.engine_version, plan.engine_version);
+    ASSERT_EQ(opened.cases.size(), 1u);
+    EXPECT_EQ(opened.cases.at(0).id, planned.id);
+    EXPECT_EQ(opened.cases.at(0).folder, planned.folder);
+}
+
+TEST_F(OpenPlan, FreezesTheFrozenFileItself) {
+    freeze(plan, folder / "campaign.toml", {"/opt/liggghts", "LIGGGHTS 3.8.0"});
+    EXPECT_EQ(open_plan(folder).cases.at(0).id, planned.id);
+}
+
+TEST_F(OpenPlan, RefusesAFolderThatIsNone) {
+    fs::remove(folder / "engine.json");
+    EXPECT_NE(refusal().find(folder.string() + " is no campaign folder"), std::string::npos) << refusal();
+    fs::remove_all(folder);
+    EXPECT_NE(refusal().find("is no campaign folder"), std::string::npos) << refusal();
+}
+
+TEST_F(OpenPlan, NamesTheDamagedFile) {
+    for (char const* damage : {"", "{", "{}", "[]", "3", "{\"version\": 3}", "\xff\xfe"}) {
+        overwrite(folder / "engine.json", damage);
+        EXPECT_NE(refusal().find("engine.json is damaged; run the campaign again"), std::string::npos)
+            << damage << ": " << refusal();
+    }
+}
+
+TEST_F(OpenPlan, NamesTheMistakeInTheFrozenCampaign) {
+    overwrite(folder / "campaign.toml", with("friction = 0.23", "friction = -1"));
+    EXPECT_EQ(refusal().find((folder / "campaign.toml").string() + ":9:12: trough.friction"), 0u)
+        << refusal();
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,131 @@
+#include "compare/comparison.hpp"
+
+#include "store/sample_record.hpp"
+#include "theory/point_mass.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough::compare {
+namespace {
+
+store::CaseRecord const record = store::sample_record("0123456789ab");
+
+Scenario scenario_at(double vibration_angle_deg, double inclination_deg) {
+    Scenario scenario = record.scenario;
+    scenario.trough.vibration_angle = vibration_angle_deg * std::numbers::pi / 180;
+    scenario.trough.inclination = inclination_deg * std::numbers::pi / 180;
+    return scenario;
+}
+
+TEST(Compare, ShowsTheInputs) {
+    Row const row = compare("0123456789ab", record.scenario, {}, "open");
+    EXPECT_EQ(row.id, "0123456789ab");
+    EXPECT_EQ(row.friction, 0.23);
+    EXPECT_EQ(row.amplitude_m, 0.006);
+    EXPECT_EQ(row.frequency_hz, 13.5);
+    // The glossary's formulas; converted numbers are rounded to 12 digits, half of the last of them is 5e-12
+    // of a number that begins with 1.
+    double const omega = 2 * std::numbers::pi * 13.5;
+    double const machine_number = omega * omega * 0.006 / 9.81;
+    EXPECT_NEAR(row.machine_number, machine_number, 5e-12 * machine_number);
+    double const throw_number = machine_number * std::sin(0.5) / std::cos(-0.05);
+    EXPECT_NEAR(row.throw_number, throw_number, 5e-12 * throw_number);
+    EXPECT_NEAR(row.vibration_angle_deg, 0.5 * 180 / std::numbers::pi, 1e-10);
+    EXPECT_NEAR(row.inclination_deg, -0.05 * 180 / std::numbers::pi, 1e-11);
+}
+
+TEST(Compare, ShowsAnglesAsTheyWereWritten) {
+    for (double const angle : {1.0, 12.5, 20.0, 30.0, 45.0, 60.0, 89.0}) {
+        EXPECT_EQ(compare("", scenario_at(angle, 0), {}, "open").vibration_angle_deg, angle);
+    }
+    for (double const angle : {-45.0, -2.86, 0.0, 3.0, 15.1}) {
+        EXPECT_EQ(compare("", scenario_at(30, angle), {}, "open").inclination_deg, angle);
+    }
+}
+
+TEST(Compare, PredictsWithTheTheory) {
+    Trough const& trough = record.scenario.trough;
+    theory::Motion const motion = theory::solve({.throw_number = throw_number(trough),
+                                                 .tan_vibration_angle = std::tan(0.5),
+                                                 .tan_inclination = std::tan(-0.05),
+                                                 .friction = 0.23});
+    ASSERT_TRUE(motion.converged);
+    Row const row = compare("", record.scenario, {}, "open");
+    EXPECT_EQ(row.efficiency_theory, motion.velocity_efficiency);
+    EXPECT_EQ(row.mode_theory, motion.mode);
+}
+
+TEST(Compare, KnowsTheFactsSheetsPointMass) {
+    // Gamma = 2, tan(beta) = 0.5, mu = 0.23, level: 0.5815 (four digits).
+    Scenario scenario = record.scenario;
+    Trough& trough = scenario.trough;
+    trough.inclination = 0;
+    trough.vibration_angle = std::atan(0.5);
+    trough.frequency = std::sqrt(2 * gravity / (trough.amplitude * std::sin(trough.vibration_angle))) /
+                       (2 * std::numbers::pi);
+    EXPECT_NEAR(compare("", scenario, {}, "open").efficiency_theory.value(), 0.5815, 0.0005);
+}
+
+TEST(Compare, HasNoTheoryForADriveAlongTheTrough) {
+    Row const row = compare("", scenario_at(0, 0), {}, "open");
+    EXPECT_FALSE(row.efficiency_theory);
+    EXPECT_EQ(row.mode_theory, "");
+    EXPECT_EQ(row.throw_number, 0);
+}
+
+TEST(Compare, ShowsTheMeasurement) {
+    Row const row = compare("0123456789ab", record.scenario, record, "not looked at");
+    EXPECT_EQ(row.outcome, "not-precise");
+    EXPECT_EQ(row.efficiency_dem, 0.82);
+    EXPECT_EQ(row.efficiency_dem_half_width, 0.127);
+    // speed = eta omega r cos(beta), multiplied in another order: some roundings.
+    EXPECT_NEAR(row.speed_dem_m_per_s.value(), 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5),
+                1e-15);
+    EXPECT_EQ(row.packings, 2);
+    EXPECT_EQ(row.cycles_measured, 1 + 1);
+    EXPECT_EQ(row.cycles_discarded, 2 + 0);
+    EXPECT_EQ(row.wall_s, 12.5 + 11.25);
+}
+
+TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
+    store::CaseRecord unsteady = record;
+    unsteady.outcome = "not-steady";
+    Row const row = compare("", record.scenario, unsteady, "");
+    EXPECT_EQ(row.outcome, "not-steady");
+    EXPECT_FALSE(row.efficiency_dem);
+    EXPECT_FALSE(row.efficiency_dem_half_width);
+    EXPECT_FALSE(row.speed_dem_m_per_s);
+    EXPECT_EQ(row.packings, 2) << "what was done is told all the same";
+    EXPECT_EQ(row.cycles_measured, 2);
+    EXPECT_TRUE(row.efficiency_theory);
+}
+
+TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
+    store::CaseRecord unknown = record;
+    unknown.estimate.half_width = std::numeric_limits<double>::infinity();
+    Row const row = compare("", record.scenario, unknown, "");
+    EXPECT_EQ(row.efficiency_dem, 0.82);
+    EXPECT_FALSE(row.efficiency_dem_half_width);
+}
+
+TEST(Compare, HasNoMeasurementWithoutARecord) {
+    for (char const* outcome : {"open", "running", "interrupted", "lost-grains"}) {
+        Row const row = compare("", record.scenario, {}, outcome);
+        EXPECT_EQ(row.outcome, outcome);
+        EXPECT_FALSE(row.efficiency_dem);
+        EXPECT_FALSE(row.efficiency_dem_half_width);
+        EXPECT_FALSE(row.speed_dem_m_per_s);
+        EXPECT_FALSE(row.packings);
+        EXPECT_FALSE(row.cycles_measured);
+        EXPECT_FALSE(row.cycles_discarded);
+        EXPECT_FALSE(row.wall_s);
+        EXPECT_TRUE(row.efficiency_theory);
+    }
+}
+
+}  // namespace
+}  // namespace vibrotrough::compare

@@ -1,0 +1,187 @@
+#include "compare/comparison.hpp"
+#include "store/sample_record.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The contract of the issue: scripts read these names.
+std::vector<std::string> const contract{"case",
+                                        "throw_number",
+                                        "machine_number",
+                                        "vibration_angle_deg",
+                                        "inclination_deg",
+                                        "friction",
+                                        "amplitude_m",
+                                        "frequency_hz",
+                                        "efficiency_dem",
+                                        "efficiency_dem_half_width",
+                                        "speed_dem_m_per_s",
+                                        "efficiency_theory",
+                                        "mode_theory",
+                                        "packings",
+                                        "cycles_measured",
+                                        "cycles_discarded",
+                                        "wall_s",
+                                        "outcome"};
+
+std::vector<std::string> const measured{"efficiency_dem", "efficiency_dem_half_width", "speed_dem_m_per_s",
+                                        "packings",       "cycles_measured",           "cycles_discarded",
+                                        "wall_s"};
+
+store::CaseRecord record_at(double degrees, std::string const& outcome) {
+    store::CaseRecord record = store::sample_record("0123456789ab");
+    record.scenario.trough.vibration_angle = degrees * std::numbers::pi / 180;
+    record.outcome = outcome;
+    return record;
+}
+
+/// A finished case, one that was never steady, one that failed and one that is open.
+std::vector<Row> some_rows() {
+    store::CaseRecord const finished = record_at(30, "finished"), unsteady = record_at(10, "not-steady");
+    return {compare("0123456789ab", finished.scenario, finished, ""),
+            compare("123456789abc", unsteady.scenario, unsteady, ""),
+            compare("23456789abcd", finished.scenario, {}, "insertion-incomplete"),
+            compare("3456789abcde", finished.scenario, {}, "open")};
+}
+
+std::vector<std::string> lines_of(std::string const& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+/// Split at each separator; an empty last field counts.
+std::vector<std::string> fields_of(std::string const& line, char separator) {
+    std::vector<std::string> fields(1);
+    for (char const c : line) {
+        if (c == separator) {
+            fields.emplace_back();
+        } else {
+            fields.back() += c;
+        }
+    }
+    return fields;
+}
+
+TEST(Json, HasTheContractsColumns) {
+    Json const table = Json::parse(to_json(some_rows()));
+    ASSERT_TRUE(table.is_array());
+    ASSERT_EQ(table.size(), 4u);
+    for (Json const& row : table) {
+        for (std::string const& name : contract) EXPECT_TRUE(row.contains(name)) << name;
+    }
+}
+
+TEST(Json, GivesNumbersInFull) {
+    auto const rows = some_rows();
+    Json const row = Json::parse(to_json(rows)).at(0);
+    EXPECT_EQ(row["case"], "0123456789ab");
+    EXPECT_EQ(row["outcome"], "finished");
+    EXPECT_EQ(row["vibration_angle_deg"], 30.0);
+    EXPECT_NE(to_json(rows).find("\"vibration_angle_deg\": 30.0,"), std::string::npos)
+        << "30 is printed as 30";
+    // Text and back: the same double.
+    EXPECT_EQ(row["efficiency_dem"].get<double>(), rows[0].efficiency_dem);
+    EXPECT_EQ(row["efficiency_theory"].get<double>(), rows[0].efficiency_theory);
+    EXPECT_EQ(row["speed_dem_m_per_s"].get<double>(), rows[0].speed_dem_m_per_s);
+    EXPECT_EQ(row["cycles_measured"].get<int>(), 2);
+    EXPECT_TRUE(row["packings"].is_number_integer());
+}
+
+TEST(Json, SaysNullOfWhatIsNotKnown) {
+    Json const table = Json::parse(to_json(some_rows()));
+    Json const& unsteady = table.at(1);
+    for (char const* name : {"efficiency_dem", "efficiency_dem_half_width", "speed_dem_m_per_s"})
+        EXPECT_TRUE(unsteady[name].is_null()) << name;
+    EXPECT_EQ(unsteady["cycles_discarded"], 2);
+    for (std::size_t const without_record : {2, 3}) {
+        for (std::string const& name : contract) {
+            bool const unknown = std::ranges::find(measured, name) != measured.end();
+            EXPECT_EQ(table.at(without_record)[name].is_null(), unknown) << name;
+        }
+    }
+    EXPECT_EQ(table.at(2)["outcome"], "insertion-incomplete");
+}
+
+TEST(Json, OfNoCaseIsAnEmptyArray) {
+    EXPECT_EQ(Json::parse(to_json({})), Json::array());
+}
+
+TEST(Csv, HasTheColumnsAndValuesOfTheJson) {
+    Json const table = Json::parse(to_json(some_rows()));
+    auto const lines = lines_of(to_csv(some_rows()));
+    ASSERT_EQ(lines.size(), 1 + table.size());
+    auto const names = fields_of(lines[0], ',');
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        auto const fields = fields_of(lines[i + 1], ',');
+        ASSERT_EQ(fields.size(), names.size());
+        std::size_t column = 0;
+        for (auto const& [name, value] : table.at(i).items()) {
+            EXPECT_EQ(names[column], name);
+            std::string const wanted = value.is_null()     ? ""
+                                       : value.is_string() ? value.get<std::string>()
+                                                           : value.dump();
+            EXPECT_EQ(fields[column], wanted) << name;
+            ++column;
+        }
+        EXPECT_EQ(column, names.size());
+    }
+}
+
+TEST(Csv, OfNoCaseIsItsHeader) {
+    auto const lines = lines_of(to_csv({}));
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(fields_of(lines[0], ',').size(), contract.size());
+}
+
+TEST(Table, IsAligned) {
+    auto const lines = lines_of(to_table(some_rows()));
+    ASSERT_EQ(lines.size(), 2u + 4u);
+    // Ids and outcomes are flush left, numbers flush right: outcomes begin in one column, and the column
+    // before them ends two blanks before it.
+    std::size_t const outcome = lines[0].find("outcome");
+    std::vector<std::string> const outcomes{"finished", "not-steady", "insertion-incomplete", "open"};
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        std::string const& line = lines[i + 2];
+        ASSERT_GT(line.size(), outcome);
+        EXPECT_EQ(line.substr(outcome), outcomes[i]);
+        EXPECT_EQ(line.substr(outcome - 2, 2), "  ");
+        EXPECT_NE(line[outcome - 3], ' ') << line;
+    }
+    for (char const* heading :
+         {"Gamma", "beta", "alpha", "mu", "f ", "eta DEM", "eta theory", "mode", "speed"})
+        EXPECT_NE(lines[0].find(heading), std::string::npos) << heading;
+    for (std::string const& line : lines) EXPECT_NE(line.back(), ' ') << "'" << line << "'";
+}
+
+TEST(Table, ShowsTheMeasurementBesideTheTheory) {
+    auto const rows = some_rows();
+    std::string const line = lines_of(to_table(rows))[2];
+    EXPECT_NE(line.find("0.820 +- 0.127"), std::string::npos) << line;
+    EXPECT_NE(line.find("  30.00  "), std::string::npos) << line;
+    EXPECT_NE(line.find(rows[0].mode_theory), std::string::npos) << line;
+    EXPECT_NE(line.find("2+2"), std::string::npos) << line;
+    // The difference carries its sign.
+    char difference[32];
+    std::snprintf(difference, sizeof difference, "%+.3f", 0.82 - rows[0].efficiency_theory.value());
+    EXPECT_NE(line.find(difference), std::string::npos) << line;
+}
+
+TEST(Table, ShowsADashForWhatIsNotKnown) {
+    auto const lines = lines_of(to_table(some_rows()));
+    EXPECT_NE(lines[3].find("- +- -"), std::string::npos) << lines[3];
+    EXPECT_EQ(lines[5].find("nan"), std::string::npos) << lines[5];
+}
+
+}  // namespace
+}  // namespace vibrotrough::compare

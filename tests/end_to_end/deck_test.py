@@ -1,0 +1,64 @@
+"""Decks run by hand give the numbers that the driver gets."""
+
+import shutil
+import subprocess
+import unittest
+
+from trough_program import PATIENCE, EndToEndTest, count_cycles
+
+SWEEP = {"trough.throw_number": [0.8, 2.0]}
+
+
+class Deck(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        # A packing that is known well enough stops before; by hand it goes on to the last cycle.
+        self.campaign = self.write_campaign({"measure.max_cycles": 60}, SWEEP)
+        self.decks = self.folder / "decks"
+
+    def run_by_hand(self, packing):
+        done = subprocess.run(
+            [shutil.which("liggghts"), "-in", "in.liggghts"], cwd=packing, capture_output=True, text=True, timeout=PATIENCE
+        )
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+        # The deck sets thermo_modify again after this warning, which the engine always gives; no other is expected.
+        warnings = [line for line in done.stdout.splitlines() if "WARNING" in line and "thermo_style" not in line]
+        self.assertEqual(warnings, [])
+        return packing / "cycles.csv"
+
+    def test_by_hand_as_by_the_driver(self):
+        told = self.call("deck", self.campaign, "--output", self.decks)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn("2 cases written", told.stdout)
+        self.assertIn(f"cd {self.decks}/case-001/packing-1 && liggghts -in in.liggghts", told.stdout)
+        written = sorted(str(path.relative_to(self.decks)) for path in self.decks.glob("*/*"))
+        wanted = [f"case-00{case}/{name}" for case in (1, 2) for name in ("packing-1", "packing-2", "scenario.toml")]
+        self.assertEqual(written, wanted)
+
+        self.run_campaign(self.campaign)
+        for number, row in enumerate(self.table(), start=1):
+            by_hand = self.decks / f"case-00{number}" / "packing-2"
+            driven = self.output / "cases" / row["case"] / "packing-2"
+            for name in ("in.liggghts", "trough.stl"):
+                self.assertEqual((by_hand / name).read_bytes(), (driven / name).read_bytes())
+            cycles, driven_cycles = self.run_by_hand(by_hand), driven / "cycles.csv"
+            self.assertEqual(count_cycles(cycles), 60)
+            # The same program on the same machine with the same input: equal, digit for digit.
+            same = cycles.read_text().startswith(driven_cycles.read_text())
+            self.assertTrue(same, "the driver's cycles are not those run by hand")
+        # At least one packing was stopped by the driver, or the comparison above has compared no stop.
+        lengths = [count_cycles(path) for path in self.output.glob("cases/*/packing-2/cycles.csv")]
+        self.assertLess(min(lengths), 60)
+
+    def test_the_frozen_case_gives_the_same_deck(self):
+        self.call("deck", self.campaign, "--output", self.decks)
+        again = self.folder / "again"
+        told = self.call("deck", self.decks / "case-002" / "scenario.toml", "--output", again)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        for name in ("packing-1/in.liggghts", "packing-2/in.liggghts", "packing-1/trough.stl", "scenario.toml"):
+            first = (self.decks / "case-002" / name).read_bytes()
+            self.assertEqual((again / "case-001" / name).read_bytes(), first, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

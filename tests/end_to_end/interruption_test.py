@@ -1,0 +1,115 @@
+"""A campaign that is killed, interrupted with Ctrl-C, or loses an engine goes on where it stopped."""
+
+import json
+import os
+import signal
+import unittest
+
+from trough_program import EndToEndTest, engines_in, fingerprint, processes_in, wait_until, without_wall_time
+
+SWEEP = {"layer.grains": [60, 70, 80, 90]}
+ALL_PACKINGS = 4 * 2
+
+
+class Interruption(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        self.campaign = self.write_campaign(sweep=SWEEP)
+
+    def wait_for_the_middle(self, driver):
+        """Until a case is finished while engines run on others."""
+        wait_until(lambda: self.results() and engines_in(self.output), "a case was finished and engines ran", driver)
+
+    def finished_packings(self):
+        """Names of the packings that have their marker, e.g. "4f.../packing-1"."""
+        return sorted("/".join(marker.parts[-3:-1]) for marker in self.output.glob("cases/*/packing-*/packing.json"))
+
+    undisturbed = None  # the table of a run that nothing disturbs, made once
+
+    def undisturbed_table(self):
+        if Interruption.undisturbed is None:
+            folder = self.folder / "undisturbed"
+            self.run_campaign(self.campaign, output=folder)
+            Interruption.undisturbed = without_wall_time(self.table(folder))
+        return Interruption.undisturbed
+
+    def assert_resumes(self, kept, done_before):
+        """The same command finishes the rest; `kept`: fingerprints of results, `done_before`: packings."""
+        self.take_starts()
+        self.run_campaign(self.campaign)
+        for path, before in kept.items():
+            self.assertEqual(fingerprint(path), before, f"{path} was written again")
+        started = self.take_starts()
+        self.assertEqual(len(started), len(set(started)), "a packing was started twice")
+        self.assertEqual(len(started) + len(done_before), ALL_PACKINGS)
+        self.assertEqual(set(started) & set(done_before), set(), "finished packings were run twice")
+        # The engine is deterministic and the number of cycles used depends on the cycles only: equal, bit for bit.
+        table = self.table()
+        self.assertEqual([row["outcome"] for row in table], ["finished"] * 4)
+        self.assertEqual(without_wall_time(table), self.undisturbed_table())
+
+    def test_killed_driver(self):
+        driver = self.start_campaign(self.campaign)
+        self.wait_for_the_middle(driver)
+        driver.send_signal(signal.SIGKILL)
+        self.assertEqual(self.finish(driver)[0], -signal.SIGKILL)
+        # The kernel ends the engines with their driver; nobody is left to do it.
+        wait_until(lambda: not processes_in(self.output), "the killed driver's engines were gone")
+        kept = {path: fingerprint(path) for path in self.results()}
+        self.assertIn(len(kept), (1, 2, 3), "the test is about a run that is cut in the middle")
+
+        status = self.ask_json("status")
+        self.assertEqual((status["finished"], status["left"]), (len(kept), 4 - len(kept)))
+        self.assertEqual((status["running"], status["failed"]), (0, 0))
+        outcomes = [row["outcome"] for row in self.table()]
+        self.assertEqual(outcomes.count("finished"), len(kept))
+        self.assertLessEqual(set(outcomes), {"finished", "interrupted", "open"})
+        self.assert_resumes(kept, self.finished_packings())
+
+    def test_ctrl_c(self):
+        driver = self.start_campaign(self.campaign)
+        self.wait_for_the_middle(driver)
+        os.killpg(driver.pid, signal.SIGINT)  # as a terminal does it
+        code, output, errors = self.finish(driver)
+        self.assertEqual(processes_in(self.output), {}, "engines outlived their driver")
+        self.assertEqual(code, 130, output + errors)
+        self.assertIn("interrupted: the same command goes on where it stopped", output)
+        self.assertEqual(list(self.output.glob("cases/*/failure.json")), [], "an interruption is no failure")
+        kept = {path: fingerprint(path) for path in self.results()}
+        self.assertIn(f"{len(kept)} of 4 cases finished", output)
+        # What is finished is in the table of the interrupted campaign already.
+        self.assertTrue((self.output / "campaign.h5").is_file())
+        self.assert_resumes(kept, self.finished_packings())
+
+    def test_killed_engine(self):
+        driver = self.start_campaign(self.campaign)
+        victim = wait_until(lambda: engines_in(self.output), "an engine ran", driver)[0]
+        packing = os.path.relpath(os.readlink(f"/proc/{victim}/cwd"), (self.output / "cases").resolve())
+        os.kill(victim, signal.SIGKILL)
+        code, output, errors = self.finish(driver)
+        self.assertEqual(code, 1, output + errors)
+        self.assertIn("3 of 4 cases finished, 1 failed", output)
+
+        case, packing_name = packing.split("/")
+        failure_file = self.output / "cases" / case / "failure.json"
+        failure = json.loads(failure_file.read_text())
+        self.assertEqual((failure["case"], failure["outcome"], failure["attempts"]), (case, "engine-crashed", 1))
+        self.assertEqual(f"packing-{failure['packing']}", packing_name)
+        self.assertIn("signal 9", failure["message"])
+        self.assertRegex(errors, rf"case {case} .*engine-crashed: .*signal 9")
+
+        row = next(row for row in self.table() if row["case"] == case)
+        self.assertEqual(row["outcome"], "engine-crashed")
+        self.assertIsNone(row["efficiency_dem"])
+        self.assertIsNotNone(row["efficiency_theory"])
+        listed = next(one for one in self.ask_json("status")["cases"] if one["case"] == case)
+        self.assertEqual(listed["message"], failure["message"])
+
+        kept = {path: fingerprint(path) for path in self.results()}
+        self.assertEqual(len(kept), 3)
+        self.assert_resumes(kept, self.finished_packings())
+        self.assertFalse(failure_file.exists(), "the failure is mended")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,201 @@
+"""What the end-to-end tests share: the program as a person runs it, small campaigns, and a look at the machine's processes.
+
+The program under test is named by the environment variable VIBROTROUGH_PROGRAM; LIGGGHTS is the one on the PATH.
+"""
+
+import json
+import os
+import shutil
+import signal
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
+
+# A machine may be slow and busy: this is how long one step of a test may take before it counts as hanging, s.
+PATIENCE = 240
+
+# 60 soft grains in the smallest box that the program allows (four of the largest diameters, rounded up): about a
+# second per packing.
+SMALL = {
+    "campaign": {"name": "small"},
+    "trough": {
+        "inclination": "0 deg",
+        "tan_vibration_angle": 0.5,
+        "amplitude": "3 mm",
+        "throw_number": 2.0,
+        "friction": 0.23,
+        "restitution": 0.5,
+    },
+    "grains": {
+        "diameter": "3 mm",
+        "diameter_spread": 0.1,
+        "density": "1400 kg/m3",
+        "youngs_modulus": "1 MPa",
+        "poisson_ratio": 0.35,
+        "friction": 0.5,
+        "restitution": 0.5,
+        "rolling_friction": 0.0,
+    },
+    "layer": {"length": "15 mm", "width": "15 mm", "grains": 60},
+    "measure": {"packings": 2, "half_width": 0.2, "max_cycles": 300},
+    "output": {"frames_per_cycle": 0},
+}
+
+
+def campaign_text(changes=None, sweep=None):
+    """SMALL as TOML. `changes`: {"section.key": value}, None removes the key; `sweep`: {"section.key": values}."""
+    sections = {name: dict(keys) for name, keys in SMALL.items()}
+    for path, value in (changes or {}).items():
+        section, key = path.split(".")
+        sections[section][key] = value
+    lines = []
+    for name, keys in sections.items():
+        # JSON's texts and numbers are TOML's as well.
+        lines += [f"[{name}]"] + [f"{key} = {json.dumps(value)}" for key, value in keys.items() if value is not None]
+    if sweep:
+        lines += ["[sweep]"] + [f'"{path}" = {json.dumps(values)}' for path, values in sweep.items()]
+    return "\n".join(lines) + "\n"
+
+
+def wait_until(question, what, watched=None):
+    """Asks until the answer is truthy, and returns it. `watched`: a process that must not end before."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        ended = watched is not None and watched.poll() is not None
+        answer = question()
+        if answer:
+            return answer
+        if ended:
+            raise AssertionError(f"the program ended with {watched.returncode} before {what}")
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {PATIENCE} s in vain until {what}")
+        time.sleep(0.02)
+
+
+def processes_in(folder):
+    """{process id: command name} of all living processes that work below `folder`."""
+    below = str(Path(folder).resolve()) + "/"
+    found = {}
+    for process in Path("/proc").iterdir():
+        if not process.name.isdigit():
+            continue
+        try:
+            if (os.readlink(process / "cwd") + "/").startswith(below):
+                found[int(process.name)] = (process / "comm").read_text().strip()
+        except OSError:
+            pass  # ended meanwhile, a zombie, or somebody else's
+    return found
+
+
+def engines_in(folder):
+    return [number for number, name in processes_in(folder).items() if name == "liggghts"]
+
+
+def count_cycles(path):
+    """Whole cycles in a cycles.csv: its lines of numbers but the first, which is the start."""
+    return sum(line[:1].isdigit() for line in path.read_text().splitlines()) - 1
+
+
+def fingerprint(path):
+    """Changes whenever the file is written again, even with the same content."""
+    status = path.stat()
+    return status.st_ino, status.st_mtime_ns, path.read_bytes()
+
+
+class EndToEndTest(unittest.TestCase):
+    """Gives each test a folder of its own and an engine that counts its starts."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough_")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.addCleanup(self.kill_leftovers)
+        self.output = self.folder / "runs"
+        self.starts_file = self.folder / "starts"
+        self.engine = self.make_counting_engine()
+
+    def kill_leftovers(self):
+        for number in processes_in(self.folder):
+            os.kill(number, signal.SIGKILL)
+
+    def make_counting_engine(self):
+        """The real engine behind a script that notes the folder of each simulation it starts."""
+        real = shutil.which("liggghts")
+        self.assertIsNotNone(real, "these tests need liggghts on the PATH")
+        script = self.folder / "counting-liggghts"
+        script.write_text(f'#!/bin/sh\ncase "$1" in -in) pwd >> "{self.starts_file}";; esac\nexec "{real}" "$@"\n')
+        script.chmod(script.stat().st_mode | stat.S_IXUSR)
+        return script
+
+    def take_starts(self):
+        """The packings simulated since the last call, e.g. ["4f.../packing-1"], sorted."""
+        lines = self.starts_file.read_text().splitlines() if self.starts_file.exists() else []
+        self.starts_file.unlink(missing_ok=True)
+        return sorted("/".join(Path(line).parts[-2:]) for line in lines)
+
+    def write_campaign(self, changes=None, sweep=None, name="campaign.toml"):
+        path = self.folder / name
+        path.write_text(campaign_text(changes, sweep))
+        return path
+
+    def call(self, *arguments, **settings):
+        """Runs the program to its end."""
+        command = [PROGRAM, *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, **settings)
+
+    def run_arguments(self, campaign, output=None, jobs=2):
+        return ["run", campaign, "--output", output or self.output, "--jobs", jobs, "--liggghts", self.engine]
+
+    def run_campaign(self, campaign, output=None, jobs=2, wanted=0):
+        done = self.call(*self.run_arguments(campaign, output, jobs))
+        self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
+        return done
+
+    def start_campaign(self, campaign):
+        """Starts a run in a process group of its own, as a shell does, and returns at once."""
+        command = [PROGRAM, *map(str, self.run_arguments(campaign))]
+        process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        )
+        self.addCleanup(self.end, process)
+        return process
+
+    @staticmethod
+    def end(process):
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+    def finish(self, process):
+        """Waits for the end; (exit code, standard output, standard error)."""
+        output, errors = process.communicate(timeout=PATIENCE)
+        return process.returncode, output, errors
+
+    def ask_json(self, command, output=None):
+        answer = self.call(command, output or self.output, "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return json.loads(answer.stdout)
+
+    def table(self, output=None):
+        return self.ask_json("compare", output)
+
+    def results(self):
+        return sorted(self.output.glob("cases/*/result.h5"))
+
+    def assert_one_line_error(self, done, exit_code, *parts):
+        """The program said what is wrong in exactly one line on stderr, nothing on stdout."""
+        self.assertEqual(done.returncode, exit_code, done.stdout + done.stderr)
+        self.assertRegex(done.stderr, r"\Avibrotrough: [^\n]+\n\Z")
+        self.assertEqual(done.stdout, "")
+        for part in parts:
+            self.assertIn(part, done.stderr)
+
+
+def without_wall_time(table):
+    """The rows with what two runs of the same campaign must have in common: all but the time they took."""
+    return [{name: value for name, value in row.items() if name != "wall_s"} for row in table]
