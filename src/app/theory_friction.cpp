@@ -28,7 +28,31 @@ std::string warning_for(std::string const& mode) {
         mode);
 }
 
+/// "0.05:0.6:56": the curve of Fig. 8 as CSV.
+void curve(std::string const& text, theory::ShakeTest const& test) {
+    char const* const example = "0.05:0.6:56";
+    auto const first = text.find(':'), second = text.rfind(':');
+    if (first == second) {
+        throw InputError(fmt::format(
+            "--friction {}: a curve needs FROM:TO:COUNT; write for example --friction {}", text, example));
+    }
+    double const from = read_number_within("--friction", text.substr(0, first), example, 0, 1e6);
+    double const to =
+        read_number_within("--friction", text.substr(first + 1, second - first - 1), example, from, 1e6);
+    int const count = read_count("--friction", text.substr(second + 1), example, 2, 1'000'000);
+    fmt::print("friction,max_relative_displacement,mode\n");
+    for (int i = 0; i < count; ++i) {
+        double const mu = from + (to - from) * i / (count - 1);
+        theory::ShakeMotion const motion = theory::shake(test, mu);
+        fmt::print("{},{},{}\n", mu, motion.max_relative_displacement, motion.mode);
+    }
+}
+
 void forward(Options const& options, theory::ShakeTest const& test) {
+    if (options.friction->find(':') != std::string::npos) {
+        curve(*options.friction, test);
+        return;
+    }
     double const mu = read_number_within("--friction", *options.friction, "0.3", 0, 1e6);
     theory::ShakeMotion const motion = theory::shake(test, mu);
     if (options.json) {
@@ -102,13 +126,14 @@ void add_theory_friction(CLI::App& theory, int& exit_code) {
         "largest displacement of a box of grains against it, in amplitudes r (peak to peak of the slip).\n"
         "Example: vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9 "
         "--uncertainty 0.02\n"
-        "The forward curve: vibrotrough theory friction --machine-number 1.5 --friction 0.3");
+        "The forward curve: vibrotrough theory friction --machine-number 1.5 --friction 0.05:0.6:56");
     auto const options = std::make_shared<Options>();
     command->add_option("--machine-number", options->machine_number, "K = omega^2 r / g of the shaking");
     command->add_option("--max-relative-displacement", options->displacement,
                         "Measured, in amplitudes r, 0 to 2");
     command->add_option("--uncertainty", options->uncertainty, "Of that displacement, in amplitudes");
-    command->add_option("--friction", options->friction, "Instead: print the displacement for this mu");
+    command->add_option("--friction", options->friction,
+                        "Instead: print the displacement for this mu, or for FROM:TO:COUNT as CSV");
     command->add_option("--tan-inclination", options->tan_inclination,
                         "Of the plate along the shaking; 0 when not given");
     command->add_flag("--json", options->json, "Print JSON");

@@ -115,6 +115,8 @@ theory::Machine read_machine(Options const& o) {
 
 void run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
+    std::optional<theory::Machine> machine;
+    if (options.amplitude) machine = read_machine(options);
     theory::ConveyorMotion answer;
     if (options.motion.plastic()) answer.motion = theory::solve(input.point);
     if (!options.motion.plastic() || options.amplitude) {
@@ -124,9 +126,9 @@ void run(Options const& options) {
     }
     Json json = as_json(input, answer);
     if (!options.json) print_text(input, answer);
-    if (options.amplitude && !answer.pieces.empty()) {
+    if (machine && !answer.pieces.empty()) {
         if (!options.json) fmt::print("\n");
-        for (auto const& q : listed(theory::engineer_quantities(answer, read_machine(options)))) {
+        for (auto const& q : listed(theory::engineer_quantities(answer, *machine))) {
             json["quantities"][q.name] = {{"value", q.value}, {"units", q.unit}};
             if (!options.json) fmt::print("{:<26} {:>12.6g} {}\n", q.name, q.value, q.unit);
         }

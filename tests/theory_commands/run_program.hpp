@@ -14,9 +14,12 @@ struct Answer {
     std::string text;  ///< what was printed on standard output and standard error
 };
 
+enum class StandardError { together, dropped };
+
 /// Runs the program that was built, through the shell.
-inline Answer run_program(std::string const& arguments) {
-    std::string const line = std::string("'") + VIBROTROUGH_PROGRAM + "' " + arguments + " 2>&1";
+inline Answer run_program(std::string const& arguments, StandardError error = StandardError::together) {
+    std::string const line = std::string("'") + VIBROTROUGH_PROGRAM + "' " + arguments +
+                             (error == StandardError::together ? " 2>&1" : " 2>/dev/null");
     std::FILE* const pipe = popen(line.c_str(), "r");
     if (pipe == nullptr) throw std::runtime_error("cannot start " + line);
     Answer answer{};

@@ -1,0 +1,5 @@
+include(CMakeFindDependencyMacro)
+find_dependency(TBB)
+find_dependency(Boost 1.74)
+find_dependency(NLopt)
+include(${CMAKE_CURRENT_LIST_DIR}/vibrotrough-theory-targets.cmake)
