@@ -50,10 +50,10 @@ class Frames(EndToEndTest):
         done = self.call("export", self.output)
         self.assertEqual(done.returncode, 0, done.stderr)
         case, count, scene = re.fullmatch(
-            r"case (\w{12}): (\d+) frames; open with: paraview --state=(.*)\n", done.stdout
+            r"case (\w{12}): (\d+) frames; open with: sh (.*)\n", done.stdout
         ).groups()
         folder = self.output.resolve() / "cases" / case / "frames"
-        self.assertEqual(scene, str(folder / "view_case.py"))
+        self.assertEqual(scene, str(folder / "view.sh"))
         self.assertTrue((folder / "view_case.py").is_file())
         return folder, int(count)
 
