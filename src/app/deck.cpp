@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "core/atomic_file.hpp"
+#include "core/shell.hpp"
 #include "scenario/campaign_file.hpp"
 
 #include <filesystem>
@@ -35,7 +36,7 @@ int run(Options const& options) {
                    scenario.layer.grains, scenario.measure.packings);
     }
     fmt::print("{} cases written; run one by hand with: cd {} && liggghts -in in.liggghts\n",
-               campaign.cases.size(), (fs::path(options.output) / "case-001" / "packing-1").string());
+               campaign.cases.size(), shell_word(fs::path(options.output) / "case-001" / "packing-1"));
     return all_well;
 }
 

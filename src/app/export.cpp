@@ -2,9 +2,11 @@
 #include "app/exit_code.hpp"
 #include "campaign/overview.hpp"
 #include "core/error.hpp"
+#include "core/shell.hpp"
 #include "deck/deck.hpp"
 #include "view/frames.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -53,11 +55,17 @@ int run(Options const& options) {
         if (!frames) continue;
         ++exported;
         fmt::print("case {}: {} frames; open with: sh {}\n", planned.id, frames->frames,
-                   (fs::absolute(frames->scene).lexically_normal().parent_path() / "view.sh").string());
+                   shell_word(fs::absolute(frames->scene).lexically_normal().parent_path() / "view.sh"));
     }
     if (!known) {
         throw InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
                                      options.folder, options.id, options.folder));
+    }
+    bool const asked_for = std::ranges::any_of(
+        plan.cases, [](auto const& planned) { return planned.scenario.output.frames_per_cycle > 0; });
+    if (exported == 0 && asked_for) {
+        throw InputError(
+            fmt::format("{} holds no frames yet; wait until its first cases run", options.folder));
     }
     if (exported == 0) {
         throw InputError(fmt::format(

@@ -3,7 +3,7 @@
 #include "app/progress_printer.hpp"
 #include "campaign/local_executor.hpp"
 #include "campaign/overview.hpp"
-#include "core/error.hpp"
+#include "core/shell.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -52,7 +52,7 @@ int run(Options const& options) {
     if (summary.failed > 0) fmt::print(", {} failed", summary.failed);
     if (left > 0) fmt::print(", {} left", left);
     fmt::print("{}\n", summary.interrupted ? "; interrupted: the same command goes on where it stopped" : "");
-    fmt::print("results in {}; see them with: vibrotrough compare {}\n", folder.string(), folder.string());
+    fmt::print("results in {}; see them with: vibrotrough compare {}\n", folder.string(), shell_word(folder));
     return exit_code_of(summary);
 }
 

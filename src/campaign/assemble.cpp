@@ -3,8 +3,6 @@
 #include "campaign/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/time.hpp"
-#include "core/version.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,8 +65,6 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
     record.id = planned.id;
     record.scenario = planned.scenario;
     record.scenario_toml = to_toml(planned.scenario);
-    record.provenance = {
-        std::string(program_version()), std::string(program_commit()), engine_version, host_name(), "", ""};
     std::vector<measure::PackingEstimate> estimates;
     for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
         auto const marker = read_finished_packing(planned, packing);
@@ -77,8 +73,11 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
         record.packings.push_back(read_packing(planned, packing, *marker));
         estimates.push_back(record.packings.back().estimate);
         auto& [version, commit, engine, host, started, finished] = record.provenance;
-        // ISO 8601 sorts as text.
-        started = started.empty() ? marker->started : std::min(started, marker->started);
+        if (packing == 1) {
+            record.provenance = {marker->program_version, marker->git_commit, engine_version, marker->host,
+                                 marker->started,         marker->finished};
+        }
+        started = std::min(started, marker->started);  // ISO 8601 sorts as text
         finished = std::max(finished, marker->finished);
     }
     record.estimate = measure::combine(estimates, planned.scenario.measure.confidence);

@@ -90,7 +90,8 @@ std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned,
     if (!json || digest.empty()) return {};
     try {
         if (json->at("cycles_sha256") != digest) return {};
-        return FinishedPacking{json->at("wall_time"), json->at("started"), json->at("finished")};
+        return FinishedPacking{json->at("wall_time"),       json->at("started"),    json->at("finished"),
+                               json->at("program_version"), json->at("git_commit"), json->at("host")};
     } catch (Json::exception const&) {
         return {};
     }
@@ -100,6 +101,9 @@ void write_finished_packing(PlannedCase const& planned, int packing, FinishedPac
     Json const json{{"wall_time", finished.wall_time},
                     {"started", finished.started},
                     {"finished", finished.finished},
+                    {"program_version", finished.program_version},
+                    {"git_commit", finished.git_commit},
+                    {"host", finished.host},
                     {"cycles_sha256", digest_of_cycles(planned, packing)}};
     write_file_atomically(marker(planned, packing), json.dump(2) + "\n");
 }

@@ -40,7 +40,8 @@ CaseState case_state(PlannedCase const& planned);
 /// A packing whose engine ended well, as its folder holds it: deck, cycles.csv, packing.json.
 struct FinishedPacking {
     double wall_time;  ///< s
-    std::string started, finished;
+    std::string started, finished;  ///< ISO 8601, UTC
+    std::string program_version = "", git_commit = "", host = "";  ///< that ran it
 };
 
 /// The packing's marker, if it is there and cycles.csv is still what it was then.

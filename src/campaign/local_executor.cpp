@@ -6,6 +6,7 @@
 #include "campaign/packing_run.hpp"
 #include "campaign/time_to_go.hpp"
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 namespace vibrotrough::campaign {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 struct Job {
@@ -40,8 +42,8 @@ class LocalExecutor {
         signals_.async_wait([this](auto const& cancelled, int) {
             if (!cancelled) interrupt();
         });
-        tick();
         start_jobs();
+        tick();
         context_.run();
         return summary();
     }
@@ -54,21 +56,39 @@ class LocalExecutor {
                 outcomes_[i] = result->outcome;
                 continue;
             }
-            int const packings = planned.scenario.measure.packings;
-            progress_.packings += packings;
             ++progress_.left;
-            for (int packing = 1; packing <= packings; ++packing) {
+            if (auto const failure = read_failure(planned)) attempts_[i] = failure->attempts;
+            for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
+                ++progress_.packings;
                 if (read_finished_packing(planned, packing)) {
                     ++progress_.packings_done;
                 } else {
-                    queue_.push_back({i, packing});
-                    time_to_go_.expect(planned.scenario);
-                    ++missing_[i];
+                    // What an interrupted run left would look like a run of today's.
+                    if (case_state(planned) != CaseState::failed)
+                        fs::remove_all(planned.packing_folder(packing));
+                    enqueue({i, packing});
                 }
             }
-            if (missing_[i] == 0) finish_case(i);
+            if (missing_[i] == 0) finish_or_run_again(i);
         }
         progress_.finished = static_cast<int>(outcomes_.size());
+    }
+
+    void enqueue(Job const& job) {
+        queue_.push_back(job);
+        time_to_go_.expect(plan_.cases[job.case_index].scenario);
+        ++missing_[job.case_index];
+    }
+
+    /// All packings are marked as finished; if one is damaged all the same, all are run again.
+    void finish_or_run_again(std::size_t index) {
+        try {
+            finish_case(index);
+        } catch (Error const& damage) {
+            int const packings = plan_.cases[index].scenario.measure.packings;
+            progress_.packings_done -= packings;
+            for (int packing = 1; packing <= packings; ++packing) enqueue({index, packing});
+        }
     }
 
     void start_jobs() {
@@ -82,6 +102,7 @@ class LocalExecutor {
             start(job);
         }
         if (running_.empty()) {
+            done_ = true;
             signals_.cancel();
             clock_.cancel();
         }
@@ -91,6 +112,7 @@ class LocalExecutor {
         PlannedCase const& planned = plan_.cases[job.case_index];
         make_folder(planned.folder);
         write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+        fs::remove(planned.failure_file());  // a failure.json means that the last try failed
         running_.emplace_back();
         auto const place = std::prev(running_.end());
         try {
@@ -127,7 +149,7 @@ class LocalExecutor {
         PlannedCase const& planned = plan_.cases[index];
         store::CaseRecord const record = assemble(planned, plan_.engine_version);
         store::write_result(planned.result_file(), record);
-        std::filesystem::remove(planned.failure_file());
+        fs::remove(planned.failure_file());
         outcomes_[index] = record.outcome;
         ++progress_.finished;
         --progress_.left;
@@ -137,9 +159,7 @@ class LocalExecutor {
     void fail_case(Job const& job, PackingOutcome const& outcome) {
         if (!failures_.insert({job.case_index, outcome.outcome}).second) return;
         PlannedCase const& planned = plan_.cases[job.case_index];
-        auto const before = read_failure(planned);
-        write_failure(planned,
-                      {outcome.outcome, outcome.message, job.packing, before ? before->attempts + 1 : 1});
+        write_failure(planned, {outcome.outcome, outcome.message, job.packing, ++attempts_[job.case_index]});
         ++progress_.failed;
         --progress_.left;
         observer_.case_ended(planned, outcome.outcome, outcome.message);
@@ -153,6 +173,7 @@ class LocalExecutor {
     }
 
     void tick() {
+        if (done_) return;
         for (auto const& run : running_) run->look();
         report();
         clock_.expires_after(250ms);
@@ -194,6 +215,8 @@ class LocalExecutor {
     std::map<std::size_t, std::string> failures_;  ///< of cases that failed in this run
     TimeToGo time_to_go_;
     Progress progress_;
+    std::map<std::size_t, int> attempts_;  ///< failures so far, of this and of earlier runs
+    bool done_ = false;
     bool stopping_ = false;
     bool interrupted_ = false;
 };

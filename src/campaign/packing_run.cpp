@@ -5,6 +5,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "core/version.hpp"
 #include "engine/outcome.hpp"
 #include "measure/cycle_series.hpp"
 
@@ -69,6 +70,8 @@ void PackingRun::interrupt() {
 }
 
 PackingOutcome PackingRun::judge(engine::ExitStatus status) {
+    // By hand the deck runs on as far as max_cycles.
+    write_file_atomically(folder_ / deck::control_file, deck::control_go_on);
     if (interrupted_) return {false, "interrupted", "the run was interrupted"};
     engine::RunReport const report = engine::examine_run(folder_, status);
     if (report.outcome != engine::Outcome::completed)
@@ -94,7 +97,9 @@ PackingOutcome PackingRun::judge(engine::ExitStatus status) {
         return {false, "outputs-incomplete", error.what()};
     }
     std::chrono::duration<double> const wall = std::chrono::steady_clock::now() - start_;
-    write_finished_packing(planned_, packing_, {wall.count(), started_, utc_now()});
+    write_finished_packing(planned_, packing_,
+                           {wall.count(), started_, utc_now(), std::string(program_version()),
+                            std::string(program_commit()), host_name()});
     return {true, {}, {}};
 }
 

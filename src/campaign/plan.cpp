@@ -23,6 +23,20 @@ std::string case_id(Scenario scenario, std::string const& engine_version) {
     return sha256_hex(all).substr(0, 12);
 }
 
+/// An edited campaign may go on in its folder; another one would hide the first one's cases.
+void refuse_other_campaign(Plan const& plan) {
+    fs::path const frozen = plan.folder / "campaign.toml";
+    std::string name;
+    try {
+        if (fs::is_regular_file(frozen)) name = read_campaign(frozen).name;
+    } catch (InputError const&) {
+        return;  // damaged, or of an older program: frozen anew
+    }
+    if (name.empty() || name == plan.name) return;
+    throw InputError(fmt::format("{} holds the campaign '{}', not '{}'; choose another folder with --output",
+                                 plan.folder.string(), name, plan.name));
+}
+
 }  // namespace
 
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
@@ -38,6 +52,7 @@ Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string con
 
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {
     make_folder(plan.folder / "cases");
+    refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));

@@ -1,5 +1,6 @@
 #include "compare/comparison.hpp"
 
+#include "theory/inputs.hpp"
 #include "theory/point_mass.hpp"
 
 #include <cmath>
@@ -20,12 +21,19 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
+/// The plastic point mass on this trough. The machine number also describes a trough that shakes along
+/// itself.
+theory::Motion plastic_motion(Trough const& trough) {
+    theory::Inputs inputs;
+    inputs.set(theory::Input::machine_number, machine_number(trough));
+    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
+    inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
+    inputs.set(theory::Input::friction, trough.friction);
+    return theory::solve(inputs.point());
+}
+
 void add_theory(Row& row, Trough const& trough) {
-    if (!(trough.vibration_angle > 0)) return;
-    theory::Motion const motion = theory::solve({.throw_number = throw_number(trough),
-                                                 .tan_vibration_angle = std::tan(trough.vibration_angle),
-                                                 .tan_inclination = std::tan(trough.inclination),
-                                                 .friction = trough.friction});
+    theory::Motion const motion = plastic_motion(trough);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }

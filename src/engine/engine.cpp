@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace vibrotrough::engine {
 namespace {
@@ -23,9 +24,10 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 /// In the child, before the engine starts: leave the terminal's process group, and die with the driver.
-void prepare_child() {
+void prepare_child(pid_t driver) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != driver) ::_exit(1);  // the driver died in between
 }
 
 /// One MPI rank needs no daemon: without this variable the engine starts one and takes 0.15 s longer. (Set by
@@ -116,12 +118,12 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     };
     try {
         // Line-buffered, so that an error message is not lost with the buffer.
-        state_->process =
-            bp::child(bp::search_path("env"),
-                      bp::args({no_daemon, "stdbuf", "-oL", engine.program.string(), "-in", "in.liggghts"}),
-                      bp::start_dir(folder.string()),
-                      (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null,
-                      context, bp::on_exit(ended), bp::extend::on_exec_setup([](auto&) { prepare_child(); }));
+        state_->process = bp::child(
+            bp::search_path("env"),
+            bp::args({no_daemon, "stdbuf", "-oL", engine.program.string(), "-in", "in.liggghts"}),
+            bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > (folder / output_file).string(),
+            bp::std_in < bp::null, context, bp::on_exit(ended),
+            bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
         throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
                                        error.code().message()));

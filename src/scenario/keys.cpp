@@ -236,7 +236,7 @@ std::string key_reference() {
     std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
     for (Key const& key : keys) {
         std::string needed = key.fallback ? fmt::format("{:g}", *key.fallback) : "required";
-        if (!key.group.empty()) needed = fmt::format("one for the {}", key.group);
+        if (!key.group.empty()) needed = "exactly one of these";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
                             key.meaning);
     }

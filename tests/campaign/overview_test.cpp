@@ -24,7 +24,9 @@ TEST_F(Overview, OpenThenRunningThenInterrupted) {
         FolderLock const driver(folder);
         EXPECT_EQ(look().outcome, "open") << "a driver that has not come to this case";
         write_packing(2, "cycles");
-        EXPECT_EQ(look().outcome, "running");
+        EXPECT_EQ(look().outcome, "open") << "one packing is done, none runs";
+        fs::create_directories(planned.packing_folder(1));
+        EXPECT_EQ(look().outcome, "running") << "a packing without its marker";
     }
     EXPECT_EQ(look().outcome, "interrupted");
     EXPECT_EQ(look().packings_done, 1);
@@ -36,6 +38,9 @@ TEST_F(Overview, FailureUntilItIsTriedAgain) {
     EXPECT_EQ(look().outcome, "lost-grains");
     EXPECT_EQ(look().message, "3 grains left the box");
     FolderLock const driver(folder);
+    EXPECT_EQ(look().outcome, "lost-grains") << "also while other cases run";
+    fs::remove(planned.failure_file());  // what the driver does when it tries again
+    fs::create_directories(planned.packing_folder(1));
     EXPECT_EQ(look().outcome, "running");
     EXPECT_EQ(look().message, "");
 }

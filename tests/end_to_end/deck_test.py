@@ -1,5 +1,6 @@
 """Decks run by hand give the numbers that the driver gets."""
 
+import shlex
 import shutil
 import subprocess
 import unittest
@@ -30,7 +31,7 @@ class Deck(EndToEndTest):
         told = self.call("deck", self.campaign, "--output", self.decks)
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertIn("2 cases written", told.stdout)
-        self.assertIn(f"cd {self.decks}/case-001/packing-1 && liggghts -in in.liggghts", told.stdout)
+        self.assertIn(f"cd {shlex.quote(str(self.decks / 'case-001' / 'packing-1'))} && liggghts -in in.liggghts", told.stdout)
         written = sorted(str(path.relative_to(self.decks)) for path in self.decks.glob("*/*"))
         wanted = [f"case-00{case}/{name}" for case in (1, 2) for name in ("packing-1", "packing-2", "scenario.toml")]
         self.assertEqual(written, wanted)

@@ -2,6 +2,7 @@
 
 import base64
 import re
+import shlex
 import struct
 import unittest
 import xml.etree.ElementTree as ElementTree
@@ -53,7 +54,7 @@ class Frames(EndToEndTest):
         self.assertTrue(told, done.stdout)
         case, count, script = told.groups()
         folder = self.output.resolve() / "cases" / case / "frames"
-        self.assertEqual(script, str(folder / "view.sh"))
+        self.assertEqual(script, shlex.quote(str(folder / "view.sh")))
         for name in ("view.sh", "view_case.py"):
             self.assertTrue((folder / name).is_file(), name)
         return folder, int(count)

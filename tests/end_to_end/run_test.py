@@ -5,6 +5,7 @@ import io
 import math
 import os
 import pty
+import shlex
 import subprocess
 import unittest
 
@@ -89,7 +90,7 @@ class Run(EndToEndTest):
     def test_a_whole_campaign(self):
         done = self.run_campaign(self.campaign)
         self.assertIn("2 of 2 cases finished", done.stdout)
-        self.assertIn(f"vibrotrough compare {self.output}", done.stdout)
+        self.assertIn(f"vibrotrough compare {shlex.quote(str(self.output))}", done.stdout)
         self.assertEqual(len(self.take_starts()), 4)
         table = self.table()
         self.assertEqual([row["outcome"] for row in table], ["finished"] * 2)
