@@ -61,7 +61,8 @@ TEST(Conveyor, Table1NeedsTheNamedRule) {
         double const rule = solve(conveyor).motion.velocity_efficiency;
         EXPECT_NEAR(rule, entry.printed, 0.021);
         close += std::abs(rule - entry.printed) <= 0.0021 ? 1 : 0;
-        if (entry.throw_number == 2) EXPECT_LT(physics, entry.printed - 0.25);  // rebounds convey more slowly
+        double const gap = entry.throw_number == 2 ? 0.25 : -0.01;  // rebounds convey more slowly
+        EXPECT_LT(physics, entry.printed - gap);
     }
     EXPECT_EQ(close, 11);
 }
