@@ -3,7 +3,11 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,16 +52,28 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
+/// A table that did not arrive, because its disk is full, must not end in exit code 0.
+void flush_output() {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+    throw MissingError(fmt::format("cannot write the output ({}); free disk space or choose another place",
+                                   std::strerror(errno)));
+}
+
 }  // namespace
 }  // namespace vibrotrough::app
 
 int main(int argc, char** argv) {
     using namespace vibrotrough;
     try {
-        return app::run(argc, argv);
+        int const exit_code = app::run(argc, argv);
+        app::flush_output();
+        return exit_code;
     } catch (Error const& error) {
         fmt::print(stderr, "vibrotrough: {}\n", error.what());
         return error.kind() == ErrorKind::input ? app::wrong_input : app::something_missing;
+    } catch (std::system_error const& error) {
+        fmt::print(stderr, "vibrotrough: {}; check the disk and its permissions\n", error.what());
+        return app::something_missing;
     } catch (std::exception const& error) {
         fmt::print(stderr, "vibrotrough: internal error: {}\n", error.what());
         return app::some_cases_failed;

@@ -1,8 +1,10 @@
 #include "core/quantity.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <regex>
 
 #include <fmt/format.h>
 #include <udunits2.h>
@@ -41,6 +43,25 @@ Unit parse_unit(std::string const& text) {
     return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
 }
 
+/// udunits2 reads whole expressions ("mm 3", "mm @ 2", "seconds since 2000"); a unit of ours is a product of
+/// powers of names, so that a slip of the finger is no other number.
+void check_unit_text(std::string_view text) {
+    static std::regex const unit(
+        R"((1 ?|1? ?/ ?)?[^\d\s@()*^/.+-]+((\^|\*\*)?-?\d)?([ .*/]{1,3}[^\d\s@()*^/.+-]+((\^|\*\*)?-?\d)?)*)");
+    static std::regex const word(R"((^|\W)(from|since|after|ref)(\W|$))", std::regex::icase);
+    std::string const owned(text);
+    if (owned.size() > 100 || !std::regex_match(owned, unit) || std::regex_search(owned, word)) {
+        throw QuantityError(fmt::format("'{}' is no plain unit", text));
+    }
+}
+
+/// Whether there is an angle in the unit, such as in "deg" and "rpm".
+bool is_angular(ut_unit const* unit) {
+    std::array<char, 256> definition{};
+    int const size = ut_format(unit, definition.data(), definition.size(), UT_ASCII | UT_DEFINITION);
+    return size > 0 && std::string_view(definition.data()).find("rad") != std::string_view::npos;
+}
+
 std::string_view trimmed(std::string_view text) {
     auto const first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos) return {};
@@ -60,11 +81,20 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     }
     auto const rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
+    check_unit_text(rest);
     Unit const from = parse_unit((rest.front() == '/' ? "1" : "") + std::string(rest));  // "340 / minute"
     if (!from) throw QuantityError(fmt::format("'{}' is not a unit that udunits2 knows", rest));
     Unit const to = parse_unit(unit);
     if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
         throw QuantityError(fmt::format("'{}' cannot be converted to {}", rest, unit));
+    }
+    // To udunits2 a radian is a 1, so that "rpm" would become a frequency without its 2 pi, and "5 %" an
+    // angle.
+    if (is_angular(from.get()) != is_angular(to.get())) {
+        throw QuantityError(
+            is_angular(to.get())
+                ? fmt::format("'{}' is no unit of an angle", rest)
+                : fmt::format("'{}' is angular, {} is not; 340 turns a minute are 340 / minute", rest, unit));
     }
     std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
     double const result = cv_convert_double(converter.get(), number);

@@ -105,11 +105,13 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     // The state is kept by whoever waits for the exit; a destroyed EngineProcess has no handler any more. The
     // handler is posted, because Boost 1.74 walks its list of children while it calls and must not find a new
     // one.
-    auto const ended = [state = state_, &context](int native, std::error_code const&) {
+    // The number that Boost gives may be an exit code or a signal; only the process knows which.
+    auto const ended = [state = state_, &context](int, std::error_code const&) {
         state->ended = true;
         state->patience.cancel();
-        boost::asio::post(context, [state, native] {
-            if (state->on_exit) std::exchange(state->on_exit, nullptr)(decode(native));
+        boost::asio::post(context, [state] {
+            if (state->on_exit)
+                std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
     try {

@@ -58,6 +58,11 @@ bool starts_up(std::span<double const> values, PackingEstimate const& estimate, 
     return std::abs(before - estimate.mean) > wanted.half_width;
 }
 
+/// 20, 30, 40, 55, 75, 100, 130 ...: the more often one looks, the more often luck ends a run.
+std::size_t next_look(std::size_t cycles) {
+    return (cycles * 13 + 49) / 50 * 5;
+}
+
 }  // namespace
 
 std::vector<double> velocity_efficiency(CycleSeries const& series, double amplitude_x) {
@@ -70,18 +75,20 @@ std::vector<double> velocity_efficiency(CycleSeries const& series, double amplit
 }
 
 int startup_length(std::span<double const> values) {
-    if (values.empty()) return 0;
+    // Sums from the end: those of the first d values removed are there for every d at once.
     int const n = static_cast<int>(values.size());
+    double const origin = n > 0 ? values.back() : 0;  // numbers near 0 keep their digits in the squares
+    double sum = 0, squares = 0, least = std::numeric_limits<double>::infinity();
     int best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (int d = 0; d <= n / 2; ++d) {
-        Values const kept = as_array(values.subspan(static_cast<std::size_t>(d)));
-        double const size = static_cast<double>(n - d);
-        double const error = (kept - kept.mean()).square().sum() / (size * size);
-        if (error < least) {
-            least = error;
-            best = d;
-        }
+    for (int d = n - 1; d >= 0; --d) {
+        double const value = values[static_cast<std::size_t>(d)] - origin;
+        sum += value;
+        squares += value * value;
+        double const size = n - d;
+        double const error = std::max(0.0, squares - sum * sum / size) / (size * size);
+        if (2 * d > n || error > least) continue;
+        least = error;  // of equal errors the smallest cut wins
+        best = d;
     }
     return best;
 }
@@ -103,7 +110,10 @@ double statistical_inefficiency(std::span<double const> values) {
         if (pair <= 0) break;
         sum += pair;
     }
-    return std::clamp(2 * sum - 1, 1.0, static_cast<double>(n));
+    double const size = static_cast<double>(n);
+    double const biased = correlation(1);
+    double const rho = std::min(biased + (1 + 3 * biased) / size, 1 - 1 / size);
+    return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size);
 }
 
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted) {
@@ -128,7 +138,7 @@ PackingEstimate estimate_packing(std::span<double const> values, Precision const
 }
 
 std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted) {
-    for (std::size_t used = 20; used <= values.size(); used += 5) {
+    for (std::size_t used = 20; used <= values.size(); used = next_look(used)) {
         if (estimate_packing(values.first(used), wanted).verdict == Verdict::precise)
             return static_cast<int>(used);
     }

@@ -41,8 +41,8 @@ struct Precision {
 
 /// Fewest cycles kept for an interval to be trusted, and fewest that are worth an independent one: a shorter
 /// series shows too little of its own correlation.
-constexpr int fewest_cycles = 12;
-constexpr double fewest_independent = 5;
+constexpr int fewest_cycles = 20;
+constexpr double fewest_independent = 6;
 
 /// Velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
 /// @param amplitude_x  r cos(beta), m, > 0
@@ -53,20 +53,23 @@ std::vector<double> velocity_efficiency(CycleSeries const& series, double amplit
 /// start-up is not over.
 int startup_length(std::span<double const> values);
 
-/// Statistical inefficiency g = 1 + 2 sum rho_k over the initial positive sequence of pair sums (Geyer,
-/// Statistical Science 7, 1992, 473-483), at least 1 and at most n.
+/// Statistical inefficiency: the larger of g = 1 + 2 sum rho_k over the initial positive sequence of pair
+/// sums (Geyer, Statistical Science 7, 1992, 473-483) and that of a first-order autoregression, g = (1 + rho)
+/// / (1 - rho) with rho = rho_1 + (1 + 3 rho_1) / n, which takes out the bias of a short series (Kendall,
+/// Biometrika 41, 1954, 403-404). At least 1 and at most n.
 double statistical_inefficiency(std::span<double const> values);
 
 /// Mean of one packing's cycle values: start-up cut by MSER, interval t_{n/g - 1} s sqrt(g / n). Not steady
 /// when MSER does not find the end of the start-up in the first half and the second quarter still differs
 /// from the second half by more than the wanted half-width, or when the first and the last third of what is
 /// kept differ by more than their own intervals together and by more than the wanted half-width. Not precise
-/// also while fewer than 12 cycles are kept, or fewer than 5 independent ones.
+/// also while fewer than 20 cycles are kept, or fewer than 6 independent ones.
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
-
-/// The first of the cycles 20, 25, 30 ... at which the mean is precise; nothing while there is none. It
-/// depends on the values only, not on when somebody looked, so that the same run always gives the same
-/// answer.
+/// The first of the looks at 20, 30, 40, 55, 75, 100, 130 ... cycles at which the mean is precise; nothing
+/// while there is none. It depends on the values only, not on when somebody looked, so that the same run
+/// always gives the same answer. On first-order autoregressive cycles the 95 % interval at that moment covers
+/// the truth in 95, 91, 75 and 57 % of all runs for rho = 0, 0.5, 0.8 and 0.9: one run cannot know how slowly
+/// it wanders; several packings can.
 std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted);
 
 /// The estimate from the cycles needed, else from all values; `used` says how many it rests on.

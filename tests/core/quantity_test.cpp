@@ -17,6 +17,9 @@ TEST(Quantity, ReadsUnitsIntoSi) {
     EXPECT_NEAR(parse_quantity("12.9 Hz", "Hz"), 12.9, 12.9 * rounding);
     EXPECT_NEAR(parse_quantity("340 / minute", "Hz"), 340.0 / 60, 6 * rounding);
     EXPECT_NEAR(parse_quantity("1.4 g/cm3", "kg/m3"), 1400, 1400 * rounding);
+    EXPECT_NEAR(parse_quantity("12.9 s^-1", "Hz"), 12.9, 12.9 * rounding);
+    EXPECT_NEAR(parse_quantity("1.4 g/cm^3", "kg/m3"), 1400, 1400 * rounding);
+    EXPECT_NEAR(parse_quantity("5 N/mm^2", "Pa"), 5e6, 5e6 * rounding);
     EXPECT_NEAR(parse_quantity("5 MPa", "Pa"), 5e6, 5e6 * rounding);
     EXPECT_NEAR(parse_quantity("  +2.5e-1m ", "m"), 0.25, rounding);
 }
@@ -38,6 +41,16 @@ TEST(Quantity, SaysWhatIsWrong) {
     EXPECT_EQ(message("6 parrots", "m"), "'parrots' is not a unit that udunits2 knows");
     EXPECT_EQ(message("6 s", "m"), "'s' cannot be converted to m");
     EXPECT_EQ(message("6 mm; rm", "m"), "'mm; rm' is not a unit that udunits2 knows");
+    // An expression is no unit: 6 mm 3 would be 18 mm.
+    EXPECT_EQ(message("6 mm 3", "m"), "'mm 3' is no plain unit");
+    EXPECT_EQ(message("0.6 10 mm", "m"), "'10 mm' is no plain unit");
+    EXPECT_EQ(message("6 mm @ 2", "m"), "'mm @ 2' is no plain unit");
+    EXPECT_EQ(message("6 mm from 2", "m"), "'mm from 2' is no plain unit");
+    EXPECT_EQ(message("0.05 1", "radian"), "'1' is no plain unit");
+    // A radian is a 1 to udunits2: frequencies would be off by 2 pi.
+    EXPECT_EQ(message("340 rpm", "Hz"), "'rpm' is angular, Hz is not; 340 turns a minute are 340 / minute");
+    EXPECT_NE(message("85 rad/s", "Hz"), "no error");
+    EXPECT_EQ(message("5 %", "radian"), "'%' is no unit of an angle");
     EXPECT_EQ(message("1e308 km", "mm"), "'1e308 km' is too large");
 }
 

@@ -20,7 +20,7 @@ class FactsSheet(EndToEndTest):
             "layer.width": "18 mm",
             "layer.grains": 500,
             "measure.packings": 3,
-            "measure.half_width": 0.05,
+            "measure.half_width": 0.03,
         }
         self.run_campaign(self.write_campaign(changes))
         (row,) = self.table()

@@ -49,12 +49,13 @@ class Frames(EndToEndTest):
     def export(self):
         done = self.call("export", self.output)
         self.assertEqual(done.returncode, 0, done.stderr)
-        case, count, scene = re.fullmatch(
-            r"case (\w{12}): (\d+) frames; open with: paraview --state=(.*)\n", done.stdout
-        ).groups()
+        told = re.fullmatch(r"case (\w{12}): (\d+) frames; open with: sh (.*)\n", done.stdout)
+        self.assertTrue(told, done.stdout)
+        case, count, script = told.groups()
         folder = self.output.resolve() / "cases" / case / "frames"
-        self.assertEqual(scene, str(folder / "view_case.py"))
-        self.assertTrue((folder / "view_case.py").is_file())
+        self.assertEqual(script, str(folder / "view.sh"))
+        for name in ("view.sh", "view_case.py"):
+            self.assertTrue((folder / name).is_file(), name)
         return folder, int(count)
 
     def check_collection(self, folder, name, count, period):

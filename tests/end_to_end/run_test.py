@@ -171,6 +171,17 @@ class Run(EndToEndTest):
         self.run_campaign(campaign, wanted=1)
         self.assertEqual(self.take_starts(), [])
 
+    def test_relative_paths_and_the_folder_of_the_name(self):
+        self.write_campaign({"measure.packings": 1})
+        done = self.call("run", "campaign.toml", "--liggghts", f"./{self.engine.name}", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("results in runs/small", done.stdout)
+        shown = self.call("compare", "runs/small", cwd=self.folder)
+        self.assertRegex(shown.stdout, r"(?m)^[0-9a-f]{12} .* finished$")
+        status = self.call("status", "runs/small", cwd=self.folder)
+        told = "campaign small: 1 cases; 1 finished, 0 not steady or not precise, 0 failed, 0 running, 0 left\n"
+        self.assertTrue(status.stdout.endswith(told), status.stdout)
+
     def test_progress_on_a_terminal_and_in_a_file(self):
         campaign = self.write_campaign({"measure.packings": 1})
         plain = self.run_campaign(campaign).stderr

@@ -111,7 +111,7 @@ class EndToEndTest(unittest.TestCase):
     """Gives each test a folder of its own and an engine that counts its starts."""
 
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough_")
+        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough test ")  # blanks must do no harm
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         self.addCleanup(self.kill_leftovers)

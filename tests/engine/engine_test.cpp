@@ -80,6 +80,28 @@ TEST_F(EngineTest, AnErrorMessageIsKept) {
     context.run();
 }
 
+// An engine that ends with exit code 7 was not killed by signal 7: Boost gives both as one number.
+TEST_F(EngineTest, AnExitCodeIsNoSignal) {
+    fs::path const script = folder / "script";
+    for (auto const& [command, code, signal] : {std::tuple{"exit 0", 0, 0},
+                                                {"exit 1", 1, 0},
+                                                {"exit 7", 7, 0},
+                                                {"exit 137", 137, 0},
+                                                {"kill -KILL $$", 0, SIGKILL},
+                                                {"kill -SEGV $$", 0, SIGSEGV}}) {
+        std::ofstream(script) << "#!/bin/sh\n" << command << "\n";
+        fs::permissions(script, fs::perms::owner_all);
+        std::optional<ExitStatus> ended;
+        EngineProcess const process(context, {script, "any"}, folder,
+                                    [&](ExitStatus status) { ended = status; });
+        context.restart();
+        context.run();
+        ASSERT_TRUE(ended) << command;
+        EXPECT_EQ(ended->code, code) << command;
+        EXPECT_EQ(ended->signal, signal) << command;
+    }
+}
+
 // Three engines at a time, and each end starts another: none is forgotten.
 TEST_F(EngineTest, ManyRunSideBySide) {
     Engine const engine = find_engine({});

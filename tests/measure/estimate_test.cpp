@@ -62,6 +62,11 @@ TEST(Estimate, StatisticalInefficiencyOfAKnownProcess) {
         EXPECT_NEAR(found, expected, 0.15 * expected) << rho;
     }
     EXPECT_EQ(statistical_inefficiency(std::vector<double>(30, 0.5)), 1);
+    // Short series: without the correction of the bias 20 values of rho = 0.8 show g = 3 instead of 9.
+    double mean = 0;
+    for (unsigned seed = 1; seed <= 100; ++seed)
+        mean += statistical_inefficiency(Series{.rho = 0.8}.make(20, seed)) / 100;
+    EXPECT_GT(mean, 4.5);
     // Cycles that alternate are worth more than independent ones; we do not take the bonus.
     std::vector<double> alternating;
     for (int i = 0; i < 40; ++i) alternating.push_back(i % 2);
@@ -77,7 +82,7 @@ TEST(Estimate, IntervalCoversTheTruth) {
     };
     // Independent cycles: 95 % less three standard deviations. Correlated cycles: the inefficiency estimated
     // from 60 values is low by nature; 85 % is what the method owes there.
-    for (Case const& c : {Case{0.0, 0.92}, Case{0.5, 0.85}}) {
+    for (Case const& c : {Case{0.0, 0.92}, Case{0.5, 0.88}}) {
         int covered = 0;
         for (unsigned seed = 1; seed <= 500; ++seed) {
             auto const estimate =
@@ -133,6 +138,26 @@ TEST(Estimate, EndsAtTheFirstCheckpointWhoeverLooks) {
     auto const answer = estimate_sequentially(values, wanted);
     EXPECT_EQ(answer.used, *needed);
     EXPECT_EQ(answer.estimate.discarded + answer.estimate.measured, *needed);
+}
+
+// What a case says is the interval over packings. Each run ends by its own interval, which is too narrow
+// where cycles are strongly correlated; their scatter is not. 95 % less three standard deviations of 200
+// trials (1.5 %).
+TEST(Estimate, IntervalOverPackingsCoversTheTruthAlsoWhenCyclesWander) {
+    for (double const rho : {0.0, 0.5, 0.8, 0.9}) {
+        int covered = 0;
+        for (unsigned trial = 0; trial < 200; ++trial) {
+            std::vector<PackingEstimate> packings;
+            for (unsigned packing = 1; packing <= 3; ++packing) {
+                auto const values =
+                    Series{.start = -0.5, .rho = rho, .sigma = 0.03}.make(200, 3 * trial + packing);
+                packings.push_back(estimate_sequentially(values, {0.95, 0.03}).estimate);
+            }
+            auto const combined = combine(packings, 0.95);
+            if (std::abs(combined.mean - 0.8) <= combined.half_width) ++covered;
+        }
+        EXPECT_GE(covered / 200.0, 0.905) << rho;
+    }
 }
 
 PackingEstimate packing(double mean, double half_width) {
