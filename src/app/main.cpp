@@ -47,7 +47,9 @@ int run(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (CLI::ParseError const& error) {
-        return program.exit(error) == 0 ? all_well : wrong_input;
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        fmt::print(stderr, "vibrotrough: {}; --help after a command lists its options\n", error.what());
+        return wrong_input;
     }
     return exit_code;
 }
