@@ -215,6 +215,10 @@ TEST(TheoryDesign, NamesTheActiveLimit) {
     EXPECT_NE(answer.at("active_limits").dump().find("machine_number <= 4"), std::string::npos);
     EXPECT_LE(answer.at("machine_number"), 4.0001);
     EXPECT_TRUE(answer.contains("sensitivity"));
+    auto const steep =
+        ask("design --friction 0.1 --inclination '-10 deg to 0 deg'");  // the slope, not beyond mu
+    EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));
+    EXPECT_NE(steep.at("active_limits").dump().find("inclination"), std::string::npos);
     expect_refused("design --friction 0.3 --mass-flow '2 kg/s'", "needs --bulk-density");
     expect_refused("design --friction 0.3 --frequency '50 Hz to 5 Hz'", "first value is above");
     expect_refused("design --friction 0.3 --frequency '5 m'", "cannot be converted");
