@@ -8,6 +8,7 @@ enum ExitCode : int {
     some_cases_failed = 1,  ///< the rest are finished and kept
     wrong_input = 2,
     something_missing = 3,  ///< no engine, no disk, no permission
+    internal_error = 70,    ///< a mistake of the program, please report it
     interrupted = 130,
 };
 

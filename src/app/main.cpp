@@ -35,6 +35,26 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_theory_batch(*theory, exit_code);
 }
 
+/// One line for what CLI11 says in two, and never mentions a misspelt command.
+std::string describe(CLI::ParseError const& error, CLI::App const& program, int argc, char** argv) {
+    CLI::App const* command = &program;
+    std::string path = "vibrotrough", wrong = error.what();
+    for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+        std::string const word = argv[i];
+        auto const named =
+            command->get_subcommands([&](CLI::App const* one) { return one->get_name() == word; });
+        if (named.empty()) {
+            if (!command->get_subcommands([](CLI::App const*) { return true; }).empty()) {
+                wrong = fmt::format("there is no command '{}'", word);
+            }
+            break;
+        }
+        command = named.front();
+        path += " " + word;
+    }
+    return fmt::format("{}; '{} --help' explains", wrong, path);
+}
+
 int run(int argc, char** argv) {
     CLI::App program{
         "How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
@@ -46,10 +66,10 @@ int run(int argc, char** argv) {
     add_commands(program, exit_code);
     try {
         program.parse(argc, argv);
+    } catch (CLI::Success const& help_or_version) {
+        program.exit(help_or_version);
     } catch (CLI::ParseError const& error) {
-        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-        fmt::print(stderr, "vibrotrough: {}; --help after a command lists its options\n", error.what());
-        return wrong_input;
+        throw InputError(describe(error, program, argc, argv));
     }
     return exit_code;
 }
@@ -78,6 +98,6 @@ int main(int argc, char** argv) {
         return app::something_missing;
     } catch (std::exception const& error) {
         fmt::print(stderr, "vibrotrough: internal error: {}\n", error.what());
-        return app::some_cases_failed;
+        return app::internal_error;
     }
 }

@@ -46,7 +46,8 @@ Json answers(Options const& options, Inputs const& in) {
     auto const best = theory::best_throw_number(in.tan_beta, in.tan_alpha, in.mu);
     Json json = {
         {"throw_number_of_whole_cycle_flight", whole},
-        {"efficiency_at_whole_cycle_flight", theory::solve(theory::PointMass{whole, 1e-9, 0, in.mu}).velocity_efficiency},
+        {"efficiency_at_whole_cycle_flight",
+         theory::solve(theory::PointMass{whole, 1e-9, 0, in.mu}).velocity_efficiency},
         {"best_throw_number_small_angle", theory::best_throw_number_small_angle()},
         {"best_throw_number", best.throw_number},
         {"efficiency_at_best_throw_number", best.velocity_efficiency},

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,10 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
     }
     record.estimate = measure::combine(estimates, planned.scenario.measure.confidence);
     record.outcome = outcome_of(estimates);
+    if (record.outcome == "not-steady") {
+        // The mean of what is no steady state is no number; the cycles stay in the record.
+        record.estimate.mean = record.estimate.half_width = std::numeric_limits<double>::quiet_NaN();
+    }
     return record;
 }
 

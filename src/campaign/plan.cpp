@@ -5,6 +5,8 @@
 #include "core/hash.hpp"
 #include "deck/deck.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -25,8 +27,10 @@ std::string case_id(Scenario scenario, std::string const& engine_version) {
 
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
     Plan plan{campaign.name, folder, engine_version, {}};
+    std::set<std::string> ids;
     for (Scenario const& scenario : campaign.cases) {
         std::string const id = case_id(scenario, engine_version);
+        if (!ids.insert(id).second) continue;  // two ways to write one case are one case
         plan.cases.push_back({id, scenario, folder / "cases" / id});
     }
     return plan;
@@ -40,7 +44,9 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
 }
 
 Plan open_plan(fs::path const& folder) {
-    if (!fs::is_regular_file(folder / "campaign.toml") || !fs::is_regular_file(folder / "engine.json")) {
+    std::error_code ignored;  // a name too long is no folder either
+    if (!fs::is_regular_file(folder / "campaign.toml", ignored) ||
+        !fs::is_regular_file(folder / "engine.json", ignored)) {
         throw InputError(
             fmt::format("{} is no campaign folder (it has no campaign.toml and engine.json); give the folder "
                         "that 'vibrotrough run' made",

@@ -36,13 +36,14 @@ constexpr char const* control_file = "control.in";
 constexpr char const* control_go_on = "variable stop equal 0\n";
 constexpr char const* control_stop = "variable stop equal 1\n";
 
-/// Time step: the smallest of 20 % of the Rayleigh time, 10 % of the Hertz contact time, and what makes the
-/// steps per cycle (and per frame) a whole number.
-/// Rayleigh time  T_R = pi R sqrt(rho / G) / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
+/// Time step: the smallest of 20 % of the Rayleigh time, 10 % of the Hertz contact time, 1/500 of a cycle,
+/// and what makes the steps per cycle (and per frame) a whole number. Rayleigh time  T_R = pi R sqrt(rho / G)
+/// / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
 ///   (Li, Xu & Thornton, Powder Technology 160, 2005).
 /// Hertz contact  t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5) of two equal grains
 ///   (Johnson, Contact Mechanics, 1985, section 11.4), at v = 2 omega r: a grain that flies at the trough's
 ///   largest speed against a trough that comes at its largest speed.
+/// @throws InputError when a cycle would take more than 1e8 steps
 TimeGrid choose_time_step(Scenario const& scenario);
 
 /// The deck of packing number `packing` (from 1). Different packings differ by their seeds only.

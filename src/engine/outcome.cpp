@@ -25,6 +25,7 @@ std::string printable(std::string text) {
 struct Transcript {
     std::optional<std::string> error;    ///< the first "ERROR" line
     std::optional<std::string> failure;  ///< what the deck says after its failure marker
+    bool mesh_outside = false;
     bool caught_signal = false;
     bool settled = false;
     bool ended = false;
@@ -43,6 +44,8 @@ Transcript read_transcript(std::filesystem::path const& path) {
     for (std::string line, word; std::getline(file, line);) {
         if (!seen.error && line.starts_with("ERROR")) seen.error = printable(line);
         if (line.find("SIGINT/SIGTERM caught") != std::string::npos) seen.caught_signal = true;
+        if (line.find("Not all nodes of fix mesh inside simulation box") != std::string::npos)
+            seen.mesh_outside = true;
         if (auto const text = after(line, deck::failure_marker)) seen.failure = printable(*text);
         if (auto const text = after(line, deck::settled_marker)) {
             seen.settled = static_cast<bool>(std::istringstream(*text) >> word >> seen.settled_force);
@@ -54,8 +57,14 @@ Transcript read_transcript(std::filesystem::path const& path) {
     return seen;
 }
 
-Outcome named_failure(std::string const& text) {
-    return text.find("insertion") != std::string::npos ? Outcome::insertion_incomplete : Outcome::not_settled;
+/// What the deck says after its failure marker: " <name>: <message>".
+RunReport named_failure(std::string const& text) {
+    std::string const named = text.substr(text.find_first_not_of(' '));
+    for (Outcome const outcome : {Outcome::insertion_incomplete, Outcome::not_settled}) {
+        std::string const prefix = to_string(outcome) + ": ";
+        if (named.starts_with(prefix)) return {outcome, named.substr(prefix.size())};
+    }
+    return {Outcome::engine_error, named};
 }
 
 }  // namespace
@@ -68,6 +77,8 @@ std::string to_string(Outcome outcome) {
             return "insertion-incomplete";
         case Outcome::not_settled:
             return "not-settled";
+        case Outcome::mesh_left_domain:
+            return "mesh-left-domain";
         case Outcome::lost_grains:
             return "lost-grains";
         case Outcome::engine_error:
@@ -82,7 +93,7 @@ std::string to_string(Outcome outcome) {
 
 RunReport examine_run(std::filesystem::path const& folder, ExitStatus status) {
     Transcript const seen = read_transcript(folder / output_file);
-    if (seen.failure) return {named_failure(*seen.failure), *seen.failure};
+    if (seen.failure) return named_failure(*seen.failure);
     if (seen.error) {
         bool const lost = seen.error->find("Lost atoms") != std::string::npos;
         return {lost ? Outcome::lost_grains : Outcome::engine_error, *seen.error};
@@ -97,6 +108,10 @@ RunReport examine_run(std::filesystem::path const& folder, ExitStatus status) {
                 fmt::format("the engine ended with exit code {} and no message", status.code)};
     }
     if (seen.caught_signal) return {Outcome::engine_crashed, "the engine was told to stop by a signal"};
+    if (seen.mesh_outside) {
+        return {Outcome::mesh_left_domain,
+                "the trough's mesh reaches over the box, where it meets its own image"};
+    }
     if (!seen.settled || !seen.ended) {
         return {Outcome::outputs_incomplete,
                 "the engine ended with exit code 0 but without its end marker; is the disk full?"};

@@ -12,6 +12,7 @@ enum class Outcome {
     completed,             ///< exit code 0, the deck's end marker, nothing said against it
     insertion_incomplete,  ///< not all grains found room
     not_settled,           ///< the packing did not come to rest
+    mesh_left_domain,      ///< the trough's mesh reaches over the box
     lost_grains,           ///< grains left the box
     engine_error,          ///< the engine stopped with an error message
     engine_crashed,        ///< the engine was killed by a signal

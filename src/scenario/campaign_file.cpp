@@ -59,6 +59,10 @@ Campaign read_campaign(std::filesystem::path const& path) {
             fmt::format("{}: the file is larger than 4 MiB, which no campaign needs; is it the right one?",
                         path.string()));
     }
+    if (!std::filesystem::is_regular_file(path, failure)) {
+        throw InputError(
+            fmt::format("{}: there is no such file; give the path of a campaign file (TOML)", path.string()));
+    }
     return parse_campaign(read_file(path), path.string());
 }
 

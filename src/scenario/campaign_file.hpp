@@ -18,7 +18,7 @@ struct Campaign {
 
 /// Reads and checks a campaign file.
 /// @throws InputError, one line: file:line:column, key, what is wrong, what to write instead
-/// @throws MissingError when the file cannot be read
+/// @throws MissingError when the file is there but cannot be read
 Campaign read_campaign(std::filesystem::path const& path);
 
 /// The same for a text; `name` stands for the file in errors.

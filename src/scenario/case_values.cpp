@@ -67,6 +67,19 @@ class CaseBuilder {
         return result;
     }
 
+    /// Throw and machine number follow from the frequency, or from each other; their upper bounds hold all
+    /// the same.
+    void check_derived(std::string_view path, double value) const {
+        Key const& key = *find_key(path);
+        if (value <= key.most * (1 + 1e-12)) return;
+        for (std::string_view const given :
+             {"trough.frequency", "trough.machine_number", "trough.throw_number"}) {
+            if (find(given) == nullptr) continue;
+            fail(given, fmt::format("makes the {} {:.4g}, outside {}", path.substr(7), value, key.range),
+                 "lower it, or the amplitude");
+        }
+    }
+
     Trough trough() const {
         Trough trough{angle("trough.inclination", "trough.tan_inclination"),
                       angle("trough.vibration_angle", "trough.tan_vibration_angle"),
@@ -75,6 +88,8 @@ class CaseBuilder {
                       number("trough.friction"),
                       number("trough.restitution")};
         trough.frequency = frequency(trough);
+        check_derived("trough.throw_number", throw_number(trough));
+        check_derived("trough.machine_number", machine_number(trough));
         return trough;
     }
 

@@ -84,6 +84,10 @@ class Reader {
 
     void read_section(toml::key const& name, toml::node const& node) {
         Position const where = position(name.source());
+        if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
+            fail(where, printable(name.str()), "stands above the first [section]",
+                 "move it below its section's heading");
+        }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, printable(name.str()), "unknown section",
                  "the sections are campaign, trough, grains, layer, measure, output and sweep");
@@ -203,6 +207,7 @@ class Reader {
         Key const& key = known_key(path, where);
         if (key.kind == KeyKind::text) fail(where, path, "a name cannot be swept", "sweep a physical input");
         for (Axis const& other : result_.sweep) {
+            if (other.key == path) fail(where, path, "is swept twice", "keep one of the two");
             if (!key.group.empty() && find_key(other.key)->group == key.group) {
                 fail(where, path,
                      fmt::format("{} is swept as well, and each sets the {}", other.key, key.group),

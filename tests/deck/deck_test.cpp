@@ -1,6 +1,7 @@
 #include "deck/deck.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
 
@@ -53,6 +54,19 @@ TEST(Deck, FastImpactsShortenTheTimeStep) {
     EXPECT_LT(time.rayleigh_fraction, 0.2);
 }
 
+// The Rayleigh time of a 30 mm grain is ten cycles of 10 kHz: the sinusoid itself needs steps, too.
+TEST(Deck, TheSinusoidHasSteps) {
+    Scenario s = scenario();
+    s.grains.diameter = 0.03;
+    s.trough.amplitude = 1e-6;
+    s.trough.frequency = 1e4;
+    EXPECT_EQ(choose_time_step(s).steps_per_cycle, 500);
+    s.grains.diameter = 1e-6;
+    s.grains.youngs_modulus = 1e12;
+    s.trough.frequency = 0.01;
+    EXPECT_THROW(choose_time_step(s), InputError);
+}
+
 TEST(Deck, StepsDivideIntoFrames) {
     for (int const frames : {1, 7, 12, 100}) {
         Scenario s = scenario();
@@ -85,6 +99,11 @@ TEST(Deck, CountsEqualWithinOne) {
         EXPECT_EQ(last, grains);
         EXPECT_LE(most - least, 1);
     }
+}
+
+TEST(Deck, ASingleGrainIsOfTheMiddleSize) {
+    std::string const deck = in_file(scenario(with("height = \"12 mm\"", "grains = 1")));
+    EXPECT_NE(deck.find("1 of diameter 0.003 m"), std::string::npos);
 }
 
 TEST(Deck, OneSizeIsOneClass) {

@@ -124,6 +124,8 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
                                     sweep("\"trough.friction\" = {from = 0, to = 9, step = 1}"),
                                     sweep("\"trough.friction\" = {from = 0, to = 1, stop = 1}"),
                                     sweep("\"campaign.name\" = [1]"),
+                                    sweep("\"trough.friction\" = [0.1]\ntrough.friction = [0.2]"),
+                                    with("throw_number = 2.0", "frequency = \"100 Hz\""),
                                     sweep("\"no.key\" = [1]"),
                                     sweep("throw_number = [1]"),
                                     sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
@@ -135,8 +137,9 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
     }
 }
 
-TEST(CampaignFile, MissingFileIsNoInputError) {
-    EXPECT_THROW(read_campaign("no-such-file.toml"), MissingError);
+TEST(CampaignFile, AMistypedPathIsWrongInput) {
+    EXPECT_THROW(read_campaign("no-such-file.toml"), InputError);
+    EXPECT_THROW(read_campaign("/"), InputError);
 }
 
 }  // namespace
