@@ -56,6 +56,28 @@ void check_ranges(Conveyor const& c) {
                   c.height_over_width, "[0, 1000]");
 }
 
+/// The inputs as text that reproduces them.
+std::string described(Conveyor const& c) {
+    auto const number = [](char const* name, double value) {
+        return std::string(" ") + name + "=" + detail::number_text(value);
+    };
+    auto const harmonics = [&](char const* name, std::vector<Harmonic> const& all) {
+        std::string text;
+        for (Harmonic const& h : all) {
+            text += std::string(" ") + name + "=" + std::to_string(h.order) + "," +
+                    detail::number_text(h.amplitude) + "," + detail::number_text(h.phase);
+        }
+        return text;
+    };
+    return detail::described(c.point) + number("static_friction", c.static_friction) +
+           number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
+           number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
+           number("along_phase", c.along_phase) + harmonics("along", c.along) +
+           harmonics("normal", c.normal) + number("wall_friction", c.wall_friction) +
+           number("wall_pressure_ratio", c.wall_pressure_ratio) +
+           number("height_over_width", c.height_over_width);
+}
+
 Motion no_motion(Outcome outcome, double eta) {
     return {.velocity_efficiency = eta,
             .mode = "",
@@ -305,7 +327,7 @@ ConveyorMotion solve(Conveyor const& conveyor) {
     try {
         return Solver(conveyor).solve();
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + detail::described(conveyor.point) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + described(conveyor) + ")");
     }
 }
 

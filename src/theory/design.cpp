@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double near_limit = 1e-3;
+constexpr double most_friction_used = 0.95;  // of mu, by the slope
 constexpr int global_evaluations = 60000, local_evaluations = 4000;
 
 /// Variables of the search: logarithms of frequency and amplitude, vibration angle, inclination.
@@ -93,10 +95,17 @@ void check(DesignLimits const& l) {
     bool const layer = l.bulk_density > 0 && l.layer_height > 0 && l.layer_width > 0;
     detail::require_range(l.least_mass_flow == 0 || (l.least_mass_flow > 0 && layer), "least_mass_flow",
                           l.least_mass_flow, "[0, inf), with bulk density, layer height and width given");
-    // A trough held steeper than its friction angle throughout lets everything run away.
-    detail::require_range(
-        std::tan(l.inclination.high) > -l.friction && std::tan(l.inclination.low) < l.friction, "inclination",
-        l.inclination.high, "within the friction angle");
+}
+
+/// Where |tan(alpha)| comes near mu the speed depends on the last digit of the friction, and beyond it has no
+/// bound.
+DesignLimits away_from_running_away(DesignLimits limits) {
+    double const steepest = std::atan(most_friction_used * limits.friction);
+    limits.inclination.low = std::max(limits.inclination.low, -steepest);
+    limits.inclination.high = std::min(limits.inclination.high, steepest);
+    detail::require_range(limits.inclination.low <= limits.inclination.high, "inclination",
+                          limits.inclination.high, "within 95 % of the friction coefficient");
+    return limits;
 }
 
 Variables optimised(Search& search, nlopt::algorithm algorithm, Variables start, int evaluations,
@@ -120,7 +129,13 @@ Variables optimised(Search& search, nlopt::algorithm algorithm, Variables start,
 
 std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
     std::vector<std::string> active;
-    auto const text = [](double value) { return detail::number_text(value); };
+    auto const text = [](double value) {
+        std::array<char, 32> buffer{};
+        std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+        return std::string(buffer.data());
+    };
+    double const degrees = 180 / pi;
+    auto const in_degrees = [&](Range const& r) { return Range{r.low * degrees, r.high * degrees}; };
     auto const check_range = [&](char const* name, double value, Range const& r, char const* unit) {
         double const slack = near_limit * std::max({std::abs(r.low), std::abs(r.high), r.high - r.low});
         if (r.high - r.low < 1e-12) return;  // fixed, not a limit
@@ -135,8 +150,8 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
     }
     check_range("frequency", d.frequency, l.frequency, " Hz");
     check_range("amplitude", d.amplitude, l.amplitude, " m");
-    check_range("vibration_angle", d.vibration_angle, l.vibration_angle, " rad");
-    check_range("inclination", d.inclination, l.inclination, " rad");
+    check_range("vibration_angle", d.vibration_angle * degrees, in_degrees(l.vibration_angle), " deg");
+    check_range("inclination", d.inclination * degrees, in_degrees(l.inclination), " deg");
     if (l.least_mass_flow > 0 && d.mass_flow < l.least_mass_flow * (1 + near_limit)) {
         active.push_back("mass_flow >= " + text(l.least_mass_flow) + " kg/s");
     }
@@ -145,8 +160,9 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
 
 }  // namespace
 
-Design fastest_design(DesignLimits const& limits) {
-    check(limits);
+Design fastest_design(DesignLimits const& asked) {
+    check(asked);
+    DesignLimits const limits = away_from_running_away(asked);
     Search search(limits);
     nlopt::srand(1);
     Variables start = search.low();

@@ -40,9 +40,10 @@ struct Design {
 /// COBYLA.
 ///
 /// The search is global but random with a fixed seed: another machine within 0.1 % of the speed may exist.
+/// The inclination is kept within |tan(alpha)| <= 0.95 mu, beyond which the mass all but runs away.
 /// A limit is called active when the optimum lies within 0.1 % of it.
 ///
 /// @throws std::invalid_argument when a limit has no sense
-Design fastest_design(DesignLimits const& limits);
+Design fastest_design(DesignLimits const& asked);
 
 }  // namespace vibrotrough::theory

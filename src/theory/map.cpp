@@ -15,13 +15,27 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr int bisections = 30;  // of an edge of the grid: 1e-9 of it
+constexpr int bisections = 30;         // of an edge of the grid: 1e-9 of it
+constexpr int bisections_beyond = 12;  // where a point costs a thousand times more: 2e-4 of it
 
 ModeCode mode_code(Motion const& motion) {
     ModeCode code = 0;
     int length = 0;
     for (Phase const& phase : motion.phases) code = with_phase(code, phase.kind, length++);
     return code;
+}
+
+/// A chain of rebounds is one flight in a map: its number of rebounds changes from point to point.
+ModeCode with_chains_joined(ModeCode code) {
+    ModeCode joined = 0, last = 0;
+    int length = 0;
+    auto const flight = static_cast<ModeCode>(PhaseKind::flight) + 1;
+    for (; code != 0; code >>= 3) {
+        ModeCode const letter = code & 7;
+        if (letter != flight || last != flight) joined |= letter << (3 * length++);
+        last = letter;
+    }
+    return joined;
 }
 
 /// A map under construction: its points and how to solve one.
@@ -33,7 +47,9 @@ class Grid {
         Inputs inputs = fixed_;
         inputs.set(map_.x.input, x);
         inputs.set(map_.y.input, y);
-        return solve_inputs(inputs, solver);
+        MapPoint point = solve_inputs(inputs, solver);
+        if (!inputs.plastic()) point.mode = with_chains_joined(point.mode);
+        return point;
     }
     MapPoint& at(int i, int j) const { return map_.points[static_cast<std::size_t>(j * map_.x.count + i)]; }
     void solve_line(int line, bool along_y, EfficiencySolver& solver) const {
@@ -64,7 +80,9 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Eff
                  dy = map_.y.value(j1) - y0;
     double lo = 0, hi = 1;
     ModeCode beyond = b;
-    for (int n = 0; n < bisections; ++n) {
+    bool const plastic =
+        fixed_.plastic() && map_.x.input < Input::static_friction && map_.y.input < Input::static_friction;
+    for (int n = 0; n < (plastic ? bisections : bisections_beyond); ++n) {
         double const middle = (lo + hi) / 2;
         ModeCode const mode = solve(x0 + middle * dx, y0 + middle * dy, solver).mode;
         if (mode == a) {
@@ -81,6 +99,11 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Eff
 void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const {
     for (int i = 0; i + 1 < map_.x.count; ++i) {
         ModeCode const corner = at(i, j).mode;
+        bool periodic = true;  // modes of long periods or of none change everywhere: no lines there
+        for (MapPoint const* p : {&at(i, j), &at(i + 1, j), &at(i, j + 1), &at(i + 1, j + 1)}) {
+            periodic = periodic && p->period_cycles >= 1 && p->period_cycles <= 2;
+        }
+        if (!periodic) continue;
         if (corner == at(i + 1, j).mode && corner == at(i, j + 1).mode && corner == at(i + 1, j + 1).mode)
             continue;
         std::array<std::optional<Crossing>, 4> const edges{

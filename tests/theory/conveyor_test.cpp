@@ -38,35 +38,38 @@ TEST(Conveyor, DefaultsAreThePlasticPointMass) {
 }
 
 struct TableEntry {
-    double throw_number, tan_alpha, restitution, printed, physics;
+    double throw_number, tan_alpha, restitution, printed;
 };
 
-// Table 1 at e > 0. `printed` is the paper's, `physics` that of Eqs. 12-18 and 23, which two independent
-// codes gave lower than the paper's at Gamma = 2. Under the named rule V_F = cos(delta_F) the printed numbers
-// come out, 11 of 12 within 0.002 and one (0.249) within 0.021. Tolerances: those.
+// Table 1 at e > 0. The physics, Eqs. 12-18 and 23, gives lower efficiencies than the paper prints at Gamma =
+// 2; it is held to Runge and Kutta's rule, tolerance 1e-7: its h^4 = 2e-11 amplified by chains of rebounds.
+// Under the named rule V_F = cos(delta_F) the printed numbers come out, 11 of 12 within 0.002 (and half a
+// digit) and 0.249 within 0.021.
 TEST(Conveyor, Table1NeedsTheNamedRule) {
-    TableEntry const table[] = {
-        {1.5, -0.05, 0.1, 0.477, 0.4769}, {1.5, -0.05, 0.2, 0.477, 0.4769},  {1.5, 0, 0.1, 0.210, 0.2088},
-        {1.5, 0, 0.2, 0.210, 0.2088},     {1.5, 0.05, 0.1, -0.065, -0.0652}, {1.5, 0.05, 0.2, 0.249, -0.0225},
-        {2, -0.05, 0.1, 0.827, 0.5258},   {2, -0.05, 0.2, 0.858, 0.5148},    {2, 0, 0.1, 0.793, 0.5062},
-        {2, 0, 0.2, 0.838, 0.4952},       {2, 0.05, 0.1, 0.819, 0.4866},     {2, 0.05, 0.2, 0.819, 0.4755}};
+    TableEntry const table[] = {{1.5, -0.05, 0.1, 0.477}, {1.5, -0.05, 0.2, 0.477}, {1.5, 0, 0.1, 0.210},
+                                {1.5, 0, 0.2, 0.210},     {1.5, 0.05, 0.1, -0.065}, {1.5, 0.05, 0.2, 0.249},
+                                {2, -0.05, 0.1, 0.827},   {2, -0.05, 0.2, 0.858},   {2, 0, 0.1, 0.793},
+                                {2, 0, 0.2, 0.838},       {2, 0.05, 0.1, 0.819},    {2, 0.05, 0.2, 0.819}};
     int close = 0;
     for (TableEntry const& entry : table) {
         Conveyor conveyor = plastic(entry.throw_number, 0.25, entry.tan_alpha, 0.23);
         conveyor.restitution = entry.restitution;
-        double const physics = solve(conveyor).motion.velocity_efficiency;
+        Motion const motion = solve(conveyor).motion;
+        double const physics = motion.velocity_efficiency;
+        EXPECT_NEAR(physics, steady_efficiency_by_steps(conveyor, motion.period_cycles), 1e-7);
         conveyor.flight_start = FlightStart::trough_velocity_rule;
         double const rule = solve(conveyor).motion.velocity_efficiency;
         EXPECT_NEAR(rule, entry.printed, 0.021);
         close += std::abs(rule - entry.printed) <= 0.0021 ? 1 : 0;
-        EXPECT_LE(physics, entry.physics + 0.01);  // what rebounds do is not larger
-        EXPECT_NEAR(physics, steady_efficiency_by_steps(conveyor, FlightStart::actual_velocity), 3e-3);
+        double const gap = entry.throw_number == 2 ? 0.25 : -0.01;  // rebounds convey more slowly
+        EXPECT_LT(physics, entry.printed - gap);
     }
     EXPECT_EQ(close, 11);
 }
 
-// Each extension and all together against a loop of small fixed steps that shares nothing with the library.
-// Tolerance: the loop's error is of first order in its step of 2e-5 cycles and a few events per cycle.
+// Each extension and all together against Runge and Kutta's rule at 3000 steps per cycle, which shares
+// nothing with the library. Tolerance: the rule's error of h^4 = 2e-11 times the phases; a phase shorter than
+// a step moves the mass by less than h^3 = 1e-8.
 TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     Conveyor const base = plastic(1.7, 0.5, -0.05, 0.3);
     std::vector<Conveyor> cases(8, base);
@@ -84,8 +87,8 @@ TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
             at.point.throw_number = throw_number;
             ConveyorMotion const motion = solve(at);
             ASSERT_TRUE(motion.motion.converged) << throw_number << " case " << &conveyor - cases.data();
-            EXPECT_NEAR(motion.motion.velocity_efficiency,
-                        steady_efficiency_by_steps(at, FlightStart::actual_velocity), 2e-3)
+            double const expected = steady_efficiency_by_steps(at, motion.motion.period_cycles);
+            EXPECT_NEAR(motion.motion.velocity_efficiency, expected, 1e-8)
                 << throw_number << " case " << &conveyor - cases.data() << ' ' << motion.motion.mode;
         }
     }

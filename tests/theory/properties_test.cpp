@@ -80,6 +80,22 @@ RC_GTEST_PROP(Properties, ContinuousAlongLinesBelowAWholeCycle, ()) {
     RC_ASSERT(std::abs(at(1e-7) - at(0)) < 1e-2);
 }
 
+// Beyond, eta jumps only where the mode changes: where a landing misses the trough's crest, a flight ends in
+// another cycle and the order of phases or the period changes with it. Same tolerance; chaotic stretches (no
+// period, or a long one) are left out.
+RC_GTEST_PROP(Properties, JumpsOnlyWhereTheModeChanges, ()) {
+    double const mu = between(0.1, 1), alpha = between(-0.8, 0.8) * mu, beta = between(5, 70) * pi / 180;
+    double const gamma = between(3.2, 8), turn = between(-1, 1);
+    EfficiencySolver solver;
+    auto const at = [&](double s) {
+        return solver({gamma + turn * s, std::tan(beta + s), alpha + 0.1 * s, mu + 0.2 * s});
+    };
+    Efficiency const here = at(0), there = at(1e-7);
+    RC_PRE(here.mode == there.mode && here.period_cycles == there.period_cycles && here.period_cycles <= 4);
+    RC_PRE(here.outcome == Outcome::periodic && there.outcome == Outcome::periodic);
+    RC_ASSERT(std::abs(here.velocity_efficiency - there.velocity_efficiency) < 1e-2);
+}
+
 // Any finite input gives a finite efficiency or a named outcome, within bounded work.
 RC_GTEST_PROP(Properties, ExtremeInputsHaveAnAnswer, ()) {
     double const mu = *rc::gen::element(0.0, 1e-12, 1e-3, 0.35, 1.0, 5.0, 1e6) * between(0, 1);

@@ -42,10 +42,11 @@ RC_GTEST_PROP(EnergyBalance, WorkOfTheTroughIsLossesAndLift, ()) {
     RC_PRE(motion.motion.converged);
     EnergyBalance const energy = energy_balance(motion);
     RC_LOG() << "Gamma " << conveyor.point.throw_number << " tan(beta) " << conveyor.point.tan_vibration_angle
-             << " tan(alpha) " << conveyor.point.tan_inclination << " mu " << conveyor.point.friction << " mu_s "
-             << conveyor.static_friction << " e " << conveyor.restitution << " drag " << conveyor.air_drag << " mode "
-             << motion.motion.mode << " first " << motion.pieces.front().along_velocity << " n "
-             << motion.motion.period_cycles << " defect " << energy.defect();
+             << " tan(alpha) " << conveyor.point.tan_inclination << " mu " << conveyor.point.friction
+             << " mu_s " << conveyor.static_friction << " e " << conveyor.restitution << " drag "
+             << conveyor.air_drag << " mode " << motion.motion.mode << " first "
+             << motion.pieces.front().along_velocity << " n " << motion.motion.period_cycles << " defect "
+             << energy.defect();
     RC_ASSERT(std::abs(energy.defect()) < 1e-9 * motion.motion.period_cycles);
     RC_ASSERT(energy.friction_loss >= -1e-12);
     RC_ASSERT(energy.impact_loss >= 0);

@@ -4,7 +4,8 @@
 
 namespace vibrotrough::theory {
 
-/// eta by a loop of fixed small steps over the equations of motion, for checks only.
-double steady_efficiency_by_steps(Conveyor const& conveyor, FlightStart start);
+/// eta of the steady motion of `period_cycles` by Runge and Kutta's rule over the equations of motion, for
+/// checks only: shares nothing with the library.
+double steady_efficiency_by_steps(Conveyor const& conveyor, int period_cycles);
 
 }  // namespace vibrotrough::theory

@@ -97,6 +97,28 @@ TEST_F(TheoryFiles, TraceFollowsTheMass) {
                    "runs away");
 }
 
+// In SI: the trough moves along with omega r cos(beta) cos(omega t), omega^2 = Gamma g / (r sin(beta)).
+// Tolerance: rounding. At take-off, arcsin(1/2), the trough accelerates down with g.
+TEST_F(TheoryFiles, TraceInSiUnits) {
+    Answer const answer = run_program(
+        "theory trace --throw-number 2 --vibration-angle '30 deg' --friction 0.3 "
+        "--amplitude '6 mm' --gravity '9.81 m/s2' --output " +
+        path("trace.csv"));
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    auto const rows = read_csv(path("trace.csv"));
+    EXPECT_EQ(rows[0][0], "time_s");
+    double const omega = std::sqrt(2 * 9.81 / (0.006 * 0.5)), thirty = std::acos(-1.0) / 6;
+    EXPECT_NEAR(std::stod(rows[1][0]), thirty / omega, 1e-9);
+    EXPECT_NEAR(std::stod(rows[1][2]), omega * 0.006 * std::cos(thirty) * std::cos(thirty), 1e-9);
+    EXPECT_NEAR(std::stod(rows[1][7]), -9.81, 1e-9);
+}
+
+TEST(TheoryErrors, OfTheCommandLineAreOneLine) {
+    expect_refused("point --throw 3", "--throw");
+    expect_refused("point --throw-number", "--throw-number");
+    expect_refused("", "subcommand");
+}
+
 // Fig. 8 at beta = 0, alpha = 0, PN: X = 2 sqrt(1 - (pi mu / (2 K))^2). Tolerance: solver's 1e-6.
 TEST(TheoryFriction, FindsMuFromTheDisplacement) {
     double const part = std::acos(-1.0) * 0.3 / (2 * 1.5), x = 2 * std::sqrt(1 - part * part);
@@ -193,6 +215,10 @@ TEST(TheoryDesign, NamesTheActiveLimit) {
     EXPECT_NE(answer.at("active_limits").dump().find("machine_number <= 4"), std::string::npos);
     EXPECT_LE(answer.at("machine_number"), 4.0001);
     EXPECT_TRUE(answer.contains("sensitivity"));
+    auto const steep =
+        ask("design --friction 0.1 --inclination '-10 deg to 0 deg'");  // the slope, not beyond mu
+    EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));
+    EXPECT_NE(steep.at("active_limits").dump().find("inclination"), std::string::npos);
     expect_refused("design --friction 0.3 --mass-flow '2 kg/s'", "needs --bulk-density");
     expect_refused("design --friction 0.3 --frequency '50 Hz to 5 Hz'", "first value is above");
     expect_refused("design --friction 0.3 --frequency '5 m'", "cannot be converted");
