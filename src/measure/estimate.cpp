@@ -33,8 +33,8 @@ double sample_deviation(Values const& values) {
 /// Half-width of the interval of the mean of `values` whose statistical inefficiency is g.
 double mean_half_width(Values const& values, double g, double confidence) {
     double const independent = static_cast<double>(values.size()) / g;
-    // With fewer than two independent values nothing is known.
-    if (independent < 2) return std::numeric_limits<double>::infinity();
+    // Fewer than two independent values say nothing.
+    if (!(independent >= 2)) return std::numeric_limits<double>::infinity();
     return student_quantile(confidence, independent - 1) * sample_deviation(values) / std::sqrt(independent);
 }
 
@@ -113,7 +113,7 @@ double statistical_inefficiency(std::span<double const> values) {
     double const size = static_cast<double>(n);
     double const biased = correlation(1);
     double const rho = std::min(biased + (1 + 3 * biased) / size, 1 - 1 / size);
-    return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size);
+    return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size / 2);
 }
 
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted) {

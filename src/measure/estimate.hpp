@@ -42,7 +42,7 @@ struct Precision {
 /// Fewest cycles kept for an interval to be trusted, and fewest that are worth an independent one: a shorter
 /// series shows too little of its own correlation.
 constexpr int fewest_cycles = 20;
-constexpr double fewest_independent = 6;
+constexpr double fewest_independent = 3;
 
 /// Velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
 /// @param amplitude_x  r cos(beta), m, > 0
@@ -56,14 +56,15 @@ int startup_length(std::span<double const> values);
 /// Statistical inefficiency: the larger of g = 1 + 2 sum rho_k over the initial positive sequence of pair
 /// sums (Geyer, Statistical Science 7, 1992, 473-483) and that of a first-order autoregression, g = (1 + rho)
 /// / (1 - rho) with rho = rho_1 + (1 + 3 rho_1) / n, which takes out the bias of a short series (Kendall,
-/// Biometrika 41, 1954, 403-404). At least 1 and at most n.
+/// Biometrika 41, 1954, 403-404). At least 1 and at most n / 2: an
+/// interval from two independent values is wide enough to warn.
 double statistical_inefficiency(std::span<double const> values);
 
 /// Mean of one packing's cycle values: start-up cut by MSER, interval t_{n/g - 1} s sqrt(g / n). Not steady
 /// when MSER does not find the end of the start-up in the first half and the second quarter still differs
 /// from the second half by more than the wanted half-width, or when the first and the last third of what is
 /// kept differ by more than their own intervals together and by more than the wanted half-width. Not precise
-/// also while fewer than 20 cycles are kept, or fewer than 6 independent ones.
+/// also while fewer than 20 cycles are kept, or fewer than 3 independent ones.
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
 /// The first of the looks at 20, 30, 40, 55, 75, 100, 130 ... cycles at which the mean is precise; nothing
 /// while there is none. It depends on the values only, not on when somebody looked, so that the same run

@@ -14,7 +14,7 @@ class Deck(EndToEndTest):
     def setUp(self):
         super().setUp()
         # A packing that is known well enough stops before; by hand it goes on to the last cycle.
-        self.campaign = self.write_campaign({"measure.max_cycles": 60}, SWEEP)
+        self.campaign = self.write_campaign({"measure.max_cycles": 120}, SWEEP)
         self.decks = self.folder / "decks"
 
     def run_by_hand(self, packing):
