@@ -173,7 +173,7 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
     add("--bulk-density", options->bulk_density, "Of the layer: \"800 kg/m3\"");
     add("--layer-height", options->layer_height, "\"20 mm\"");
     add("--layer-width", options->layer_width, "\"200 mm\"");
-    add("--gravity", options->gravity, "\"9.80665 m/s2\" when not given");
+    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options, &exit_code] {
         run(*options);

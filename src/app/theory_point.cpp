@@ -154,7 +154,7 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
         command->add_option(name, text, help)->group("The machine");
     };
     add("--amplitude", options->amplitude, "r in the direction of vibration, half the stroke: \"6 mm\"");
-    add("--gravity", options->gravity, "\"9.80665 m/s2\" when not given");
+    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
     add("--bulk-density", options->bulk_density, "Of the layer, for the mass flow: \"800 kg/m3\"");
     add("--layer-height", options->layer_height, "\"12 mm\"");
     add("--layer-width", options->layer_width, "\"200 mm\"");

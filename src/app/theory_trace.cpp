@@ -96,7 +96,7 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
     command->add_option("--samples", options->samples, "Number of lines; 721 when not given");
     command->add_option("--amplitude", options->amplitude,
                         "r, half the stroke: \"6 mm\"; all columns are then SI");
-    command->add_option("--gravity", options->gravity, "\"9.80665 m/s2\" when not given");
+    command->add_option("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
     command->add_option("--output", options->output, "CSV file to write; printed when not given");
     command->callback([options, &exit_code] {
         run(*options);

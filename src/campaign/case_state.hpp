@@ -39,8 +39,8 @@ CaseState case_state(PlannedCase const& planned);
 
 /// A packing whose engine ended well, as its folder holds it: deck, cycles.csv, packing.json.
 struct FinishedPacking {
-    double wall_time;  ///< s
-    std::string started, finished;  ///< ISO 8601, UTC
+    double wall_time;                                              ///< s
+    std::string started, finished;                                 ///< ISO 8601, UTC
     std::string program_version = "", git_commit = "", host = "";  ///< that ran it
 };
 

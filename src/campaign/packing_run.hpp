@@ -35,7 +35,6 @@ class PackingRun {
     void interrupt();
 
     PlannedCase const& planned() const { return planned_; }
-    int packing() const { return packing_; }
     int cycles() const { return cycles_; }
 
   private:

@@ -1,5 +1,6 @@
 #include "engine/outcome.hpp"
 
+#include "core/text.hpp"
 #include "deck/deck.hpp"
 
 #include <algorithm>
@@ -15,10 +16,8 @@ namespace vibrotrough::engine {
 namespace {
 
 /// Messages of the engine can hold garbage bytes.
-std::string printable(std::string text) {
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < ' ' || c > 126; }, '?');
-    return text.substr(0, 300);
+std::string clean(std::string const& text) {
+    return printable(text, 300);
 }
 
 /// The lines of the engine's output that matter.
@@ -42,11 +41,11 @@ Transcript read_transcript(std::filesystem::path const& path) {
     Transcript seen;
     std::ifstream file(path);
     for (std::string line, word; std::getline(file, line);) {
-        if (!seen.error && line.starts_with("ERROR")) seen.error = printable(line);
+        if (!seen.error && line.starts_with("ERROR")) seen.error = clean(line);
         if (line.find("SIGINT/SIGTERM caught") != std::string::npos) seen.caught_signal = true;
         if (line.find("Not all nodes of fix mesh inside simulation box") != std::string::npos)
             seen.mesh_outside = true;
-        if (auto const text = after(line, deck::failure_marker)) seen.failure = printable(*text);
+        if (auto const text = after(line, deck::failure_marker)) seen.failure = clean(*text);
         if (auto const text = after(line, deck::settled_marker)) {
             seen.settled = static_cast<bool>(std::istringstream(*text) >> word >> seen.settled_force);
         }

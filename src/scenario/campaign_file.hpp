@@ -12,8 +12,7 @@ namespace vibrotrough {
 /// A campaign file, read and checked.
 struct Campaign {
     std::string name;
-    std::vector<Scenario> cases;     ///< the Cartesian product of the sweep; at least one
-    std::vector<std::string> swept;  ///< keys of the sweep, e.g. "trough.throw_number"
+    std::vector<Scenario> cases;  ///< the Cartesian product of the sweep; at least one
 };
 
 /// Reads and checks a campaign file.

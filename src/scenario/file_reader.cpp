@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/quantity.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +20,6 @@ Position position(toml::source_region const& source) {
 
 Position position(toml::node const& node) {
     return position(node.source());
-}
-
-/// A key or value as the user typed it may hold anything: one line of printable text, not too long.
-std::string printable(std::string_view text) {
-    std::string result;
-    for (char const c : text.substr(0, 60)) result += (c >= ' ' && c != 127) ? c : '?';
-    return text.size() > 60 ? result + "..." : result;
 }
 
 std::string_view name_of(std::string_view path) {
@@ -53,7 +47,7 @@ class Reader {
         try {
             root_ = toml::parse(text, file);
         } catch (toml::parse_error const& error) {
-            throw_at({file_, position(error.source())}, "TOML", printable_line(error.description()),
+            throw_at({file_, position(error.source())}, "TOML", printable(error.description(), 300),
                      "write key = value lines under [section] headings");
         }
     }
@@ -65,13 +59,6 @@ class Reader {
     }
 
   private:
-    static std::string printable_line(std::string_view text) {
-        std::string line(text.substr(0, 300));
-        std::ranges::replace_if(
-            line, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-        return line;
-    }
-
     [[noreturn]] void fail(Position where, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
         throw_at({file_, where}, key, wrong, instead);
@@ -85,11 +72,11 @@ class Reader {
     void read_section(toml::key const& name, toml::node const& node) {
         Position const where = position(name.source());
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
-            fail(where, printable(name.str()), "stands above the first [section]",
+            fail(where, printable(name.str(), 60), "stands above the first [section]",
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
-            fail(where, printable(name.str()), "unknown section",
+            fail(where, printable(name.str(), 60), "unknown section",
                  "the sections are campaign, trough, grains, layer, measure, output and sweep");
         }
         if (!node.is_table()) {
@@ -109,7 +96,7 @@ class Reader {
     Key const& known_key(std::string const& path, Position where) const {
         if (Key const* key = find_key(path)) return *key;
         std::string_view const nearest = nearest_key(path);
-        fail(where, printable(path), "unknown key",
+        fail(where, printable(path, 60), "unknown key",
              nearest.empty() ? "the keys are listed in the README, section 'The campaign file'"
                              : fmt::format("did you mean {}?", nearest));
     }
@@ -141,7 +128,7 @@ class Reader {
         if (!node.is_string() || name.empty() || name.size() > 100 || !plain || name.front() == '.' ||
             name.front() == '-') {
             fail(where, key.path,
-                 fmt::format("{} is no name", node.is_string() ? fmt::format("'{}'", printable(name))
+                 fmt::format("{} is no name", node.is_string() ? fmt::format("'{}'", printable(name, 60))
                                                                : "a value that is not a text"),
                  fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
                              key.range));
@@ -168,7 +155,7 @@ class Reader {
         try {
             return parse_quantity(**node.as_string(), std::string(key.unit));
         } catch (QuantityError const& error) {
-            fail(position(node), key.path, printable_line(error.what()), write_instead(key));
+            fail(position(node), key.path, printable(error.what(), 300), write_instead(key));
         }
     }
 
@@ -186,7 +173,7 @@ class Reader {
     }
 
     static std::string written(toml::node const& node) {
-        if (auto const* text = node.as_string()) return fmt::format("'{}'", printable(text->get()));
+        if (auto const* text = node.as_string()) return fmt::format("'{}'", printable(text->get(), 60));
         if (auto const* whole = node.as_integer()) return std::to_string(whole->get());
         if (auto const* number = node.as_floating_point()) return fmt::format("{}", number->get());
         return "this value";
@@ -238,7 +225,7 @@ class Reader {
         for (auto const& [name, node] : range) {
             if (name.str() != "from" && name.str() != "to" && name.str() != "step") {
                 fail(position(name.source()), key.path,
-                     fmt::format("'{}' is not part of a range", printable(name.str())),
+                     fmt::format("'{}' is not part of a range", printable(name.str(), 60)),
                      "write { from = a, to = b, step = c }");
             }
         }

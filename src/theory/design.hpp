@@ -21,7 +21,7 @@ struct DesignLimits {
     double most_machine_number = 5;         ///< K: what the structure bears
     double most_throw_number = 3.29;        ///< Gamma: beyond a flight of one cycle landings get irregular
     double least_mass_flow = 0;             ///< kg/s, 0: none; needs a layer
-    double gravity = 9.80665;
+    double gravity = 9.81;
     double bulk_density = 0, layer_height = 0, layer_width = 0;
 };
 

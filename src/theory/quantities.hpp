@@ -37,11 +37,11 @@ EnergyBalance energy_balance(ConveyorMotion const& motion);
 
 /// The machine behind the dimensionless numbers.
 struct Machine {
-    double amplitude;          ///< r, m, in the direction of vibration
-    double gravity = 9.80665;  ///< m/s^2
-    double bulk_density = 0;   ///< kg/m^3; 0: no layer
-    double layer_height = 0;   ///< m
-    double layer_width = 0;    ///< m
+    double amplitude;         ///< r, m, in the direction of vibration
+    double gravity = 9.81;    ///< m/s^2
+    double bulk_density = 0;  ///< kg/m^3; 0: no layer
+    double layer_height = 0;  ///< m
+    double layer_width = 0;   ///< m
 };
 
 /// What an engineer asks, in SI units.

@@ -1,7 +1,9 @@
 #include "compare/comparison.hpp"
 
 #include "store/sample_record.hpp"
+#include "theory/design.hpp"
 #include "theory/point_mass.hpp"
+#include "theory/quantities.hpp"
 
 #include <cmath>
 #include <limits>
@@ -68,6 +70,12 @@ TEST(Compare, KnowsTheFactsSheetsPointMass) {
     trough.frequency = std::sqrt(2 * gravity / (trough.amplitude * std::sin(trough.vibration_angle))) /
                        (2 * std::numbers::pi);
     EXPECT_NEAR(compare("", scenario, {}, "open").efficiency_theory.value(), 0.5815, 0.0005);
+}
+
+// The theory's commands and the campaigns stand on the same ground.
+TEST(Compare, OneGravity) {
+    EXPECT_EQ(theory::Machine{}.gravity, gravity);
+    EXPECT_EQ(theory::DesignLimits{}.gravity, gravity);
 }
 
 // A trough that shakes along itself, horizontal: forward and backward slides are mirror images, eta = 0.
