@@ -30,8 +30,9 @@ void prepare_child(pid_t driver) {
     if (::getppid() != driver) ::_exit(1);  // the driver died in between
 }
 
-/// One MPI rank needs no daemon: without this variable the engine starts one and takes 0.15 s longer. (Set by
-/// env, because Boost 1.74's own environment class reads beyond its strings.)
+/// One MPI rank needs no daemon: without this variable the engine starts one and takes 0.15 s longer, or 5 s
+/// where the machine's own name does not resolve. (Set by env, because Boost 1.74's own environment class
+/// reads beyond its strings.)
 constexpr char const* no_daemon = "OMPI_MCA_ess_singleton_isolated=1";
 
 fs::path search_program(std::optional<fs::path> const& asked) {
@@ -58,7 +59,8 @@ std::string ask_version(fs::path const& program) {
     try {
         bp::ipstream output;
         // A program that is no LIGGGHTS may do anything, such as never end.
-        bp::child child(bp::search_path("timeout"), bp::args({"10", program.string(), "-log", "none", "-h"}),
+        bp::child child(bp::search_path("env"),
+                        bp::args({no_daemon, "timeout", "10", program.string(), "-log", "none", "-h"}),
                         bp::std_out > output, bp::std_err > bp::null, bp::std_in < bp::null);
         std::string version;
         for (std::string line; std::getline(output, line);) {
