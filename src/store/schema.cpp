@@ -46,10 +46,13 @@ std::vector<CaseFact> const& case_facts() {
     return facts;
 }
 
-std::vector<CaseValue> const& case_values() {
-    using Real = double (*)(Case);
-    using Integer = int (*)(Case);
-    static std::vector<CaseValue> const values{
+namespace {
+
+using Real = double (*)(Case);
+using Integer = int (*)(Case);
+
+std::vector<CaseValue> drive_and_result_values() {
+    return {
         {{"throw_number", "1", "Throw number Gamma = omega^2 r sin(beta) / (g cos(alpha))"},
          Real([](Case c) { return throw_number(c.scenario.trough); })},
         {{"machine_number", "1", "Machine number K = omega^2 r / g"},
@@ -91,6 +94,11 @@ std::vector<CaseValue> const& case_values() {
         {{"cycles_discarded", "1", "Cycles cut as start-up, sum over the packings"},
          Integer([](Case c) { return sum_over_packings(c, &measure::PackingEstimate::discarded); })},
         {{"wall_time", "s", "Wall time of the engine, sum over the packings"}, Real(wall_time)},
+    };
+}
+
+std::vector<CaseValue> grain_and_layer_values() {
+    return {
         {{"grain_diameter", "m", "Diameter of the middle size class of grains"},
          Real([](Case c) { return c.scenario.grains.diameter; })},
         {{"grain_diameter_spread", "1", "Spread s: the three size classes have 1 - s, 1 and 1 + s diameters"},
@@ -118,6 +126,16 @@ std::vector<CaseValue> const& case_values() {
          })},
         {{"layer_grains", "1", "Number of grains"}, Integer([](Case c) { return c.scenario.layer.grains; })},
     };
+}
+
+}  // namespace
+
+std::vector<CaseValue> const& case_values() {
+    static std::vector<CaseValue> const values = [] {
+        std::vector<CaseValue> all = drive_and_result_values();
+        for (CaseValue const& value : grain_and_layer_values()) all.push_back(value);
+        return all;
+    }();
     return values;
 }
 
