@@ -1,3 +1,4 @@
+#include "random_number.hpp"
 #include "theory/conveyor.hpp"
 #include "theory/quantities.hpp"
 
@@ -12,11 +13,6 @@ namespace vibrotrough::theory {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double between(double low, double high) {
-    auto const part = *rc::gen::inRange<std::int64_t>(0, 1'000'000'001);
-    return low + (high - low) * static_cast<double>(part) * 1e-9;
-}
 
 bool maybe() {
     return *rc::gen::arbitrary<bool>();

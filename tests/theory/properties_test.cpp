@@ -1,3 +1,4 @@
+#include "random_number.hpp"
 #include "theory/contact.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/flight.hpp"
@@ -15,11 +16,6 @@ namespace vibrotrough::theory {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double between(double low, double high) {
-    auto const part = *rc::gen::inRange<std::int64_t>(0, 1'000'000'001);
-    return low + (high - low) * static_cast<double>(part) * 1e-9;
-}
 
 PointMass ordinary_point() {
     double const mu = between(0.05, 1);

@@ -1,5 +1,6 @@
 #include "theory/quantities.hpp"
 
+#include "random_number.hpp"
 #include "theory/design.hpp"
 #include "theory/sensitivity.hpp"
 
@@ -13,11 +14,6 @@ namespace vibrotrough::theory {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double between(double low, double high) {
-    auto const part = *rc::gen::inRange<std::int64_t>(0, 1'000'000'001);
-    return low + (high - low) * static_cast<double>(part) * 1e-9;
-}
 
 Conveyor any_conveyor() {
     Conveyor c{};
