@@ -2,12 +2,14 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "deck/phases.hpp"
 #include "deck/templates.hpp"
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -187,7 +189,7 @@ TimeGrid choose_time_step(Scenario const& s) {
     double const hertz = 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
 
     double const period = 1 / s.trough.frequency;
-    int const multiple = std::max(1, s.output.frames_per_cycle);
+    int const multiple = std::lcm(samples_per_cycle, std::max(1, s.output.frames_per_cycle));
     double const longest = std::min({0.2 * rayleigh, 0.1 * hertz, period / fewest_steps});
     double const steps = std::ceil(period / longest / multiple) * multiple;
     if (steps > most_steps) {
@@ -223,6 +225,7 @@ Deck make_deck(Scenario const& scenario, int packing) {
     describe_inputs(data, scenario);
     describe_time(data, shown, deck.time);
     describe_space(data, scenario, deck.time);
+    for (auto const& [name, value] : phase_sampling(scenario, deck.time)) data.set(name, value);
     deck.files["in.liggghts"] = render(data);
     deck.files["trough.stl"] =
         flat_trough_stl(scenario.layer.length, scenario.layer.width, 3 * scenario.grains.diameter);

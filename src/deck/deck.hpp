@@ -36,9 +36,17 @@ constexpr char const* control_file = "control.in";
 constexpr char const* control_go_on = "variable stop equal 0\n";
 constexpr char const* control_stop = "variable stop equal 1\n";
 
+/// Lines per cycle in phases.csv, evenly spaced; the last one is at phase 0.
+constexpr int samples_per_cycle = 100;
+
+/// The layer is cut into bins at this many phases, one after the other: every `profile_stride` of them, so
+/// that each phase has its turn once in `profile_stride` cycles.
+constexpr int profiles_per_cycle = 10;
+constexpr int profile_stride = 3;
+
 /// Time step: the smallest of 20 % of the Rayleigh time, 10 % of the Hertz contact time, 1/500 of a cycle,
-/// and what makes the steps per cycle (and per frame) a whole number. Rayleigh time  T_R = pi R sqrt(rho / G)
-/// / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
+/// and what makes the steps per cycle a multiple of samples_per_cycle and of the frames. Rayleigh time  T_R =
+/// pi R sqrt(rho / G) / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
 ///   (Li, Xu & Thornton, Powder Technology 160, 2005).
 /// Hertz contact  t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5) of two equal grains
 ///   (Johnson, Contact Mechanics, 1985, section 11.4), at v = 2 omega r: a grain that flies at the trough's
