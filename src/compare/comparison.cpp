@@ -40,6 +40,7 @@ void add_theory(Row& row, Trough const& trough) {
 
 void add_measurement(Row& row, store::CaseRecord const& record) {
     row.packings = record.estimate.packings;
+    if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
     row.cycles_measured = row.cycles_discarded = 0;
     row.wall_s = 0;
     for (store::PackingRecord const& packing : record.packings) {

@@ -24,10 +24,11 @@ struct Row {
     std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta)
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
     std::string mode_theory;
-    std::optional<int> packings;          ///< that the interval rests on
-    std::optional<int> cycles_measured;   ///< all packings together
-    std::optional<int> cycles_discarded;  ///< start-up, all packings together
-    std::optional<double> wall_s;         ///< of the engine, all packings together
+    std::optional<std::string> mode_layer;  ///< the bulk's mode in the theory's letters
+    std::optional<int> packings;            ///< that the interval rests on
+    std::optional<int> cycles_measured;     ///< all packings together
+    std::optional<int> cycles_discarded;    ///< start-up, all packings together
+    std::optional<double> wall_s;           ///< of the engine, all packings together
     std::string outcome;
 };
 

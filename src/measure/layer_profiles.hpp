@@ -59,7 +59,7 @@ struct Surface {
     std::vector<double> height;  ///< m, of the surface above the trough: twice the mean height of the
                                  ///< column's grains; of the last snapshot at that phase
     /// m, of a sinusoid with the same variance along the trough, root mean square over all snapshots. Columns
-    /// of single grains are never quite level: a resting layer has about a tenth to a fifth of a diameter.
+    /// of single grains are never quite level: a layer without waves has a quarter of a diameter.
     double wiggle_amplitude;
 };
 

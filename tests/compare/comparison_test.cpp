@@ -93,6 +93,7 @@ TEST(Compare, ShowsTheMeasurement) {
     // speed = eta omega r cos(beta), multiplied in another order: some roundings.
     EXPECT_NEAR(row.speed_dem_m_per_s.value(), 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5),
                 1e-15);
+    EXPECT_EQ(row.mode_layer, "FP'N");
     EXPECT_EQ(row.packings, 2);
     EXPECT_EQ(row.cycles_measured, 1 + 1);
     EXPECT_EQ(row.cycles_discarded, 2 + 0);
@@ -127,6 +128,7 @@ TEST(Compare, HasNoMeasurementWithoutARecord) {
         EXPECT_FALSE(row.efficiency_dem);
         EXPECT_FALSE(row.efficiency_dem_half_width);
         EXPECT_FALSE(row.speed_dem_m_per_s);
+        EXPECT_FALSE(row.mode_layer);
         EXPECT_FALSE(row.packings);
         EXPECT_FALSE(row.cycles_measured);
         EXPECT_FALSE(row.cycles_discarded);

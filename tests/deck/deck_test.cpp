@@ -40,7 +40,7 @@ TEST(Deck, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
     double const rayleigh = 1.24895e-4;
     EXPECT_LE(time.time_step, 0.2 * rayleigh * 1.0001);  // the hand value has six digits
     EXPECT_GE(time.time_step,
-              0.2 * rayleigh * 0.999);  // at most one step in 2600 is lost to the whole number
+              0.2 * rayleigh * 0.96);  // at most 100 steps in 2600 are lost to the whole number
     EXPECT_NEAR(time.time_step / time.rayleigh_fraction, rayleigh, 1e-4 * rayleigh);
     EXPECT_NEAR(time.time_step * time.steps_per_cycle * s.trough.frequency, 1, 1e-14);
 }
@@ -50,7 +50,7 @@ TEST(Deck, FastImpactsShortenTheTimeStep) {
     Scenario fast = scenario();
     fast.trough.amplitude *= 100;
     TimeGrid const time = choose_time_step(fast);
-    EXPECT_NEAR(time.hertz_fraction, 0.1, 1e-3);  // the whole number of steps takes less than 1e-3
+    EXPECT_NEAR(time.hertz_fraction, 0.1, 2e-3);  // the whole number of steps takes less than 2 %
     EXPECT_LT(time.rayleigh_fraction, 0.2);
 }
 
@@ -72,7 +72,22 @@ TEST(Deck, StepsDivideIntoFrames) {
         Scenario s = scenario();
         s.output.frames_per_cycle = frames;
         EXPECT_EQ(choose_time_step(s).steps_per_cycle % frames, 0) << frames;
+        EXPECT_EQ(choose_time_step(s).steps_per_cycle % samples_per_cycle, 0) << frames;
     }
+}
+
+// 36 mm / 1.5 / 3 mm = 8 columns, each a hair wider than 4.5 mm, so that rounding opens no ninth.
+TEST(Deck, CutsTheLayerIntoBins) {
+    Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
+    std::string const deck = in_file(s);
+    int const n = choose_time_step(s).steps_per_cycle;
+    EXPECT_EQ(number_after(deck, "fix window      all ave/time 1 "), n / 100);
+    EXPECT_EQ(number_after(deck, "fix phases      all print "), n / 100);
+    EXPECT_EQ(number_after(deck, "fix profiles    all ave/spatial "), 3 * n / 10);
+    EXPECT_EQ(number_after(deck, " z 0.0 "), 0.0015);
+    double const column = number_after(deck, " x lower ");
+    EXPECT_GT(column, 0.0363 / 8);
+    EXPECT_NEAR(column, 0.0363 / 8, 1e-13);
 }
 
 // m = rho pi / 6 sum d^3 over three classes of equal number.

@@ -17,8 +17,8 @@ class PointMassPhases {
     static constexpr double mass = 0.01;        // kg
     static constexpr double gravity = 9.81;     // m/s^2
 
-    explicit PointMassPhases(theory::Conveyor const& conveyor)
-        : theory(theory::solve(conveyor)), point_(conveyor.point) {
+    explicit PointMassPhases(theory::PointMass const& point, double restitution = 0)
+        : theory(theory::solve(conveyor_of(point, restitution))), point_(point) {
         int const period = std::max(theory.motion.period_cycles, 1);
         fine_ = theory::trace(theory, samples * period + 1);
         double const cosine = 1 / std::hypot(1, point_.tan_vibration_angle);
@@ -64,6 +64,13 @@ class PointMassPhases {
   private:
     static constexpr double pi = std::numbers::pi;
     static constexpr int samples = 20000;  // of the theory per cycle
+
+    static theory::Conveyor conveyor_of(theory::PointMass const& point, double restitution) {
+        theory::Conveyor conveyor;
+        conveyor.point = point;
+        conveyor.restitution = restitution;
+        return conveyor;
+    }
 
     struct State {
         double x, z, vx, vz, trough_x, trough_z;
