@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace vibrotrough::measure {
 namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Indices wrap around: a period has no beginning.
 std::size_t wrapped(int i, std::size_t size) {
@@ -57,6 +60,23 @@ bool between_flights(std::vector<Run> const& runs, std::size_t i) {
            runs[wrapped(k + 1, runs.size())].letter == 'F';
 }
 
+/// Stray grains that land before the layer does not end its flight: a contact between two flights that
+/// carries too little counts as flight.
+void forget_stray_grains(ModeCurves const& curves, std::vector<Run>& runs, std::vector<char>& letters) {
+    // Slide and rest of one contact belong together.
+    std::vector<char> contact = letters;
+    for (char& letter : contact) letter = letter == 'F' ? 'F' : 'C';
+    for (Run const& run : runs_of(contact)) {
+        if (run.letter == 'F' || run.length == static_cast<int>(letters.size())) continue;
+        double impulse = 0;  // in cycles of weight
+        for (int i = 0; i < run.length; ++i)
+            impulse += curves.normal_force[wrapped(run.first + i, letters.size())] * curves.step / two_pi;
+        if (impulse >= stray_impulse) continue;
+        for (int i = 0; i < run.length; ++i) letters[wrapped(run.first + i, letters.size())] = 'F';
+    }
+    runs = runs_of(letters);
+}
+
 /// Gives the shortest run that is too short to its longer neighbour in contact; nothing to do: false. A
 /// contact between two flights is kept however short it is: there the layer lands.
 bool absorb_shortest(std::vector<Run>& runs, std::vector<char>& letters) {
@@ -98,6 +118,7 @@ std::vector<ModePhase> mode_phases(ModeCurves const& curves) {
     std::vector<char> letters;
     for (int i = 0; i < static_cast<int>(curves.slip.size()); ++i) letters.push_back(letter_at(curves, i));
     std::vector<Run> runs = runs_of(letters);
+    forget_stray_grains(curves, runs, letters);
     while (absorb_shortest(runs, letters)) {
     }
     std::vector<ModePhase> phases;

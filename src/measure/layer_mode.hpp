@@ -23,6 +23,9 @@ struct ModePhase {
 // Thresholds. The theory's phases are exact; a layer's curves are means of noisy ones.
 /// In flight the trough carries less than this of the layer's weight: what a few loose grains can carry.
 constexpr double flight_force = 0.05;
+/// A contact that gives less than this of the momentum of a cycle, weight times T, is no landing: some stray
+/// grains come down before the layer does.
+constexpr double stray_impulse = 0.01;
 /// A layer slower than this against the trough rests, if it also does not pass through zero: a layer that
 /// shears and rolls a little is never quite still.
 constexpr double rest_slip = 0.03;

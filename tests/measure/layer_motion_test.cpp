@@ -199,6 +199,9 @@ TEST(LayerMode, ReadsPhases) {
     EXPECT_EQ(mode(std::vector<double>(10, -1), level), "N") << "a layer that slides down for ever";
     EXPECT_EQ(mode(std::vector<double>(10, 1), std::vector<double>(10, 0.0)), "F");
     EXPECT_EQ(mode({-1, -1, -1, -1, 1, 1, 1, 1, -1, -1}, level), "PN") << "the first slide after phase 0";
+    // One stray grain: 0.06 of the weight in a tenth of a cycle.
+    EXPECT_EQ(mode({1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, {5, 5, 0, 0, 0, 0.06, 0, 0, 0, 0}), "FP'");
+    EXPECT_EQ(mode({1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, {5, 5, 0, 0, 0, 4, 4, 0, 0, 0}), "FP'FP'");
     EXPECT_EQ(mode({1, 1, 1, -1, 1, 1, -1, -1, -1, -1}, level), "PN") << "one interval is noise";
 }
 
