@@ -23,19 +23,28 @@ double rounded(double value) {
 
 /// The plastic point mass on this trough. The machine number also describes a trough that shakes along
 /// itself.
-theory::Motion plastic_motion(Trough const& trough) {
+theory::Motion plastic_motion(Trough const& trough, double friction) {
     theory::Inputs inputs;
     inputs.set(theory::Input::machine_number, machine_number(trough));
     inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
     inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
-    inputs.set(theory::Input::friction, trough.friction);
+    inputs.set(theory::Input::friction, friction);
     return theory::solve(inputs.point());
 }
 
 void add_theory(Row& row, Trough const& trough) {
-    theory::Motion const motion = plastic_motion(trough);
+    theory::Motion const motion = plastic_motion(trough, trough.friction);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
+}
+
+void add_layer_theory(Row& row, Trough const& trough, MeasuredFriction const& measured) {
+    row.friction_layer = measured.friction;
+    row.friction_layer_low = measured.low;
+    row.friction_layer_high = measured.high;
+    theory::Motion const motion = plastic_motion(trough, measured.friction);
+    row.mode_theory_layer = motion.mode;
+    if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
 
 void add_measurement(Row& row, store::CaseRecord const& record) {
@@ -93,7 +102,7 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
 }
 
 Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
-            std::string const& outcome) {
+            std::string const& outcome, std::optional<MeasuredFriction> const& friction) {
     Trough const& trough = scenario.trough;
     Row row{};
     row.id = id;
@@ -106,6 +115,7 @@ Row compare(std::string const& id, Scenario const& scenario, std::optional<store
     row.frequency_hz = rounded(trough.frequency);
     row.outcome = record ? record->outcome : outcome;
     add_theory(row, trough);
+    if (friction) add_layer_theory(row, trough, *friction);
     if (record) add_measurement(row, *record);
     return row;
 }

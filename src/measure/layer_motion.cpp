@@ -273,7 +273,7 @@ int period_of(PhaseSeries const& series, int discarded, int used) {
     auto const [least, most] = std::minmax_element(series.trough_z.begin(), series.trough_z.end());
     double const noise = 1e-3 * (*most - *least);
     double const by_cycle = change(1);
-    if (by_cycle <= noise * noise) return 1;
+    if (noise == 0 || by_cycle <= noise * noise) return 1;
     for (int cycles = 2; cycles <= std::min(8, (used - discarded) / 2); ++cycles) {
         if (change(static_cast<std::size_t>(cycles)) < by_cycle / 4) return cycles;
     }
