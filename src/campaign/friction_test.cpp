@@ -1,6 +1,7 @@
 #include "campaign/friction_test.hpp"
 
 #include "campaign/case_state.hpp"
+#include "campaign/layer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "measure/shake_test.hpp"
@@ -29,8 +30,8 @@ struct Pen {
 };
 
 Pen read_pen(PlannedCase const& planned, store::PackingRecord const& packing, int number) {
-    auto const series =
-        measure::read_phases(planned.packing_folder(number) / "phases.csv", packing.steps_per_cycle);
+    auto const series = read_packing_phases(planned.scenario, deck::make_deck(planned.scenario, number),
+                                            planned.packing_folder(number));
     int const first = std::max(packing.estimate.discarded, 1);
     int const last = packing.estimate.discarded + packing.estimate.measured;
     double const r = planned.scenario.trough.amplitude;

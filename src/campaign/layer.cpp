@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "deck/phases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,10 +38,17 @@ void add_trough(measure::ProfileFacts& facts, measure::PhaseSeries const& series
 
 }  // namespace
 
+measure::PhaseSeries read_packing_phases(Scenario const& s, deck::Deck const& deck, fs::path const& folder) {
+    auto series = measure::read_phases(folder / "phases.csv", deck.time.steps_per_cycle);
+    if (!is_clump(s.grains) && s.layer.block != Block::plate) return series;
+    return measure::with_integrated_places(std::move(series),
+                                           1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
+}
+
 void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck const& deck,
                    fs::path const& folder) {
-    static_assert(deck::samples_per_cycle == measure::PhaseSeries::per_cycle);
-    auto const series = measure::read_phases(folder / "phases.csv", deck.time.steps_per_cycle);
+    static_assert(deck::phases_per_cycle == measure::PhaseSeries::per_cycle);
+    auto const series = read_packing_phases(s, deck, folder);
     measure::LayerFacts const facts = facts_of(record, s);
     if (series.cycles() < facts.used) {
         throw InputError(

@@ -9,6 +9,11 @@
 
 namespace vibrotrough::campaign {
 
+/// phases.csv of a packing; of rigid bodies with places that are integrated.
+/// @throws as measure::read_phases
+measure::PhaseSeries read_packing_phases(Scenario const& scenario, deck::Deck const& deck,
+                                         std::filesystem::path const& folder);
+
 /// Measures how the layer of a packing moves within the cycle, over the cycles that its mean is from, and
 /// writes it into the record, whose estimate is there already.
 /// @throws InputError when a file in the packing's folder is damaged

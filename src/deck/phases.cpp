@@ -13,8 +13,8 @@ std::map<std::string, std::string> phase_sampling(Scenario const& s, TimeGrid co
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * diameter)));
     // A little more than the exact width: rounding must not open one more column at the box's end.
     double const column = s.layer.length / columns * (1 + 1e-12);
-    return {{"samples_per_cycle", std::to_string(samples_per_cycle)},
-            {"sample_steps", std::to_string(time.steps_per_cycle / samples_per_cycle)},
+    return {{"samples_per_cycle", std::to_string(phases_per_cycle)},
+            {"sample_steps", std::to_string(time.steps_per_cycle / phases_per_cycle)},
             {"profile_steps", std::to_string(profile_stride * (time.steps_per_cycle / profiles_per_cycle))},
             {"profile_bin", fmt::format("{}", diameter / 2)},
             {"surface_bin", fmt::format("{}", column)}};

@@ -10,7 +10,7 @@ namespace vibrotrough::measure {
 /// values. Values are of the end of each interval, forces are means over it. Scaled to be pure numbers.
 struct ModeCurves {
     std::span<double const> slip;  ///< velocity along the trough relative to it, over omega r cos(beta)
-    std::span<double const> normal_force;  ///< over the layer's weight normal to the trough, m g cos(alpha)
+    std::span<double const> normal_force;  ///< of the floor, over the layer's weight, m g cos(alpha)
     double step;                           ///< rad, omega times the interval
 };
 

@@ -86,7 +86,7 @@ class Analysis {
     double weight() const { return -facts_.mass * facts_.gravity_z; }
     double trough_vx(std::size_t i) const { return trough_vx_[i % per_cycle]; }
     double trough_vz(std::size_t i) const { return trough_vz_[i % per_cycle]; }
-    bool flies(std::size_t i) const { return s_.normal_force[i] < flight_force * weight(); }
+    bool flies(std::size_t i) const { return s_.floor_force[i] < flight_force * weight(); }
     double rising(std::size_t i) const { return s_.vz[i] - trough_vz(i); }
     std::size_t flight_from(std::size_t i) const;
     void add_means(PhaseCurves& curves) const;
@@ -107,13 +107,14 @@ void Analysis::add_means(PhaseCurves& c) const {
     of(s_.vx, c.velocity_x, &c.velocity_x_deviation);
     of(s_.vz, c.velocity_z, &c.velocity_z_deviation);
     of(s_.normal_force, c.normal_force, &c.normal_force_deviation);
+    of(s_.floor_force, c.floor_force);
     of(s_.tangential_force, c.tangential_force, &c.tangential_force_deviation);
     of(s_.touching, c.touching, &c.touching_deviation);
     of(s_.clearance, c.clearance);
     of(s_.energy_translation, c.energy_translation);
     of(s_.energy_rotation, c.energy_rotation);
     c.airborne = fold(window_, [&](std::size_t i) {
-                     return s_.touching[i] == 0 && s_.normal_force[i] == 0 ? 1.0 : 0.0;
+                     return s_.touching[i] == 0 && s_.floor_force[i] == 0 ? 1.0 : 0.0;
                  }).mean;
 }
 
@@ -159,7 +160,7 @@ std::vector<ModePhase> Analysis::phases(PhaseCurves const& c) const {
     Values slip, force;
     for (std::size_t j = 0; j < window_.period; ++j) {
         slip.push_back((c.velocity_x[j] - c.trough_velocity_x[j]) / std::abs(scale));
-        force.push_back(c.normal_force[j] / weight());
+        force.push_back(c.floor_force[j] / weight());
     }
     return mode_phases({slip, force, two_pi / per_cycle});
 }
@@ -248,7 +249,7 @@ void add_flight(LayerMotion& motion, std::vector<ModePhase> const& phases, doubl
     if (phases.front().letter != "F") return;
     int const first = phases.front().first, length = phases.front().length;
     bool const lands = length < static_cast<int>(motion.curves.phase.size());
-    double const start = take_off(motion.curves.normal_force, first, flight_force * weight);
+    double const start = take_off(motion.curves.floor_force, first, flight_force * weight);
     // It hits within the first interval with force: in its middle, on average.
     double const end = first + length + (lands ? 0.5 : 0);
     motion.flight_number = (end - start) / per_cycle;

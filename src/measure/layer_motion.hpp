@@ -26,11 +26,12 @@ struct PhaseCurves {
     std::vector<double> velocity_x, velocity_z;                ///< m/s, of the centre of mass
     std::vector<double> trough_velocity_x, trough_velocity_z;  ///< m/s
     std::vector<double> normal_force, tangential_force;        ///< N, layer on trough
-    std::vector<double> touching;                              ///< grains that touch the floor
-    std::vector<double> airborne;   ///< fraction of the periods in which nothing touches the trough
-    std::vector<double> clearance;  ///< m, between floor and lowest grain; negative: overlap
-    std::vector<double> slip;       ///< m/s, of the touching grains' surface on the floor, v - omega R
-    std::vector<double> sliding;    ///< m/s, the same without rotation
+    std::vector<double> floor_force;  ///< N, the part of normal_force that the floor carries, not side walls
+    std::vector<double> touching;     ///< grains that touch the floor
+    std::vector<double> airborne;     ///< fraction of the periods in which nothing touches the trough
+    std::vector<double> clearance;    ///< m, between floor and lowest grain; negative: overlap
+    std::vector<double> slip;         ///< m/s, of the touching grains' surface on the floor, v - omega R
+    std::vector<double> sliding;      ///< m/s, the same without rotation
     std::vector<double> energy_translation, energy_rotation;  ///< J
     std::vector<double> overlap;                              ///< m, largest of two grains, over all periods
     std::vector<double> displacement_deviation, height_deviation, velocity_x_deviation, velocity_z_deviation;

@@ -16,8 +16,9 @@ struct PhaseSeries {
     std::vector<double> trough_x, trough_z;  ///< m, displacement of the trough
     std::vector<double> normal_force;        ///< N, layer on trough, positive when pressing
     std::vector<double> tangential_force;    ///< N, layer on trough, along x
-    std::vector<double> touching;            ///< grains whose lowest point is below the floor
-    std::vector<double> touching_vx;         ///< m/s, sum of v_x over them
+    std::vector<double> floor_force;  ///< N, the part of normal_force that the floor carries, not side walls
+    std::vector<double> touching;     ///< grains (of clumps: spheres) whose lowest point is below the floor
+    std::vector<double> touching_vx;  ///< m/s, sum of v_x over them
     std::vector<double> touching_spin;       ///< m/s, sum of omega_y R over them
     std::vector<double> clearance;           ///< m, between floor and lowest grain; negative: overlap
     std::vector<double> energy_translation;  ///< J
@@ -35,5 +36,11 @@ struct PhaseSeries {
 /// @throws InputError naming file and line when a line is damaged or missing
 /// @throws MissingError when there is no such file
 PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle);
+
+/// The same with places along the trough that are the integral of the velocity: for rigid bodies, whose
+/// places the engine does not unwrap. Trapezoids, so that what an impact moves within a hundredth of a cycle
+/// is known to the part of it that the impact is away from the middle.
+/// @param interval  s, between two lines
+PhaseSeries with_integrated_places(PhaseSeries series, double interval);
 
 }  // namespace vibrotrough::measure

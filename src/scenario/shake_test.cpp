@@ -59,6 +59,9 @@ std::string layer_key(Scenario const& scenario) {
     same.trough.vibration_angle = 0;
     same.trough.amplitude = 0.001;
     same.trough.frequency = 1;
+    same.trough.along_phase = 0;
+    same.trough.harmonics.clear();
+    same.trough.waveform.reset();
     same.measure = {};
     same.output = {};
     return sha256_hex(to_toml(same)).substr(0, 12);

@@ -43,7 +43,7 @@ class Phases(EndToEndTest):
             ("velocity_z", "vz_com", 1), ("touching", "touching", 1), ("energy_rotation", "energy_rotation", 1),
         ):  # fmt: skip
             np.testing.assert_allclose(curves[stored], sign * fold[name].mean(0), rtol=1e-9, atol=1e-12, err_msg=stored)
-        airborne = (fold["touching"] == 0) & (fold["force_z"] == 0)
+        airborne = (fold["touching"] == 0) & (fold["floor_z"] == 0)
         np.testing.assert_allclose(curves["airborne"], airborne.mean(0), atol=1e-12)
         # The trough moves as A sin(omega t): speeds of its ideal motion, up to the mover's own half percent.
         amplitude = file["case/amplitude"][()] * math.cos(file["case/vibration_angle"][()])

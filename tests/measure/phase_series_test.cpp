@@ -32,12 +32,13 @@ class PhasesFile : public testing::Test {
     std::filesystem::path path = testing::TempDir() + "phases_" + std::to_string(::getpid()) + ".csv";
     std::string const whole =
         "# SI units\n"
-        "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,touching,touching_vx,touching_spin,"
+        "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,floor_z,touching,touching_vx,"
+        "touching_spin,"
         "clearance,energy_translation,energy_rotation,overlap\n"
         "# driven from here\n"
-        "3,1,2,3,4,5,6,-7,-8,9,10,11,12,13,14,15\n"
+        "3,1,2,3,4,5,6,-7,-8,-7.5,9,10,11,12,13,14,15\n"
         "# driven from here\n"
-        "6,1.5,2,3,4,5,6,-7,-8,9,10,11,-1e-5,13,14,-1e+20\n";
+        "6,1.5,2,3,4,5,6,-7,-8,-7.5,9,10,11,-1e-5,13,14,-1e+20\n";
 };
 
 TEST_F(PhasesFile, IsRead) {
@@ -47,11 +48,19 @@ TEST_F(PhasesFile, IsRead) {
     EXPECT_EQ(series.x, (std::vector<double>{1, 1.5}));
     EXPECT_EQ(series.tangential_force[0], -7);
     EXPECT_EQ(series.normal_force[0], 8);  // pressing is positive
+    EXPECT_EQ(series.floor_force[0], 7.5);
+    EXPECT_EQ(series.touching[0], 9);
     EXPECT_EQ(series.touching_spin[0], 11);
     EXPECT_EQ(series.clearance[1], -1e-5);
     EXPECT_EQ(series.energy_rotation[1], 14);
     // The engine's largest of no contacts is its most negative number.
     EXPECT_EQ(series.overlap, (std::vector<double>{15, 0}));
+}
+
+// x_1 = x_0 + (3 + 3) / 2 * 0.5
+TEST_F(PhasesFile, PlacesOfRigidBodiesAreIntegrated) {
+    PhaseSeries const series = with_integrated_places(read(whole), 0.5);
+    EXPECT_EQ(series.x, (std::vector<double>{1, 2.5}));
 }
 
 // The engine is read while it writes: at every moment the whole lines are taken and the rest is left.
@@ -75,7 +84,7 @@ TEST_F(PhasesFile, IsRefusedWhenDamaged) {
                                                                                    {",14,15", ",14"},
                                                                                    {",14,15", ",14,15,16"},
                                                                                    {",14,15", ",14;15"}}) {
-        EXPECT_NE(error_of(replaced(from, to)).find("the line is damaged; expected 16 numbers for step"),
+        EXPECT_NE(error_of(replaced(from, to)).find("the line is damaged; expected 17 numbers for step"),
                   std::string::npos)
             << to;
     }

@@ -46,6 +46,7 @@ class PointMassPhases {
             s.tangential_force.push_back(-mass * ((now.vx - before.vx) / interval - facts.gravity_x));
             // What rounding leaves of a free fall is no force.
             if (std::abs(s.normal_force.back()) < 1e-9 * mass * gravity) s.normal_force.back() = 0;
+            s.floor_force.push_back(s.normal_force.back());
             s.touching.push_back(now.touches ? 1 : 0);
             s.touching_vx.push_back(now.touches ? now.vx : 0);
             s.touching_spin.push_back(0);
