@@ -117,7 +117,7 @@ TEST(Deck, OneSizeIsOneClass) {
 // 36.3 mm / 1.5 / 3 mm = 8 columns, each a hair wider than an eighth, so that rounding opens no ninth.
 TEST(Deck, CutsTheLayerIntoBins) {
     Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
-    std::string const deck = in_file(s);
+    std::string const deck = decks(s);
     int const n = choose_time_step(s).steps_per_cycle;
     EXPECT_EQ(number_after(deck, "window all ave/time 1 "), n / 100);
     EXPECT_EQ(number_after(deck, "phases all print "), n / 100);
