@@ -68,6 +68,7 @@ int run(Options const& options) {
 
     make_folder(test_folder);
     fs::path const test_file = test_folder / "shake-test.toml";
+    for (Scenario const& one : campaign.cases) campaign::write_named_files(one, test_folder);
     write_file_atomically(test_file, shake_test_campaign(options.campaign_file, k));
     campaign::Plan const plan = campaign::make_plan(read_campaign(test_file), test_folder, engine.version);
     campaign::Summary summary;

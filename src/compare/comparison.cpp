@@ -1,6 +1,6 @@
 #include "compare/comparison.hpp"
 
-#include "theory/inputs.hpp"
+#include "compare/point_mass_motion.hpp"
 #include "theory/point_mass.hpp"
 
 #include <cmath>
@@ -21,28 +21,19 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-/// The plastic point mass on this trough. The machine number also describes a trough that shakes along
-/// itself.
-theory::Motion plastic_motion(Trough const& trough, double friction) {
-    theory::Inputs inputs;
-    inputs.set(theory::Input::machine_number, machine_number(trough));
-    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
-    inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
-    inputs.set(theory::Input::friction, friction);
-    return theory::solve(inputs.point());
-}
-
-void add_theory(Row& row, Trough const& trough) {
-    theory::Motion const motion = plastic_motion(trough, trough.friction);
+void add_theory(Row& row, Scenario const& scenario) {
+    theory::Motion const motion = point_mass_motion(scenario, scenario.trough.friction);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
-void add_layer_theory(Row& row, Trough const& trough, MeasuredFriction const& measured) {
+void add_layer_theory(Row& row, Scenario const& scenario, MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
-    theory::Motion const motion = plastic_motion(trough, measured.friction);
+    Scenario without_walls = scenario;  // what they do is in the measured friction
+    without_walls.trough.side_wall_friction.reset();
+    theory::Motion const motion = point_mass_motion(without_walls, measured.friction);
     row.mode_theory_layer = motion.mode;
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
@@ -114,8 +105,8 @@ Row compare(std::string const& id, Scenario const& scenario, std::optional<store
     row.amplitude_m = trough.amplitude;
     row.frequency_hz = rounded(trough.frequency);
     row.outcome = record ? record->outcome : outcome;
-    add_theory(row, trough);
-    if (friction) add_layer_theory(row, trough, *friction);
+    add_theory(row, scenario);
+    if (friction) add_layer_theory(row, scenario, *friction);
     if (record) add_measurement(row, *record);
     return row;
 }

@@ -64,7 +64,9 @@ std::string layer_key(Scenario const& scenario) {
     same.trough.waveform.reset();
     same.measure = {};
     same.output = {};
-    return sha256_hex(to_toml(same)).substr(0, 12);
+    std::string all = to_toml(same);
+    for (NamedFile const& file : named_files(same)) all += file.content;
+    return sha256_hex(all).substr(0, 12);
 }
 
 }  // namespace vibrotrough

@@ -100,6 +100,22 @@ TEST(Compare, ShowsTheMeasurement) {
     EXPECT_EQ(row.wall_s, 12.5 + 11.25);
 }
 
+// Theory at the friction that was measured, beside theory at the grain's.
+TEST(Compare, HasTheoryAtTheLayersFriction) {
+    Row const row = compare("", record.scenario, {}, "open", MeasuredFriction{0.15, 0.14, 0.17});
+    EXPECT_EQ(row.friction_layer, 0.15);
+    EXPECT_EQ(row.friction_layer_low, 0.14);
+    EXPECT_EQ(row.friction_layer_high, 0.17);
+    Scenario smooth = record.scenario;
+    smooth.trough.friction = 0.15;
+    Row const wanted = compare("", smooth, {}, "open");
+    EXPECT_EQ(row.efficiency_theory_layer, wanted.efficiency_theory);
+    EXPECT_EQ(row.mode_theory_layer, wanted.mode_theory);
+    EXPECT_NE(row.efficiency_theory_layer, row.efficiency_theory);
+    EXPECT_FALSE(compare("", record.scenario, {}, "open").friction_layer);
+    EXPECT_FALSE(compare("", record.scenario, {}, "open").efficiency_theory_layer);
+}
+
 TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
     store::CaseRecord unsteady = record;
     unsteady.outcome = "not-steady";
