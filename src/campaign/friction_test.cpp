@@ -23,6 +23,10 @@ using Json = nlohmann::ordered_json;
 /// A layer that gets away by more than this part of its displacement per cycle creeps.
 constexpr double tolerated_creep = 0.05;
 
+/// A layer that slides less than this, in amplitudes, goes with the trough: its contacts' springs give way by
+/// as much.
+constexpr double least_slide = 0.05;
+
 /// The lines that a packing's pen drew, in amplitudes, in the cycles that its mean is from.
 struct Pen {
     std::vector<double> lines;
@@ -62,6 +66,12 @@ void add_displacement(LayerFriction& test, PlannedCase const& planned, store::Ca
 
 void add_friction(LayerFriction& test) {
     if (!test.displacement) return;
+    if (*test.displacement < least_slide) {
+        test.message = fmt::format(
+            "the layer goes with the trough; its friction is about K = {:.3g} or more; choose a larger K",
+            test.machine_number);
+        return;
+    }
     if (std::abs(test.creep) > tolerated_creep * *test.displacement) {
         test.message = fmt::format(
             "the layer creeps by {:.3f} amplitudes per cycle on a level trough, so that its lines are no "

@@ -39,9 +39,19 @@ std::vector<std::string> const contract{"case",
                                         "wall_s",
                                         "outcome"};
 
-std::vector<std::string> const measured{
-    "efficiency_dem", "efficiency_dem_half_width", "speed_dem_m_per_s", "mode_layer",
-    "packings",       "cycles_measured",           "cycles_discarded",  "wall_s"};
+std::vector<std::string> const measured{"efficiency_dem",
+                                        "efficiency_dem_half_width",
+                                        "speed_dem_m_per_s",
+                                        "mode_layer",
+                                        "friction_layer",
+                                        "friction_layer_low",
+                                        "friction_layer_high",
+                                        "efficiency_theory_layer",
+                                        "mode_theory_layer",
+                                        "packings",
+                                        "cycles_measured",
+                                        "cycles_discarded",
+                                        "wall_s"};
 
 store::CaseRecord record_at(double degrees, std::string const& outcome) {
     store::CaseRecord record = store::sample_record("0123456789ab");

@@ -34,13 +34,13 @@ class FrictionTest(EndToEndTest):
     def test_a_block_that_does_not_slide_says_so(self):
         (test,), told = self.shake(self.block(), "--machine-number", 0.2, wanted=1)
         self.assertIsNone(test["friction"])
-        self.assertIn("another K", test["message"])
+        self.assertIn("larger K", test["message"])
         self.assertIn("no number", told)
 
     def test_a_layer(self):
         campaign = self.write_campaign({"measure.half_width": 0.1}, {"trough.throw_number": [1.5, 2.0]})
         (test,), told = self.shake(campaign)
-        self.assertEqual(len(self.take_starts()), 4, "two packings settled and shaken, whatever the drives")
+        self.assertEqual(len(self.take_starts()), 2, "two packings are shaken, whatever the drives")
         self.assertGreater(test["machine_number"], MU * math.hypot(1, math.pi / 2))
         # Grains roll and the layer shears: less than grain on trough, and not nothing.
         self.assertGreater(test["friction"], 0.3 * MU)

@@ -2,6 +2,7 @@
 
 #include "example_campaign.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
