@@ -1,8 +1,11 @@
 #include "app/commands.hpp"
+#include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/local_executor.hpp"
 #include "campaign/overview.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/shell.hpp"
 
 #include <filesystem>
@@ -22,6 +25,7 @@ struct Options {
     std::string campaign_file;
     std::string output;
     std::string engine;
+    bool accept_failed_probes = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -30,13 +34,29 @@ int exit_code_of(campaign::Summary const& summary) {
     return summary.failed + summary.unsure > 0 ? some_cases_failed : all_well;
 }
 
+/// False when interrupted. An engine whose probes failed is refused unless the user accepts that.
+bool certify(engine::Engine& engine, bool accept_failed_probes) {
+    auto const certificate = certificate_of(engine);
+    if (!certificate) return false;
+    if (!certificate->passed() && !accept_failed_probes) {
+        throw MissingError(fmt::format(
+            "{} is not to be trusted: {}; give another engine with --liggghts PATH, look closer with "
+            "'vibrotrough probe-engine', or go on with --accept-failed-probes",
+            engine.program.string(), verdict_of(*certificate)));
+    }
+    engine.certificate = engine::to_json(*certificate);
+    return true;
+}
+
 int run(Options const& options) {
     Campaign const campaign = read_campaign(options.campaign_file);
     std::optional<fs::path> const asked =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine const engine = engine::find_engine(asked);
+    engine::Engine engine = engine::find_engine(asked);
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    make_folder(folder);  // no place for results is known before the engine is asked anything
+    if (!certify(engine, options.accept_failed_probes)) return interrupted;
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine.version);
 
     campaign::Summary summary;
@@ -71,12 +91,15 @@ void add_run(CLI::App& program, int& exit_code) {
         ->capture_default_str();
     command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
         ->type_name("PATH");
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes,
+                      "Run although the engine failed its probes (see probe-engine)");
     command->footer(
+        "The engine is probed once per binary, see 'vibrotrough probe-engine --help'.\n"
         "Ctrl-C stops cleanly, and the same command goes on where it stopped: a finished case is never run "
         "again.\n"
         "Exit codes: 0 all cases finished; 1 some failed, or were not steady or not precise; 2 the input is "
         "wrong;\n"
-        "3 something is missing (no liggghts, no disk); 130 interrupted.\n"
+        "3 something is missing (no liggghts, one that failed its probes, no disk);\n130 interrupted.\n"
         "Example: vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

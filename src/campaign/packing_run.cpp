@@ -38,7 +38,8 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       packing_(packing),
       folder_(planned.packing_folder(packing)),
       deck_(deck::make_deck(planned.scenario, packing)),
-      started_(utc_now()) {
+      started_(utc_now()),
+      engine_certificate_(engine.certificate) {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
     deck::write_deck(deck_, folder_);
@@ -99,7 +100,7 @@ PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     std::chrono::duration<double> const wall = std::chrono::steady_clock::now() - start_;
     write_finished_packing(planned_, packing_,
                            {wall.count(), started_, utc_now(), std::string(program_version()),
-                            std::string(program_commit()), host_name()});
+                            std::string(program_commit()), host_name(), engine_certificate_});
     return {true, {}, {}};
 }
 

@@ -46,6 +46,7 @@ class PackingRun {
     deck::Deck deck_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string started_;
+    std::string engine_certificate_;
     int cycles_ = 0;
     bool told_to_end_ = false;
     bool interrupted_ = false;

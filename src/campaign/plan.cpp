@@ -55,6 +55,8 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    if (!engine.certificate.empty())
+        write_file_atomically(plan.folder / "certificate.json", engine.certificate);
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }
 

@@ -35,7 +35,8 @@ struct Plan {
 Plan make_plan(Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
 
-/// Makes the folder and freezes the campaign there: campaign.toml and the engine's version (engine.json).
+/// Makes the folder and freezes the campaign there: campaign.toml, the engine's version (engine.json)
+/// and its certificate (certificate.json).
 /// @throws MissingError when the disk refuses
 void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);
 

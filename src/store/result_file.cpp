@@ -139,6 +139,8 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     }
     record.scenario_toml =
         image.values<std::string>(std::string(scenario_entry().name), Rank::scalar).front();
+    record.provenance.engine_certificate =
+        image.values<std::string>(std::string(certificate_entry().name), Rank::scalar).front();
     record.estimate = read_case_values(image);
     record.packings.resize(image.length("packings/seed"));
     for (PackingValue const& value : packing_values()) read_column(image, value, record.packings);
@@ -167,6 +169,9 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         Entry const scenario = scenario_entry();
         put(std::string(scenario.name), scenario, std::vector<std::string>{record.scenario_toml},
             Rank::scalar);
+        Entry const certificate = certificate_entry();
+        put(std::string(certificate.name), certificate,
+            std::vector<std::string>{record.provenance.engine_certificate}, Rank::scalar);
         for (CaseValue const& value : case_values()) {
             put(fmt::format("case/{}", value.entry.name), value.entry, column(value, {record}), Rank::scalar);
         }

@@ -206,6 +206,11 @@ Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
 }
 
+Entry certificate_entry() {
+    return {"engine_certificate", "1",
+            "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};
+}
+
 std::string verdict_name(measure::Verdict verdict) {
     switch (verdict) {
         case measure::Verdict::precise:

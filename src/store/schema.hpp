@@ -57,6 +57,9 @@ std::vector<PackingSeries> const& packing_series();
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();
 
+/// The certificate of the engine binary as JSON, dataset `engine_certificate` of result.h5.
+Entry certificate_entry();
+
 /// "precise", "not-precise" or "not-steady".
 std::string verdict_name(measure::Verdict verdict);
 
