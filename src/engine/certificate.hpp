@@ -46,7 +46,7 @@ struct Certificate {
     EngineIdentity engine;
     std::string program_version, git_commit, host;  ///< that probed
     std::string probed;                             ///< ISO 8601, UTC
-    double grain_steps_per_cpu_second = 0;          ///< of a packed layer; 0 when unknown
+    double grain_steps_per_cpu_second = 0;          ///< of a packed layer; 0 when a probe failed
     int speed_grains = 0;                           ///< number of grains in that layer
     std::vector<ProbeResult> probes;
 

@@ -124,11 +124,19 @@ class EndToEndTest(unittest.TestCase):
             os.kill(number, signal.SIGKILL)
 
     def make_counting_engine(self):
-        """The real engine behind a script that notes the folder of each simulation it starts."""
+        """The real engine behind a script that notes the folder of each simulation it starts, and runs the commands
+        in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: one certificate."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
+        os.environ["VIBROTROUGH_TEST_STARTS"] = str(self.starts_file)
+        os.environ["VIBROTROUGH_TEST_BREAK"] = ""
         script = self.folder / "counting-liggghts"
-        script.write_text(f'#!/bin/sh\ncase "$1" in -in) pwd >> "{self.starts_file}";; esac\nexec "{real}" "$@"\n')
+        script.write_text(
+            "#!/bin/sh\n"
+            'case "$1 $PWD" in -in*/vibrotrough-probe-*) ;;\n'
+            '-in*) pwd >> "$VIBROTROUGH_TEST_STARTS"; eval "$VIBROTROUGH_TEST_BREAK";; esac\n'
+            f'exec "{real}" "$@"\n'
+        )
         script.chmod(script.stat().st_mode | stat.S_IXUSR)
         return script
 
