@@ -39,7 +39,9 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       folder_(planned.packing_folder(packing)),
       deck_(deck::make_deck(planned.scenario, packing)),
       started_(utc_now()),
-      engine_certificate_(engine.certificate) {
+      engine_certificate_(std::filesystem::is_regular_file(planned.certificate_file())
+                              ? read_file(planned.certificate_file())
+                              : std::string()) {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
     deck::write_deck(deck_, folder_);

@@ -55,8 +55,12 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
-    if (!engine.certificate.empty())
-        write_file_atomically(plan.folder / "certificate.json", engine.certificate);
+    fs::path const certificate = plan.folder / "certificate.json";
+    if (engine.certificate.empty()) {
+        fs::remove(certificate);  // another engine's
+    } else {
+        write_file_atomically(certificate, engine.certificate);
+    }
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }
 

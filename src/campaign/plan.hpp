@@ -17,6 +17,10 @@ struct PlannedCase {
 
     std::filesystem::path result_file() const { return folder / "result.h5"; }
     std::filesystem::path failure_file() const { return folder / "failure.json"; }
+    /// The certificate of the engine that the campaign was planned with.
+    std::filesystem::path certificate_file() const {
+        return folder.parent_path().parent_path() / "certificate.json";
+    }
     std::filesystem::path packing_folder(int packing) const {
         return folder / ("packing-" + std::to_string(packing));
     }

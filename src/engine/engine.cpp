@@ -86,7 +86,7 @@ ExitStatus decode(int native) {
 
 Engine find_engine(std::optional<fs::path> const& asked) {
     fs::path const program = search_program(asked);
-    return {program, ask_version(program), {}};
+    return {program, ask_version(program)};
 }
 
 struct EngineProcess::State {

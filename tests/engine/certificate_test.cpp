@@ -93,7 +93,7 @@ TEST(EngineIdentity, NamesTheLinkedLibrary) {
     EXPECT_EQ(identity.program_sha256.size(), 64u);
     EXPECT_NE(identity.library.find("libliggghts"), std::string::npos);
     EXPECT_EQ(identity.library_sha256.size(), 64u);
-    EXPECT_TRUE(identify({"/bin/sh", "any", {}}).library.empty());
+    EXPECT_TRUE(identify({"/bin/sh", "any"}).library.empty());
 }
 
 class CertificateCache : public testing::Test {
