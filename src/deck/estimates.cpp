@@ -1,36 +1,28 @@
 #include "deck/estimates.hpp"
 
-#include "deck/deck.hpp"
+#include "deck/deck_data.hpp"
 #include "theory/inputs.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace vibrotrough::deck {
 namespace {
-
-constexpr double solid_fraction = 0.58;  // as layer.height is turned into a number of grains
 
 double effective_modulus(Scenario const& s) {
     return s.grains.youngs_modulus / (2 * (1 - s.grains.poisson_ratio * s.grains.poisson_ratio));
 }
 
 double mean_mass(Scenario const& s) {
-    return s.grains.density * std::numbers::pi / 6 * std::pow(s.grains.diameter, 3);
+    return s.grains.density * mean_grain_volume(s.grains);
 }
 
 }  // namespace
 
-double layer_height(Scenario const& s) {
-    if (s.layer.height) return *s.layer.height;
-    return s.layer.grains * mean_mass(s) / s.grains.density /
-           (solid_fraction * s.layer.length * s.layer.width);
-}
-
 double bottom_load(Scenario const& s) {
-    return make_deck(s, 1).weight * s.grains.diameter * s.grains.diameter / (s.layer.length * s.layer.width);
+    double const weight = s.layer.grains * mean_mass(s) * gravity * std::cos(s.trough.inclination);
+    return weight * s.grains.diameter * s.grains.diameter / (s.layer.length * s.layer.width);
 }
 
 double overlap_under(Scenario const& s, double force) {
@@ -43,6 +35,7 @@ double overlap_at_impact(Scenario const& s, double speed) {
 }
 
 double impact_duration(Scenario const& s, double speed) {
+    if (s.layer.block != Block::none) return 1 / (s.trough.frequency * s.solver.block_stiffness);
     double const modulus = effective_modulus(s), mass = mean_mass(s);
     return 2.87 * std::pow(mass * mass / (s.grains.diameter / 2 * modulus * modulus * speed), 0.2);
 }
@@ -68,12 +61,11 @@ double expected_cycles(Scenario const& s) {
 }
 
 double expected_work(Scenario const& s) {
-    TimeGrid const time = choose_time_step(s);
-    // Poured at a solid fraction of 0.2, as the deck does.
-    double const fall = layer_height(s) * solid_fraction / 0.2 + s.grains.diameter;
-    double const settling = 5 * std::sqrt(2 * fall / gravity) / time.time_step;
-    return s.measure.packings * static_cast<double>(s.layer.grains) *
-           (settling + expected_cycles(s) * time.steps_per_cycle);
+    DeckNumbers const numbers = make_numbers(s);
+    double const spheres = numbers.clump ? static_cast<double>(numbers.clump->spheres.size()) : 1;
+    double const settling = 5 * std::sqrt(2 * numbers.fill_top / gravity) / numbers.settle_time_step;
+    return s.measure.packings * spheres * s.layer.grains *
+           (settling + expected_cycles(s) * numbers.time.steps_per_cycle);
 }
 
 double expected_bytes(Scenario const& s) {

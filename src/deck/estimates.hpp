@@ -5,9 +5,6 @@
 /// Rough numbers of a case before anything is simulated, by formulas of one line. SI units.
 namespace vibrotrough::deck {
 
-/// Height of the layer at rest, m: as asked for, or the grains' volume at a solid fraction of 0.58.
-double layer_height(Scenario const& scenario);
-
 /// Weight that one grain of the bottom layer carries, N: the layer's weight over its number, one per d^2 of
 /// floor. Forces in a packing scatter about this mean; three times as much is not rare.
 double bottom_load(Scenario const& scenario);
@@ -20,7 +17,8 @@ double overlap_under(Scenario const& scenario, double force);
 /// contact's, m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2) (Johnson, section 11.4). Damping makes it smaller.
 double overlap_at_impact(Scenario const& scenario, double speed);
 
-/// Duration of that impact, s: 2.87 (m^2 / (R E*^2 v))^(1/5) (Johnson, section 11.4).
+/// Duration of that impact, s: 2.87 (m^2 / (R E*^2 v))^(1/5) (Johnson, section 11.4); of a block, what
+/// solver.block_stiffness says.
 double impact_duration(Scenario const& scenario, double speed);
 
 /// The point mass's longest flight (Sloot & Kruyt, Eq. 15), s; 0 when it stays on the trough.
@@ -34,7 +32,8 @@ double steps_between_rebuilds(Scenario const& scenario, double speed);
 /// 0.068, median 0.027; their start-up 5 to 27 cycles, median 11), at least 20 and at most max_cycles.
 double expected_cycles(Scenario const& scenario);
 
-/// Grain-steps of the whole case: all packings, settling included (five times the time of the fall).
+/// Grain-steps of the whole case: all packings, settling included (five times the time of the fall; less when
+/// another case has settled the same packing); a clump counts as its spheres.
 double expected_work(Scenario const& scenario);
 
 /// Bytes that the case will write: 120 per grain and frame of the first packing, 160 per cycle.

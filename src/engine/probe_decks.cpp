@@ -1,6 +1,7 @@
 #include "engine/probe_decks.hpp"
 
 #include "core/hash.hpp"
+#include "deck/drive_formula.hpp"
 #include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
 #include "scenario/scenario.hpp"
@@ -110,18 +111,36 @@ ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, 
              {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
 }
 
-ProbeDeck motion_deck(std::string const& name, TroughMotion const& motion,
+/// The values and lists that the campaigns' own templates `trough` and `drive` want.
+void add_campaign_values(Values& values, std::map<std::string, std::vector<Values>>& lists,
+                         MovingTrough const& motion) {
+    Trough trough{};
+    trough.amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
+    trough.vibration_angle = std::atan2(motion.amplitude_z, motion.amplitude_x);
+    trough.frequency = 1 / motion.period;
+    DriveMotion const drive = drive_motion(trough);
+    for (auto const& [axis, terms] : {std::pair{"x", &drive.along}, std::pair{"z", &drive.normal}}) {
+        deck::DriveFormula const formula = deck::drive_formula(*terms, axis);
+        for (deck::Formula const& term : formula.terms)
+            lists["drive_terms"].push_back({{"name", term.name}, {"expression", term.expression}});
+        values[fmt::format("speed_{}", axis)] = formula.speed;
+    }
+    values["steps_per_cycle"] = std::to_string(motion.steps);
+    values["wall_model"] = "hertz tangential history";
+    values["contact_options"] = "limitForce on tangential_damping off";
+}
+
+ProbeDeck motion_deck(std::string const& name, MovingTrough const& motion,
                       std::vector<Values> const& grains) {
     constexpr double length = 0.036, width = 0.018;
     Values values = world(name, motion.period / motion.steps, {0.5}, {grain_friction});
+    std::map<std::string, std::vector<Values>> lists{{"grains", grains}};
+    add_campaign_values(values, lists, motion);
     values["length"] = text(length);
     values["width"] = text(width);
     values["steps"] = std::to_string(motion.steps);
-    values["period"] = text(motion.period);
-    values["amplitude_x"] = text(motion.amplitude_x);
-    values["amplitude_z"] = text(motion.amplitude_z);
     return {name,
-            {{"in.liggghts", deck::render_template("probes/trough", values, {{"grains", grains}})},
+            {{"in.liggghts", deck::render_template("probes/trough", values, lists)},
              {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
 }
 
@@ -148,11 +167,11 @@ double resting_overlap(double inclination) {
     return hertz_overlap(material, sphere_mass(material) * gravity * std::cos(inclination));
 }
 
-TroughMotion contact_motion() {
+MovingTrough sliding_trough() {
     return {.amplitude_x = 0.0052, .amplitude_z = 0, .grains = 28};
 }
 
-TroughMotion drive_motion() {
+MovingTrough flying_trough() {
     return {.amplitude_x = 0.0052, .amplitude_z = 0.003, .grains = 1};
 }
 
@@ -198,18 +217,26 @@ ProbeDeck contact_deck() {
                               {"z", text(diameter / 2 - resting_overlap(0))}});
         }
     }
-    return motion_deck("contact", contact_motion(), grains);
+    return motion_deck("contact", sliding_trough(), grains);
 }
 
 ProbeDeck drive_deck() {
     // One grain, out of the trough's way: without any, the engine does not run.
-    return motion_deck("drive", drive_motion(),
+    return motion_deck("drive", flying_trough(),
                        {{{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}}});
 }
 
 ProbeDeck speed_deck(int steps) {
     constexpr double length = 12 * diameter, width = 6 * diameter;
-    Values values = world("speed", 0.2 * rayleigh_time(probe_material(0.5, 0.5)), {0.5}, {0.23});
+    double const time_step = 0.2 * rayleigh_time(probe_material(0.5, 0.5));
+    Values values = world("speed", time_step, {0.5}, {0.23});
+    std::map<std::string, std::vector<Values>> lists;
+    add_campaign_values(values, lists,
+                        {.amplitude_x = 0.0052,
+                         .amplitude_z = 0.003,
+                         .period = 3000 * time_step,
+                         .steps = 3000,
+                         .grains = 0});
     values["length"] = text(length);
     values["width"] = text(width);
     values["top"] = "0.2";
@@ -218,12 +245,9 @@ ProbeDeck speed_deck(int steps) {
     values["jitter"] = text(0.1 * diameter);  // so that columns of grains do not stand
     values["lift"] = text(0.51 * diameter);
     values["fall_speed"] = "-0.1";
-    values["amplitude_x"] = "0.0052";
-    values["amplitude_z"] = "0.003";
-    values["period"] = "0.08";
     values["steps"] = std::to_string(steps);
     return {fmt::format("speed-{}", steps),
-            {{"in.liggghts", deck::render_template("probes/speed", values)},
+            {{"in.liggghts", deck::render_template("probes/speed", values, lists)},
              {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
 }
 

@@ -44,16 +44,17 @@ struct Incline {
     int sample_steps = 200;
 };
 
-struct TroughMotion {
+/// A trough that moves along the direction of vibration from step 0 on, and grains that are held where they
+/// are.
+struct MovingTrough {
     double amplitude_x, amplitude_z;  ///< m
     double period = 0.05;             ///< s
     int steps = 500;                  ///< per period: the fewest that a deck uses
     int grains;
 };
 
-/// Held grains under a trough that moves along them, and a trough that moves as in a campaign.
-TroughMotion contact_motion();
-TroughMotion drive_motion();
+MovingTrough sliding_trough();  ///< along itself, under grains that touch it
+MovingTrough flying_trough();   ///< as in a campaign, out of the grain's way
 
 /// Overlap at which one contact carries a grain's weight at this inclination, m.
 double resting_overlap(double inclination);

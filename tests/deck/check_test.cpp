@@ -103,6 +103,17 @@ TEST(Check, TheExampleIsFine) {
     }
 }
 
+// A block is one body with a contact of its own: nothing of layers, and its contact is T / 300.
+TEST(Check, ABlockIsNoLayer) {
+    Scenario const s = scenario(with("height = \"12 mm\"", "block = \"point\""));
+    EXPECT_NEAR(finding(s, "contact time at the trough's speed / cycle").measured, 1.0 / 300, 1e-12);
+    EXPECT_EQ(finding(s, "contact time at the trough's speed / cycle").key, "solver.block_stiffness");
+    for (Finding const& one : check(s)) {
+        EXPECT_EQ(one.severity, Severity::fine) << one.item << ": " << one.measured;
+        EXPECT_EQ(one.item.find("layer"), std::string::npos) << one.item;
+    }
+}
+
 TEST(Check, EveryItemHasItsOwnNameAndAKeyThatExists) {
     std::set<std::string> names;
     for (Finding const& one : check(scenario())) {
@@ -113,7 +124,7 @@ TEST(Check, EveryItemHasItsOwnNameAndAKeyThatExists) {
 
 // Each bad value is found where it is, and softening or shrinking by more makes an error of the warning.
 TEST(Check, FindsWhatIsWrong) {
-    char const* const impact = "overlap of a grain at impact at 2 omega r / diameter";
+    char const* const impact = "overlap of a grain at impact at twice the trough's speed / diameter";
     auto const modulus = [](char const* value) {
         return scenario(with("youngs_modulus = \"5 MPa\"", fmt::format("youngs_modulus = \"{}\"", value)));
     };
@@ -137,11 +148,11 @@ TEST(Check, FindsWhatIsWrong) {
 TEST(Check, AContactMustBeShortAgainstTheFlight) {
     // Gamma just above 1: hops of a few contact times.
     auto const hop = finding(scenario(with("throw_number = 2.0", "throw_number = 1.0001")),
-                             "contact time at omega r / flight time");
+                             "contact time at the trough's speed / flight time");
     EXPECT_NE(hop.severity, Severity::fine) << hop.measured;
     // Below there is no flight to compare with.
     EXPECT_THROW(finding(scenario(with("throw_number = 2.0", "throw_number = 0.9")),
-                         "contact time at omega r / flight time"),
+                         "contact time at the trough's speed / flight time"),
                  std::out_of_range);
 }
 

@@ -52,7 +52,7 @@ class Check(EndToEndTest):
         print(f"resting overlap / d: mean {mean:.3g}, largest {max(resting):.3g}, expected {expected:.3g}")
         self.assertLess(max(mean / expected, expected / mean), 1.5)
         self.assertLess(max(resting) / expected, 3)
-        expected = findings["overlap of a grain at impact at 2 omega r / diameter"]["measured"]
+        expected = findings["overlap of a grain at impact at twice the trough's speed / diameter"]["measured"]
         largest = max(max(frame) for frame in overlaps.values()) / diameter
         print(f"overlap at impact / d: largest {largest:.3g}, expected {expected:.3g}")
         self.assertLess(max(largest / expected, expected / largest), 3)
@@ -90,7 +90,7 @@ class Check(EndToEndTest):
         self.take_starts()
         checked = self.call("check", wrong)
         self.assertEqual(checked.returncode, 2)
-        self.assertRegex(checked.stdout, r"(?m)^error: grains.youngs_modulus: overlap of a grain at impact .* raise grains.youngs_modulus")
+        self.assertRegex(checked.stdout, r"(?m)^error: grains.youngs_modulus: overlap of a grain at impact .*; raise it")
         refused = self.call("run", wrong, "--output", self.folder / "wrong", "--liggghts", self.engine)
         self.assertEqual(refused.returncode, 2, refused.stderr)
         self.assertIn("--accept-findings", refused.stderr.splitlines()[-1])

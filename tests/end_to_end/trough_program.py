@@ -39,7 +39,6 @@ SMALL = {
         "poisson_ratio": 0.35,
         "friction": 0.5,
         "restitution": 0.5,
-        "rolling_friction": 0.0,
     },
     "layer": {"length": "15 mm", "width": "15 mm", "grains": 60},
     "measure": {"packings": 2, "half_width": 0.2, "max_cycles": 300},
@@ -117,6 +116,7 @@ class EndToEndTest(unittest.TestCase):
         self.addCleanup(self.kill_leftovers)
         self.output = self.folder / "runs"
         self.starts_file = self.folder / "starts"
+        self.settles_file = self.folder / "settles"
         self.engine = self.make_counting_engine()
 
     def kill_leftovers(self):
@@ -124,17 +124,21 @@ class EndToEndTest(unittest.TestCase):
             os.kill(number, signal.SIGKILL)
 
     def make_counting_engine(self):
-        """The real engine behind a script that notes the folder of each simulation it starts, and runs the commands
-        in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: one certificate."""
+        """The real engine behind a script that notes the folder of each simulation and of each settling it starts, and
+        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: they
+        share one certificate."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
         os.environ["VIBROTROUGH_TEST_STARTS"] = str(self.starts_file)
         os.environ["VIBROTROUGH_TEST_BREAK"] = ""
         script = self.folder / "counting-liggghts"
+        os.environ["VIBROTROUGH_TEST_SETTLES"] = str(self.settles_file)
         script.write_text(
             "#!/bin/sh\n"
             'case "$1 $PWD" in -in*/vibrotrough-probe-*) ;;\n'
-            '-in*) pwd >> "$VIBROTROUGH_TEST_STARTS"; eval "$VIBROTROUGH_TEST_BREAK";; esac\n'
+            '-in*) case "$2" in in.liggghts) pwd >> "$VIBROTROUGH_TEST_STARTS";;\n'
+            'settle.liggghts) pwd >> "$VIBROTROUGH_TEST_SETTLES";; esac\n'
+            'eval "$VIBROTROUGH_TEST_BREAK";; esac\n'
             f'exec "{real}" "$@"\n'
         )
         script.chmod(script.stat().st_mode | stat.S_IXUSR)
