@@ -1,6 +1,7 @@
 #include "campaign/friction_test.hpp"
 
 #include "app/commands.hpp"
+#include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/local_executor.hpp"
@@ -29,6 +30,7 @@ struct Options {
     std::string output;
     std::string engine;
     std::optional<double> machine_number;
+    bool accept_failed_probes = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -60,13 +62,14 @@ int run(Options const& options) {
     Campaign const campaign = read_campaign(options.campaign_file);
     std::optional<fs::path> const asked =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine const engine = engine::find_engine(asked);
+    engine::Engine engine = engine::find_engine(asked);
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     fs::path const test_folder = folder / "friction-test";
     double const k = options.machine_number.value_or(campaign::default_machine_number(campaign));
 
     make_folder(test_folder);
+    if (!certify(engine, options.accept_failed_probes)) return interrupted;
     fs::path const test_file = test_folder / "shake-test.toml";
     for (Scenario const& one : campaign.cases) campaign::write_named_files(one, test_folder);
     write_file_atomically(test_file, shake_test_campaign(options.campaign_file, k));
@@ -121,6 +124,8 @@ void add_friction_test(CLI::App& program, int& exit_code) {
         ->capture_default_str();
     command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
         ->type_name("PATH");
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes,
+                      "Run although the engine failed its probes (see probe-engine)");
     command->footer(
         "Cases that share grains, layer and trough surface share a test. Ctrl-C stops cleanly, and the same "
         "command "

@@ -68,6 +68,9 @@ std::vector<PackingTable> const& packing_tables();
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();
 
+/// The certificate of the engine binary as JSON, dataset `engine_certificate` of result.h5.
+Entry certificate_entry();
+
 /// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
 Entry scenario_files_entry();
 
