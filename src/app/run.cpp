@@ -3,6 +3,7 @@
 #include "app/progress_printer.hpp"
 #include "campaign/local_executor.hpp"
 #include "campaign/overview.hpp"
+#include "campaign/slurm_executor.hpp"
 #include "core/shell.hpp"
 
 #include <filesystem>
@@ -30,6 +31,24 @@ int exit_code_of(campaign::Summary const& summary) {
     return summary.failed + summary.unsure > 0 ? some_cases_failed : all_well;
 }
 
+/// Leaves the packings to Slurm and says what it found and did.
+int submit(campaign::Plan const& plan, Campaign const& campaign, Options const& options,
+           engine::Engine const& engine) {
+    fs::path const program = fs::read_symlink("/proc/self/exe");
+    campaign::Submission const done =
+        campaign::submit_to_slurm(plan, options.campaign_file, engine, campaign.run, program);
+    campaign::write_campaign_file(plan);
+    fmt::print("{} of {} cases finished", done.finished, plan.cases.size());
+    if (done.unsure > 0) fmt::print(", {} not steady or not precise", done.unsure);
+    if (done.in_queue > 0) fmt::print("; {} packings are in Slurm's queue already", done.in_queue);
+    if (done.submitted > 0) {
+        fmt::print("; {} packings submitted as job {}", done.submitted, fmt::join(done.jobs, ", "));
+        if (done.again > 0) fmt::print(" ({} of them once more)", done.again);
+    }
+    fmt::print("\nfollow with: vibrotrough status {}\n", shell_word(plan.folder));
+    return done.unsure > 0 && done.submitted + done.in_queue == 0 ? some_cases_failed : all_well;
+}
+
 int run(Options const& options) {
     Campaign const campaign = read_campaign(options.campaign_file);
     std::optional<fs::path> const asked =
@@ -39,6 +58,7 @@ int run(Options const& options) {
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine.version);
 
+    if (campaign.run.executor == ExecutorKind::slurm) return submit(plan, campaign, options, engine);
     campaign::Summary summary;
     {
         ProgressPrinter printer;
@@ -77,6 +97,9 @@ void add_run(CLI::App& program, int& exit_code) {
         "Exit codes: 0 all cases finished; 1 some failed, or were not steady or not precise; 2 the input is "
         "wrong;\n"
         "3 something is missing (no liggghts, no disk); 130 interrupted.\n"
+        "With executor = \"slurm\" under [run] the packings are submitted as job arrays and the command "
+        "returns;\n"
+        "the same command sees which tasks died and submits them again.\n"
         "Example: vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -1,8 +1,18 @@
 #include "campaign/overview.hpp"
 
+#include "campaign/batch.hpp"
+#include "campaign/case_end.hpp"
 #include "campaign/case_state.hpp"
 #include "campaign/folder_lock.hpp"
+#include "core/error.hpp"
 #include "store/result_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::campaign {
 
@@ -20,8 +30,58 @@ bool is_running(PlannedCase const& planned, bool driven) {
     return false;
 }
 
-CaseOverview look_at(PlannedCase const& planned, bool driven) {
-    CaseOverview overview{&planned, "open", {}, 0, read_whole_result(planned)};
+/// Where the tasks of a campaign stand in Slurm, by case.
+using CaseTasks = std::map<std::string, std::vector<TaskStatus>>;
+
+CaseTasks look_at_slurm(Plan const& plan) {
+    CaseTasks tasks;
+    std::vector<Batch> batches = read_batches(plan.folder);
+    for (TaskStatus& status : look_at_tasks(batches)) tasks[status.task.case_id].push_back(std::move(status));
+    return tasks;
+}
+
+/// What Slurm adds to a case that has no result: it runs or waits, or its task died. A failure.json of the
+/// task itself says more than Slurm does.
+void add_slurm(CaseOverview& overview, std::vector<TaskStatus> const& tasks) {
+    auto const find = [&](TaskState state) {
+        return std::ranges::find_if(tasks, [&](TaskStatus const& status) {
+            return status.state == state && !read_finished_packing(*overview.planned, status.task.packing);
+        });
+    };
+    constexpr std::array<std::pair<TaskState, char const*>, 3> alive{
+        {{TaskState::running, "running"}, {TaskState::waiting, "queued"}, {TaskState::unknown, "unknown"}}};
+    for (auto const& [state, name] : alive) {
+        auto const found = find(state);
+        if (found == tasks.end()) continue;
+        overview.outcome = name;
+        overview.message = state == TaskState::running ? "" : found->message;
+        return;
+    }
+    auto const died = find(TaskState::ended);
+    if (died == tasks.end() || std::filesystem::is_regular_file(overview.planned->failure_file())) return;
+    overview.outcome = died->outcome;
+    overview.message = fmt::format("packing {}: {}", died->task.packing, died->message);
+}
+
+/// The last task of a case may have died between its packing's marker and the result.
+std::optional<store::CaseRecord> result_of(PlannedCase const& planned, std::string const& engine_version) {
+    auto record = read_whole_result(planned);
+    if (record || !std::filesystem::is_directory(planned.folder)) return record;
+    try {
+        if (finish_case(planned, engine_version)) record = read_whole_result(planned);
+    } catch (Error const&) {
+        // A damaged packing, or a folder that only may be looked at: `run` mends it.
+    }
+    return record;
+}
+
+CaseOverview look_at(Plan const& plan, PlannedCase const& planned, bool driven) {
+    // A driver at work puts its results together itself.
+    CaseOverview overview{&planned,
+                          "open",
+                          {},
+                          0,
+                          driven ? read_whole_result(planned) : result_of(planned, plan.engine_version)};
     if (overview.record) {
         overview.outcome = overview.record->outcome;
         overview.packings_done = planned.scenario.measure.packings;
@@ -51,8 +111,13 @@ CaseOverview look_at(PlannedCase const& planned, bool driven) {
 
 std::vector<CaseOverview> look_at(Plan const& plan) {
     bool const driven = FolderLock::is_held(plan.folder);
+    CaseTasks const tasks = look_at_slurm(plan);
     std::vector<CaseOverview> cases;
-    for (PlannedCase const& planned : plan.cases) cases.push_back(look_at(planned, driven));
+    for (PlannedCase const& planned : plan.cases) {
+        cases.push_back(look_at(plan, planned, driven));
+        auto const found = tasks.find(planned.id);
+        if (found != tasks.end() && !cases.back().record) add_slurm(cases.back(), found->second);
+    }
     return cases;
 }
 

@@ -12,7 +12,8 @@ namespace vibrotrough::campaign {
 /// What is known about one case of a plan.
 struct CaseOverview {
     PlannedCase const* planned;
-    std::string outcome;  ///< of the result or the failure; else "running", "interrupted" or "open"
+    std::string outcome;  ///< of the result or the failure; else "running", "queued" (in Slurm), "unknown"
+                          ///< (Slurm does not answer), "interrupted" or "open"
     std::string message;  ///< why it failed
     int packings_done;
     std::optional<store::CaseRecord> record;

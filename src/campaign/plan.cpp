@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 #include "deck/deck.hpp"
 
 #include <set>
@@ -67,14 +68,37 @@ Plan open_plan(fs::path const& folder) {
                         "that 'vibrotrough run' made",
                         folder.string()));
     }
+    return make_plan(read_campaign(folder / "campaign.toml"), folder, read_engine(folder).version);
+}
+
+engine::Engine read_engine(fs::path const& folder) {
     try {
         auto const json = nlohmann::json::parse(read_file(folder / "engine.json"));
-        return make_plan(read_campaign(folder / "campaign.toml"), folder,
-                         json.at("version").get<std::string>());
+        return {json.at("program").get<std::string>(), json.at("version").get<std::string>()};
     } catch (nlohmann::json::exception const&) {
         throw InputError(fmt::format("{} is damaged; run the campaign again to mend it",
                                      (folder / "engine.json").string()));
     }
+}
+
+void freeze_case(PlannedCase const& planned) {
+    make_folder(planned.folder);
+    write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+}
+
+PlannedCase open_case(fs::path const& folder, std::string const& id, std::string const& engine_version) {
+    bool const is_id = id.size() == 12 && id.find_first_not_of("0123456789abcdef") == std::string::npos;
+    fs::path const file = folder / "cases" / id / "scenario.toml";
+    if (!is_id || !fs::is_regular_file(file))
+        throw InputError(
+            fmt::format("there is no case '{}' in {}; give the folder that 'vibrotrough run' made",
+                        printable(id, 60), folder.string()));
+    Plan const plan = make_plan(read_campaign(file), folder, engine_version);
+    if (plan.cases.size() == 1 && plan.cases.front().id == id) return plan.cases.front();
+    throw InputError(
+        fmt::format("{} is not the case that its folder's name says (another version of "
+                    "vibrotrough?); run the campaign again",
+                    file.string()));
 }
 
 }  // namespace vibrotrough::campaign

@@ -43,4 +43,18 @@ void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine
 /// @throws InputError when it is no campaign folder or is damaged
 Plan open_plan(std::filesystem::path const& folder);
 
+/// The engine that the campaign in `folder` was planned with (engine.json).
+/// @throws InputError when the file is damaged
+engine::Engine read_engine(std::filesystem::path const& folder);
+
+/// Freezes one case: its folder and scenario.toml in it.
+/// @throws MissingError when the disk refuses
+void freeze_case(PlannedCase const& planned);
+
+/// One case of a campaign folder from its own frozen scenario.toml: what a task on a cluster reads instead of
+/// planning the whole campaign.
+/// @throws InputError when the case is not there, or is not what its id says
+PlannedCase open_case(std::filesystem::path const& folder, std::string const& id,
+                      std::string const& engine_version);
+
 }  // namespace vibrotrough::campaign

@@ -15,6 +15,7 @@ struct Engine {
     std::filesystem::path program;
     std::string version;  ///< as it names itself, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32
                           ///< by buildd"
+    int ranks = 1;        ///< MPI processes of every run
 };
 
 /// Finds the engine: `asked` when given, else `liggghts` on the PATH, and asks it for its version.
@@ -34,7 +35,7 @@ constexpr char const* output_file = "engine.out";
 /// share the terminal's Ctrl-C. Destroying the object kills the engine.
 class EngineProcess {
   public:
-    /// Starts `liggghts -in in.liggghts` in `folder`. `on_exit` is called once, from `context`, by the thread
+    /// Starts `liggghts -in in.liggghts` in `folder`, under mpirun when it has several ranks. `on_exit` is called once, from `context`, by the thread
     /// that runs it; that thread must be the one that constructs this object and must outlive the engine.
     /// @throws MissingError when the process cannot be started
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,

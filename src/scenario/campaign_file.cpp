@@ -42,7 +42,7 @@ CaseValues pick(CampaignText const& text, std::size_t index) {
 
 Campaign parse_campaign(std::string_view text, std::string const& name) {
     CampaignText const parsed = read_campaign_text(text, name);
-    Campaign campaign{parsed.name, {}};
+    Campaign campaign{parsed.name, {}, parsed.run};
     std::size_t const count = count_cases(parsed, name);
     for (std::size_t index = 0; index < count; ++index) {
         campaign.cases.push_back(make_scenario(parsed.name, pick(parsed, index), name));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/run_settings.hpp"
 #include "scenario/scenario.hpp"
 
 #include <filesystem>
@@ -13,6 +14,7 @@ namespace vibrotrough {
 struct Campaign {
     std::string name;
     std::vector<Scenario> cases;  ///< the Cartesian product of the sweep; at least one
+    RunSettings run;              ///< how to run them
 };
 
 /// Reads and checks a campaign file.

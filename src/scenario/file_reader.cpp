@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "core/text.hpp"
+#include "scenario/run_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,13 +72,20 @@ class Reader {
 
     void read_section(toml::key const& name, toml::node const& node) {
         Position const where = position(name.source());
+        if (name.str() == "run" && node.is_table()) {
+            result_.run =
+                read_run_section(*node.as_table(), file_, [this](Key const& key, toml::node const& value) {
+                    return read_number(key, value);
+                });
+            return;
+        }
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
             fail(where, printable(name.str(), 60), "stands above the first [section]",
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, printable(name.str(), 60), "unknown section",
-                 "the sections are campaign, trough, grains, layer, measure, output and sweep");
+                 "the sections are campaign, trough, grains, layer, measure, output, sweep and run");
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenario/case_values.hpp"
+#include "scenario/run_settings.hpp"
 
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ struct CampaignText {
     std::string name;
     CaseValues base;
     std::vector<Axis> sweep;
+    RunSettings run;
 };
 
 /// Parses the text and checks every key and value for itself, and that each group of exclusive keys has one.

@@ -234,9 +234,13 @@ Key const* find_key(std::string_view path) {
 
 std::string key_reference() {
     std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
-    for (Key const& key : keys) {
+    std::vector<Key> all(keys.begin(), keys.end());
+    all.insert(all.end(), run_keys().begin(), run_keys().end());
+    for (Key const& key : all) {
         std::string needed = key.fallback ? fmt::format("{:g}", *key.fallback) : "required";
         if (!key.group.empty()) needed = "exactly one of these";
+        if (key.path.starts_with("run.") && key.path != "run.retries") needed = "";
+        if (key.path == "run.executor") needed = "local";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
                             key.meaning);
     }
