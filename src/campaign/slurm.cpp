@@ -110,9 +110,14 @@ void sacct(long job, Reports& reports) {
     if (answer.code == 0) read_lines(answer.output, reports);
 }
 
-}  // namespace
+[[noreturn]] void refuse(Answer const& answer) {
+    throw MissingError(
+        fmt::format("Slurm does not take the job ({}); see [run.slurm] in the campaign file, "
+                    "and sinfo for what there is",
+                    first_line(answer.errors.empty() ? answer.output : answer.errors)));
+}
 
-long submit(Array const& array) {
+std::vector<std::string> submission(Array const& array) {
     SlurmSettings const& asked = array.settings;
     std::string indices = fmt::format("0-{}", array.tasks - 1);
     if (asked.concurrent_tasks) indices += fmt::format("%{}", *asked.concurrent_tasks);
@@ -131,15 +136,57 @@ long submit(Array const& array) {
     if (asked.minutes) words.push_back(fmt::format("--time={}", *asked.minutes));
     if (asked.memory) words.push_back(fmt::format("--mem={}M", *asked.memory));
     words.push_back((std::filesystem::absolute(array.folder) / array.script).string());
-    Answer const answer = call(words);
-    auto const job = parse<long>(answer.output.substr(0, answer.output.find_first_of(";\n")));
-    if (answer.code == 0 && job) return *job;
-    throw MissingError(
-        fmt::format("Slurm does not take the job ({}); see [run.slurm] in the campaign file, "
-                    "and sinfo for what there is",
-                    first_line(answer.errors.empty() ? answer.output : answer.errors)));
+    return words;
 }
 
+/// Slurm's "[days-][[hours:]minutes:]seconds" in minutes, rounded down; nothing for "infinite" and the like.
+std::optional<long> parse_minutes(std::string const& text) {
+    auto const dash = text.find('-');
+    long const days = dash == std::string::npos ? 0 : parse<long>(text.substr(0, dash)).value_or(0);
+    long seconds = 0;
+    for (std::string const& part : split(dash == std::string::npos ? text : text.substr(dash + 1), ':')) {
+        auto const number = parse<long>(part);
+        if (!number) return {};
+        seconds = 60 * seconds + *number;
+    }
+    return days * 24 * 60 + seconds / 60;
+}
+
+/// Slurm takes a job that is too long for its partition, and lets it wait for ever.
+void check_time(SlurmSettings const& asked) {
+    if (!asked.minutes) return;
+    std::istringstream lines(call({"sinfo", "-h", "-o", "%P|%l"}).output);
+    for (std::string line; std::getline(lines, line);) {
+        auto const parts = split(line, '|');
+        if (parts.size() != 2) continue;
+        bool const is_default = parts[0].ends_with('*');
+        std::string const name = parts[0].substr(0, parts[0].size() - (is_default ? 1 : 0));
+        if (asked.partition ? asked.partition->str() != name : !is_default) continue;
+        auto const limit = parse_minutes(parts[1]);
+        if (!limit || *asked.minutes <= *limit) return;
+        throw MissingError(
+            fmt::format("Slurm's partition {} has a limit of {} minutes, and run.slurm.time asks "
+                        "for {}; ask for less, or for another partition",
+                        name, *limit, *asked.minutes));
+    }
+}
+
+}  // namespace
+
+void check(Array const& array) {
+    check_time(array.settings);
+    std::vector<std::string> words = submission(array);
+    words.insert(words.begin() + 1, "--test-only");
+    Answer const answer = call(words);
+    if (answer.code != 0) refuse(answer);
+}
+
+long submit(Array const& array) {
+    Answer const answer = call(submission(array));
+    auto const job = parse<long>(answer.output.substr(0, answer.output.find_first_of(";\n")));
+    if (answer.code != 0 || !job) refuse(answer);
+    return *job;
+}
 int most_array_tasks() {
     Answer const answer = call({"scontrol", "show", "config"});
     auto const at = answer.output.find("MaxArraySize");

@@ -25,6 +25,10 @@ struct Array {
     SlurmSettings settings;
 };
 
+/// Asks whether Slurm would take the array and could ever start it; it also takes jobs that wait for ever.
+/// @throws MissingError with the reason
+void check(Array const& array);
+
 /// Submits the array.
 /// @return Slurm's job id
 /// @throws MissingError with Slurm's own words when it refuses or is not there

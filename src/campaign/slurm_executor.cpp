@@ -86,12 +86,30 @@ class Submitter {
                 part.push_back(tasks_[i].task);
             Batch batch = write_batch(plan_.folder, part, job);
             std::string const below = "slurm/" + batch.folder.filename().string();
-            remember_job(batch,
-                         slurm::submit({plan_.folder, below + "/job.sh", below + "/task-%a.out", batch.name,
-                                        static_cast<int>(part.size()), job.ranks, settings_.slurm}));
+            slurm::Array const array{plan_.folder,
+                                     below + "/job.sh",
+                                     below + "/task-%a.out",
+                                     batch.name,
+                                     static_cast<int>(part.size()),
+                                     job.ranks,
+                                     settings_.slurm};
+            submit(batch, array);
             result_.submitted += static_cast<int>(part.size());
             result_.jobs.push_back(*batch.job);
         }
+    }
+
+    /// A batch that Slurm refuses leaves nothing behind.
+    static void submit(Batch& batch, slurm::Array const& array) {
+        long id = 0;
+        try {
+            slurm::check(array);
+            id = slurm::submit(array);
+        } catch (MissingError const&) {
+            std::filesystem::remove_all(batch.folder);
+            throw;
+        }
+        remember_job(batch, id);
     }
 
     struct Expected {
