@@ -41,7 +41,7 @@ void refuse_other_campaign(Plan const& plan) {
 }  // namespace
 
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
-    Plan plan{campaign.name, folder, engine_version, {}};
+    Plan plan{campaign.name, folder, engine_version, {}, campaign.files};
     std::set<std::string> ids;
     for (Scenario const& scenario : campaign.cases) {
         std::string const id = case_id(scenario, engine_version);
@@ -56,6 +56,8 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    for (fs::path const& file : plan.files)
+        write_file_atomically(plan.folder / file.filename(), read_file(file));
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }
 

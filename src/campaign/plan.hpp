@@ -28,6 +28,7 @@ struct Plan {
     std::filesystem::path folder;
     std::string engine_version;
     std::vector<PlannedCase> cases;
+    std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
 };
 
 /// Works out the cases' ids and folders below `folder`. The same case always has the same id: it does not
