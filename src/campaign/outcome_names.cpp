@@ -63,15 +63,21 @@ bool retry_makes_sense(std::string_view name) {
     return outcome != nullptr && outcome->retry == sensible;
 }
 
+std::string retry_advice(std::string_view name) {
+    OutcomeName const* const outcome = find_outcome(name);
+    if (outcome == nullptr) return "unknown";
+    if (outcome->advice.empty() && outcome->retry == useless) return "";
+    std::string again = "no";
+    if (outcome->retry == sensible) again = "yes";
+    if (outcome->retry == after_mending) again = "after mending";
+    return outcome->advice.empty() ? again : fmt::format("{}: {}", again, outcome->advice);
+}
+
 std::string outcome_reference() {
     std::string text = "| outcome | meaning | try again |\n|---|---|---|\n";
     for (OutcomeName const& outcome : outcomes) {
-        std::string again = "no";
-        if (outcome.retry == sensible) again = "yes";
-        if (outcome.retry == after_mending) again = "after mending";
-        if (outcome.name == "finished") again = "";
-        if (!outcome.advice.empty()) again += fmt::format("; {}", outcome.advice);
-        text += fmt::format("| `{}` | {} | {} |\n", outcome.name, outcome.meaning, again);
+        text +=
+            fmt::format("| `{}` | {} | {} |\n", outcome.name, outcome.meaning, retry_advice(outcome.name));
     }
     return text;
 }

@@ -30,6 +30,9 @@ OutcomeName const* find_outcome(std::string_view name);
 /// Whether [run] retries applies to this outcome.
 bool retry_makes_sense(std::string_view name);
 
+/// In words: whether to try again, and what helps.
+std::string retry_advice(std::string_view name);
+
 /// The outcomes as a Markdown table, as it stands in README.md.
 std::string outcome_reference();
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -119,6 +120,17 @@ std::vector<CaseOverview> look_at(Plan const& plan) {
         if (found != tasks.end() && !cases.back().record) add_slurm(cases.back(), found->second);
     }
     return cases;
+}
+
+std::size_t count_left_aside(Plan const& plan) {
+    std::set<std::string> ids;
+    for (PlannedCase const& planned : plan.cases) ids.insert(planned.id);
+    std::size_t count = 0;
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(plan.folder / "cases", ignored)) {
+        if (!ids.contains(entry.path().filename().string())) ++count;
+    }
+    return count;
 }
 
 void write_campaign_file(Plan const& plan) {

@@ -22,6 +22,10 @@ struct CaseOverview {
 /// Looks at every case's files.
 std::vector<CaseOverview> look_at(Plan const& plan);
 
+/// Number of case folders that are no part of the plan: of an earlier version of the campaign or of a program
+/// whose decks were others.
+std::size_t count_left_aside(Plan const& plan);
+
 /// Writes campaign.h5 from the results that are there; it can be made anew at any time.
 /// @throws MissingError when the disk refuses
 void write_campaign_file(Plan const& plan);

@@ -56,6 +56,7 @@ void PackingRun::look() {
         auto const series = measure::read_cycles(folder_ / "cycles.csv", deck_.time.steps_per_cycle,
                                                  planned_.scenario.layer.grains);
         cycles_ = series.cycles();
+        if (cycles_ >= 2) estimate_ = estimate_series(planned_.scenario, series).estimate;
         if (!enough_cycles(planned_.scenario, series)) return;
     } catch (InputError const&) {
         return;  // judged when the engine has ended

@@ -3,10 +3,12 @@
 #include "campaign/plan.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
+#include "measure/estimate.hpp"
 
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace vibrotrough::campaign {
@@ -37,6 +39,9 @@ class PackingRun {
     PlannedCase const& planned() const { return planned_; }
     int cycles() const { return cycles_; }
 
+    /// Of the cycles seen so far; nothing before the first look at them.
+    std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
+
   private:
     PackingOutcome judge(engine::ExitStatus status);
 
@@ -47,6 +52,7 @@ class PackingRun {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::string started_;
     int cycles_ = 0;
+    std::optional<measure::PackingEstimate> estimate_;
     bool told_to_end_ = false;
     bool interrupted_ = false;
     std::uintmax_t seen_size_ = 0;

@@ -4,6 +4,7 @@
 #include "campaign/case_state.hpp"
 #include "campaign/file_lock.hpp"
 #include "campaign/outcome_names.hpp"
+#include "campaign/outcome_reason.hpp"
 #include "campaign/packing_run.hpp"
 #include "core/error.hpp"
 
@@ -103,7 +104,9 @@ WorkResult work(std::filesystem::path const& campaign_folder, Task const& task, 
     }
     if (read_finished_packing(planned, task.packing)) return end_of_case(planned, engine.version);
     for (int attempt = 0;; ++attempt) {
-        PackingOutcome const outcome = Try(engine, planned, task.packing, deadline).run();
+        long const memory_kills = count_memory_kills();
+        PackingOutcome const outcome = find_reason(
+            planned, task.packing, Try(engine, planned, task.packing, deadline).run(), memory_kills);
         if (outcome.well) return end_of_case(planned, engine.version);
         if (outcome.outcome == "interrupted") return {WorkResult::interrupted, outcome.message};
         if (attempt < limits.retries && retry_makes_sense(outcome.outcome)) continue;
