@@ -8,6 +8,7 @@
 #include "campaign/outcome_reason.hpp"
 #include "campaign/packing_run.hpp"
 #include "campaign/ranks.hpp"
+#include "campaign/result_index.hpp"
 #include "campaign/time_to_go.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -85,9 +86,10 @@ class LocalExecutor {
 
   private:
     void collect_jobs() {
+        ResultIndex index(plan_);
         for (std::size_t i = 0; i < plan_.cases.size(); ++i) {
             PlannedCase const& planned = plan_.cases[i];
-            if (auto const result = read_whole_result(planned)) {
+            if (auto const result = index.find(planned)) {
                 outcomes_[i] = result->outcome;
                 for (auto const& packing : result->packings) progress_.core_time += packing.wall_time;
                 continue;

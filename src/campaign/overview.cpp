@@ -4,6 +4,7 @@
 #include "campaign/case_end.hpp"
 #include "campaign/case_state.hpp"
 #include "campaign/folder_lock.hpp"
+#include "campaign/result_index.hpp"
 #include "core/error.hpp"
 #include "store/result_file.hpp"
 
@@ -65,24 +66,16 @@ void add_slurm(CaseOverview& overview, std::vector<TaskStatus> const& tasks) {
 }
 
 /// The last task of a case may have died between its packing's marker and the result.
-std::optional<store::CaseRecord> result_of(PlannedCase const& planned, std::string const& engine_version) {
-    auto record = read_whole_result(planned);
-    if (record || !std::filesystem::is_directory(planned.folder)) return record;
+void finish_for_slurm(PlannedCase const& planned, std::string const& engine_version) {
     try {
-        if (finish_case(planned, engine_version)) record = read_whole_result(planned);
+        finish_case(planned, engine_version);
     } catch (Error const&) {
         // A damaged packing, or a folder that only may be looked at: `run` mends it.
     }
-    return record;
 }
 
-CaseOverview look_at(Plan const& plan, PlannedCase const& planned, bool driven) {
-    // A driver at work puts its results together itself.
-    CaseOverview overview{&planned,
-                          "open",
-                          {},
-                          0,
-                          driven ? read_whole_result(planned) : result_of(planned, plan.engine_version)};
+CaseOverview look_at(ResultIndex& index, PlannedCase const& planned, bool driven) {
+    CaseOverview overview{&planned, "open", {}, 0, index.find(planned)};
     if (overview.record) {
         overview.outcome = overview.record->outcome;
         overview.packings_done = planned.scenario.measure.packings;
@@ -108,17 +101,39 @@ CaseOverview look_at(Plan const& plan, PlannedCase const& planned, bool driven) 
     return overview;
 }
 
+/// No driver is there to do it at the end of a campaign in Slurm.
+void refresh_campaign_file(Plan const& plan, std::vector<CaseOverview> const& cases) {
+    std::vector<store::CaseRecord> records;
+    for (CaseOverview const& one : cases) {
+        if (one.record) records.push_back(*one.record);
+    }
+    try {
+        store::write_campaign(plan.folder / "campaign.h5", plan.name, records);
+    } catch (MissingError const&) {
+        // A folder that only may be looked at.
+    }
+}
+
 }  // namespace
 
 std::vector<CaseOverview> look_at(Plan const& plan) {
     bool const driven = FolderLock::is_held(plan.folder);
     CaseTasks const tasks = look_at_slurm(plan);
+    ResultIndex index(plan);
     std::vector<CaseOverview> cases;
+    cases.reserve(plan.cases.size());
     for (PlannedCase const& planned : plan.cases) {
-        cases.push_back(look_at(plan, planned, driven));
         auto const found = tasks.find(planned.id);
-        if (found != tasks.end() && !cases.back().record) add_slurm(cases.back(), found->second);
+        // A driver at work puts its results together itself.
+        bool const in_slurm = found != tasks.end() && !driven;
+        if (in_slurm && !std::filesystem::exists(planned.result_file()))
+            finish_for_slurm(planned, plan.engine_version);
+        cases.push_back(look_at(index, planned, driven));
+        if (in_slurm && !cases.back().record) add_slurm(cases.back(), found->second);
     }
+    bool const is_news = index.has_changed() && !tasks.empty() && !driven;
+    index.save();
+    if (is_news) refresh_campaign_file(plan, cases);
     return cases;
 }
 
@@ -134,10 +149,12 @@ std::size_t count_left_aside(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
+    ResultIndex index(plan);
     std::vector<store::CaseRecord> records;
     for (PlannedCase const& planned : plan.cases) {
-        if (auto record = read_whole_result(planned)) records.push_back(std::move(*record));
+        if (auto record = index.find(planned)) records.push_back(std::move(*record));
     }
+    index.save();
     store::write_campaign(plan.folder / "campaign.h5", plan.name, records);
 }
 

@@ -16,7 +16,7 @@ struct CaseOverview {
                           ///< (Slurm does not answer), "interrupted" or "open"
     std::string message;  ///< why it failed
     int packings_done;
-    std::optional<store::CaseRecord> record;
+    std::optional<store::CaseRecord> record;  ///< its summary (store::summary_of)
 };
 
 /// Looks at every case's files.
