@@ -70,6 +70,7 @@ class LocalExecutor {
         : plan_(plan), engine_(engine), settings_(settings), jobs_(jobs), observer_(observer) {}
 
     Summary run() {
+        settled_.remove_leftovers();
         collect_jobs();
         // The longest first: what starts last should not last longest.
         std::ranges::stable_sort(queue_, std::ranges::greater(), [&](Job const& job) {
@@ -101,9 +102,11 @@ class LocalExecutor {
                 if (read_finished_packing(planned, packing)) {
                     ++progress_.packings_done;
                 } else {
-                    // What an interrupted run left would look like a run of today's.
-                    if (case_state(planned) != CaseState::failed)
-                        fs::remove_all(planned.packing_folder(packing));
+                    // What an interrupted run left would look like a run of today's, unless this goes on
+                    // from its checkpoint.
+                    fs::path const left = planned.packing_folder(packing);
+                    if (case_state(planned) != CaseState::failed && !has_checkpoint(left))
+                        fs::remove_all(left);
                     enqueue({i, packing});
                 }
             }
@@ -169,14 +172,13 @@ class LocalExecutor {
 
     void start(Job const& job, int ranks) {
         PlannedCase const& planned = plan_.cases[job.case_index];
-        make_folder(planned.folder);
-        write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+        write_case_files(planned);
         fs::remove(planned.failure_file());  // a failure.json means that the last try failed
         running_.push_back({job, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
             place->run = std::make_unique<PackingRun>(
-                context_, engine_with(ranks), planned, job.packing,
+                context_, engine_with(ranks), settled_, planned, job.packing,
                 [this, place](PackingOutcome const& outcome) { ended(place, outcome); });
         } catch (...) {
             running_.erase(place);
@@ -307,6 +309,7 @@ class LocalExecutor {
     boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
     boost::asio::steady_timer clock_{context_};
     std::deque<Job> queue_;
+    SettledPackings settled_{context_, engine_with(settings_.ranks.value_or(1)), plan_.folder};
     std::list<Running> running_;
     std::map<Job, int> tries_;                     ///< failed ones of this run, by packing
     std::map<std::size_t, int> missing_;           ///< packings that an unfinished case still needs

@@ -36,6 +36,14 @@ struct Plan {
 Plan make_plan(Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
 
+/// Puts the files that the scenario names into the folder.
+/// @throws MissingError when the disk refuses
+void write_named_files(Scenario const& scenario, std::filesystem::path const& folder);
+
+/// Makes the case's folder with its frozen scenario.
+/// @throws MissingError when the disk refuses
+void write_case_files(PlannedCase const& planned);
+
 /// Makes the folder and freezes the campaign there: campaign.toml and the engine's version (engine.json).
 /// @throws MissingError when the disk refuses
 void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);
@@ -47,10 +55,6 @@ Plan open_plan(std::filesystem::path const& folder);
 /// The engine that the campaign in `folder` was planned with (engine.json).
 /// @throws InputError when the file is damaged
 engine::Engine read_engine(std::filesystem::path const& folder);
-
-/// Freezes one case: its folder and scenario.toml in it.
-/// @throws MissingError when the disk refuses
-void freeze_case(PlannedCase const& planned);
 
 /// One case of a campaign folder from its own frozen scenario.toml: what a task on a cluster reads instead of
 /// planning the whole campaign.

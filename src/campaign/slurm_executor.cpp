@@ -45,7 +45,7 @@ class Submitter {
         bool fresh = true;
         for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
             if (read_finished_packing(planned, packing) || is_in_queue({planned.id, packing})) continue;
-            if (std::exchange(fresh, false)) freeze_case(planned);
+            if (std::exchange(fresh, false)) write_case_files(planned);
             result_.again += known_.contains({planned.id, packing}) ? 1 : 0;
             tasks_.push_back({time_to_go_.work(planned.scenario, 1), {planned.id, packing}});
         }

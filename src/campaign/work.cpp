@@ -23,10 +23,12 @@ using namespace std::chrono_literals;
 /// One try: the engine, looked at four times a second, until it ends, the time is over or a signal comes.
 class Try {
   public:
-    Try(engine::Engine const& engine, PlannedCase const& planned, int packing,
+    Try(engine::Engine const& engine, std::filesystem::path const& campaign_folder,
+        PlannedCase const& planned, int packing,
         std::optional<std::chrono::steady_clock::time_point> deadline)
-        : deadline_(deadline),
-          run_(context_, engine, planned, packing, [this](PackingOutcome const& outcome) {
+        : settled_(context_, engine, campaign_folder),
+          deadline_(deadline),
+          run_(context_, engine, settled_, planned, packing, [this](PackingOutcome const& outcome) {
               outcome_ = outcome;
               signals_.cancel();
               clock_.cancel();
@@ -62,6 +64,7 @@ class Try {
     boost::asio::io_context context_;
     boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
     boost::asio::steady_timer clock_{context_};
+    SettledPackings settled_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     bool late_ = false;
     PackingOutcome outcome_{};
@@ -105,8 +108,9 @@ WorkResult work(std::filesystem::path const& campaign_folder, Task const& task, 
     if (read_finished_packing(planned, task.packing)) return end_of_case(planned, engine.version);
     for (int attempt = 0;; ++attempt) {
         long const memory_kills = count_memory_kills();
-        PackingOutcome const outcome = find_reason(
-            planned, task.packing, Try(engine, planned, task.packing, deadline).run(), memory_kills);
+        PackingOutcome const outcome =
+            find_reason(planned, task.packing,
+                        Try(engine, campaign_folder, planned, task.packing, deadline).run(), memory_kills);
         if (outcome.well) return end_of_case(planned, engine.version);
         if (outcome.outcome == "interrupted") return {WorkResult::interrupted, outcome.message};
         if (attempt < limits.retries && retry_makes_sense(outcome.outcome)) continue;

@@ -79,7 +79,7 @@ std::string ask_version(fs::path const& program) {
 }
 
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
-std::vector<std::string> run_words(Engine const& engine) {
+std::vector<std::string> run_words(Engine const& engine, Launch const& launch) {
     std::vector<std::string> words{no_daemon};
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
@@ -100,7 +100,8 @@ std::vector<std::string> run_words(Engine const& engine) {
     }
     for (char const* word : {"stdbuf", "-oL"}) words.push_back(word);
     words.push_back(engine.program.string());
-    for (char const* word : {"-in", "in.liggghts"}) words.push_back(word);
+    for (std::string const& word : {std::string("-in"), launch.input}) words.push_back(word);
+    words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
     return words;
 }
 
@@ -129,7 +130,7 @@ struct EngineProcess::State {
 };
 
 EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& engine, fs::path const& folder,
-                             std::function<void(ExitStatus)> on_exit)
+                             std::function<void(ExitStatus)> on_exit, Launch const& launch)
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
     // The state is kept by whoever waits for the exit; a destroyed EngineProcess has no handler any more. The
@@ -145,11 +146,11 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
         });
     };
     try {
-        state_->process =
-            bp::child(bp::search_path("env"), bp::args(run_words(engine)), bp::start_dir(folder.string()),
-                      (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null,
-                      context, bp::on_exit(ended),
-                      bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
+        state_->process = bp::child(
+            bp::search_path("env"), bp::args(run_words(engine, launch)), bp::start_dir(folder.string()),
+            (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null, context,
+            bp::on_exit(ended),
+            bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
         throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
                                        error.code().message()));

@@ -52,15 +52,24 @@ std::vector<std::vector<double>> latin_hypercube(int count, int dimensions, Rand
     return points;
 }
 
-bool holds(Condition const& condition, double value) {
-    return (!condition.above || value > *condition.above) && (!condition.below || value < *condition.below) &&
-           (!condition.equals || std::abs(value - *condition.equals) <= 1e-9 * std::abs(*condition.equals));
+bool is_same(Content const& value, Content const& wanted) {
+    auto const* const number = std::get_if<double>(&value);
+    auto const* const other = std::get_if<double>(&wanted);
+    if (number == nullptr || other == nullptr) return value == wanted;
+    return std::abs(*number - *other) <= 1e-9 * std::abs(*other);
+}
+
+bool holds(Condition const& condition, Content const& value) {
+    double const* const number = std::get_if<double>(&value);
+    return (!condition.above || (number != nullptr && *number > *condition.above)) &&
+           (!condition.below || (number != nullptr && *number < *condition.below)) &&
+           (!condition.equals || is_same(value, *condition.equals));
 }
 
 }  // namespace
 
-double value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
-    if (auto const found = given.find(key); found != given.end()) return found->second.number;
+Content value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
+    if (auto const found = given.find(key); found != given.end()) return found->second.content;
     Trough const& trough = scenario.trough;
     if (key == "trough.throw_number") return throw_number(trough);
     if (key == "trough.machine_number") return machine_number(trough);
@@ -69,8 +78,11 @@ double value_of(Scenario const& scenario, CaseValues const& given, std::string_v
     if (key == "trough.tan_inclination") return std::tan(trough.inclination);
     if (key == "trough.vibration_angle") return trough.vibration_angle;
     if (key == "trough.tan_vibration_angle") return std::tan(trough.vibration_angle);
-    if (key == "layer.grains") return scenario.layer.grains;
-    return find_key(key)->fallback.value_or(std::nan(""));  // NaN holds no condition
+    if (key == "layer.grains") return static_cast<double>(scenario.layer.grains);
+    Key const& known = *find_key(key);
+    if (known.kind == KeyKind::choice || known.kind == KeyKind::file)
+        return std::string(choices(known).front());
+    return known.fallback.value_or(std::nan(""));  // NaN holds no condition
 }
 
 bool is_excluded(Scenario const& scenario, CaseValues const& given,

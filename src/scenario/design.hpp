@@ -21,7 +21,8 @@ struct PointList {
 /// A condition on one key: all bounds that are set must hold.
 struct Condition {
     std::string key;
-    std::optional<double> above, below, equals;  ///< SI
+    std::optional<double> above, below;  ///< SI
+    std::optional<Content> equals;
     Position where;
 };
 
@@ -30,7 +31,7 @@ using Exclusion = std::vector<Condition>;
 
 /// The value that a case has for a key, whether it was given or follows from others (the throw number of a
 /// drive whose frequency was given, the grains of a layer whose height was).
-double value_of(Scenario const& scenario, CaseValues const& given, std::string_view key);
+Content value_of(Scenario const& scenario, CaseValues const& given, std::string_view key);
 
 /// Whether one of the exclusions leaves the case out.
 bool is_excluded(Scenario const& scenario, CaseValues const& given, std::vector<Exclusion> const& exclusions);

@@ -23,6 +23,16 @@ Position position(toml::source_region const& source) {
     return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
 }
 
+bool is_word(Key const& key) {
+    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
+}
+
+/// Keys with one value: no lists, and not the campaign's name.
+bool can_vary(Key const& key) {
+    return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
+           is_word(key);
+}
+
 std::vector<std::string> split_row(std::string line) {
     if (line.ends_with('\r')) line.pop_back();
     std::vector<std::string> cells;
@@ -37,7 +47,7 @@ std::vector<std::string> split_row(std::string line) {
 
 class DesignReader {
   public:
-    DesignReader(std::string const& file, NumberReader const& read, CampaignText& campaign)
+    DesignReader(std::string const& file, ContentReader const& read, CampaignText& campaign)
         : file_(file), read_(read), campaign_(campaign) {}
 
     void read(std::string_view name, toml::node const& node) {
@@ -61,9 +71,9 @@ class DesignReader {
 
     Key const& known_key(std::string_view path, toml::source_region const& source) const {
         Key const* const key = find_key(path);
-        if (key != nullptr && key->kind != KeyKind::text) return *key;
+        if (key != nullptr && can_vary(*key)) return *key;
         std::string_view const nearest = nearest_key(path);
-        fail(source, printable(path, 60), key ? "a name cannot vary" : "unknown key",
+        fail(source, printable(path, 60), key ? "cannot vary" : "unknown key",
              nearest.empty() || key ? "vary a physical input" : fmt::format("did you mean {}?", nearest));
     }
 
@@ -116,7 +126,10 @@ class DesignReader {
                         fail(bound.source(), name.str(),
                              fmt::format("'{}' is no bound", printable(bound.str(), 60)),
                              "write { above = a }, { below = b } or a value");
-                    (bound.str() == "above" ? condition.above : condition.below) = read_(key, value);
+                    if (is_word(key))
+                        fail(value.source(), name.str(), "has no order", "write one of its values");
+                    (bound.str() == "above" ? condition.above : condition.below) =
+                        std::get<double>(read_(key, value));
                 }
             }
             exclusion.push_back(std::move(condition));
@@ -196,7 +209,9 @@ class DesignReader {
         bool const whole_range =
             range != nullptr && range->size() == 2 && range->contains("from") && range->contains("to");
         if (!whole_range) fail(name.source(), name.str(), "is no range", "write { from = a, to = b }");
-        std::array<double, 2> const ends{read_(key, *range->get("from")), read_(key, *range->get("to"))};
+        if (is_word(key)) fail(name.source(), name.str(), "has no order", "sample a number");
+        std::array<double, 2> const ends{std::get<double>(read_(key, *range->get("from"))),
+                                         std::get<double>(read_(key, *range->get("to")))};
         if (!(ends[0] < ends[1]))
             fail(name.source(), name.str(), "the range is empty", "write { from = a, to = b } with a < b");
         return ends;
@@ -236,7 +251,7 @@ class DesignReader {
         if (list.keys.empty()) {
             for (std::string const& cell : cells) {
                 Key const* const key = find_key(cell);
-                if (key == nullptr || key->kind == KeyKind::text)
+                if (key == nullptr || !can_vary(*key))
                     throw_at({file, where}, printable(cell, 60), "is no key that can vary",
                              "write keys such as trough.throw_number in the first line");
             }
@@ -254,7 +269,8 @@ class DesignReader {
     }
 
     /// A cell holds what would stand right of the equals sign, without quotes.
-    double read_cell(std::string const& file, Position where, Key const& key, std::string const& cell) const {
+    Content read_cell(std::string const& file, Position where, Key const& key,
+                      std::string const& cell) const {
         double number = 0;
         auto const [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
         bool const bare = failure == std::errc() && end == cell.data() + cell.size();
@@ -262,7 +278,7 @@ class DesignReader {
         try {
             if (key.kind == KeyKind::integer && integral)
                 return read_(key, toml::value<std::int64_t>(std::llround(number)));
-            if (bare) return read_(key, toml::value<double>(number));
+            if (bare && !is_word(key)) return read_(key, toml::value<double>(number));
             return read_(key, toml::value<std::string>(cell));
         } catch (InputError const& error) {
             // The value has no place in the campaign file: its place is the CSV file's.
@@ -274,7 +290,7 @@ class DesignReader {
     }
 
     std::string const& file_;
-    NumberReader const& read_;
+    ContentReader const& read_;
     CampaignText& campaign_;
 };
 
@@ -286,7 +302,7 @@ bool is_design_section(std::string_view name) {
 }
 
 void read_design_section(std::string_view name, toml::node const& node, std::string const& file,
-                         NumberReader const& read, CampaignText& campaign) {
+                         ContentReader const& read, CampaignText& campaign) {
     DesignReader(file, read, campaign).read(name, node);
 }
 

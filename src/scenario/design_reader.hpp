@@ -19,7 +19,7 @@ bool is_design_section(std::string_view name);
 /// @throws InputError, one line: file:line:column, key, what is wrong, what to write instead
 /// @throws MissingError when the CSV file is there but cannot be read
 void read_design_section(std::string_view name, toml::node const& node, std::string const& file,
-                         NumberReader const& read, CampaignText& campaign);
+                         ContentReader const& read, CampaignText& campaign);
 
 /// Checks that no key, and no two keys that exclude each other, stand in two lists or in a list and the
 /// sweep.

@@ -7,32 +7,33 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 namespace vibrotrough {
 namespace {
 
-using enum KeyKind;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array keys{
-    Key{"run.executor", text, "", 0, 0, "\"local\" or \"slurm\"", "", 0, "\"slurm\"",
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", none, "\"slurm\"",
         "who runs the packings: this machine, or job arrays of Slurm"},
-    Key{"run.retries", integer, "", 0, 100, "0 to 100", "", 0, "2",
+    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0, "2",
         "of a packing, after an outcome for which the table of outcomes says so"},
-    Key{"run.ranks", integer, "", 1, 1024, "1 to 1024", "", 0, "2",
+    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", none, "2",
         "MPI ranks of every engine; without it chosen from the number of grains"},
-    Key{"run.time_limit", quantity, "s", 1, 3e7, "1 s to 347 days", "", 0, "\"12 hours\"",
+    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", none, "\"12 hours\"",
         "wall clock of a packing, outcome time-limit beyond it; without it none"},
-    Key{"run.slurm.partition", text, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", 0,
-        "\"compute\"", "without it Slurm's default, as for all of these"},
-    Key{"run.slurm.account", text, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", 0,
+    Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        none, "\"compute\"", "without it Slurm's default, as for all of these"},
+    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", none,
         "\"granular\"", "that the time is charged to"},
-    Key{"run.slurm.time", quantity, "s", 60, 3e7, "1 minute to 347 days", "", 0, "\"12 hours\"",
+    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", none, "\"12 hours\"",
         "wall clock that a packing may take; Slurm counts whole minutes"},
-    Key{"run.slurm.memory", text, "", 0, 0, "1 MB to 1000000 GB", "", 0, "\"2 GB\"",
+    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", none, "\"2 GB\"",
         "of a packing; 1 GB is 1024 MB"},
-    Key{"run.slurm.concurrent_tasks", integer, "", 1, 1e5, "1 to 100000", "", 0, "100",
+    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", none, "100",
         "at most so many packings of one array at a time"},
 };
 
@@ -58,7 +59,7 @@ std::optional<std::int64_t> parse_memory(std::string_view text) {
 
 class RunSection {
   public:
-    RunSection(std::string const& file, NumberReader const& read) : file_(file), read_(read) {}
+    RunSection(std::string const& file, ContentReader const& read) : file_(file), read_(read) {}
 
     RunSettings read(toml::table const& section) {
         for (auto const& [name, node] : section) {
@@ -90,7 +91,8 @@ class RunSection {
             fail(name.source(), printable(path, 60), "unknown key",
                  fmt::format("this section has {}", fmt::join(names, ", ")));
         }
-        found->kind == text ? read_text(*found, node) : read_number(*found, node);
+        found->kind == KeyKind::name || found->kind == KeyKind::choice ? read_text(*found, node)
+                                                                       : read_number(*found, node);
     }
 
     void read_text(Key const& key, toml::node const& node) {
@@ -116,7 +118,7 @@ class RunSection {
     }
 
     void read_number(Key const& key, toml::node const& node) {
-        double const value = read_(key, node);
+        double const value = std::get<double>(read_(key, node));
         int const whole = static_cast<int>(std::lround(value));
         if (key.path == "run.retries") settings_.retries = whole;
         if (key.path == "run.ranks") settings_.ranks = whole;
@@ -126,7 +128,7 @@ class RunSection {
     }
 
     std::string const& file_;
-    NumberReader const& read_;
+    ContentReader const& read_;
     RunSettings settings_;
 };
 
@@ -143,7 +145,7 @@ std::optional<PlainName> PlainName::from(std::string_view text) {
     return PlainName(text);
 }
 
-RunSettings read_run_section(toml::table const& section, std::string const& file, NumberReader const& read) {
+RunSettings read_run_section(toml::table const& section, std::string const& file, ContentReader const& read) {
     return RunSection(file, read).read(section);
 }
 

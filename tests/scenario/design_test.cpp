@@ -159,7 +159,7 @@ TEST(Design, MistakesAreOneLineWithTheirPlace) {
              {"[zip]\n\"trough.friction\" = [0.1, 0.2]\n\"grains.friction\" = [0.4]\n",
               "zipped lists go in step"},
              {"[zip]\n\"trough.fricton\" = [0.1]\n", "did you mean trough.friction?"},
-             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "a name cannot vary"},
+             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot vary"},
              {"[[points]]\n\"trough.friction\" = 9\n", "out of range"},
              {"[[points]]\n\"trough.friction\" = 0.1\n[[points]]\n\"grains.friction\" = 0.1\n",
               "other keys than"},

@@ -63,7 +63,7 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
 
 TEST(RunSection, MistakesNameTheirPlace) {
     for (auto const& [section, part] : std::vector<std::pair<std::string, std::string>>{
-             {"[run]\nexecutor = \"cloud\"\n", "\"local\" or \"slurm\""},
+             {"[run]\nexecutor = \"cloud\"\n", "local or slurm"},
              {"[run]\nexecutor = 3\n", "is not a text"},
              {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
              {"[run.slurm]\nqueue = \"a\"\n", "partition, account, time, memory, concurrent_tasks"},
