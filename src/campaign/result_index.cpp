@@ -90,9 +90,11 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     }
     auto const record = read_whole_result(planned);
     if (!record) return {};
-    entries_.insert_or_assign(planned.id, Entry{*stamp, store::pack_summary(*record)});
+    Entry& entry = entries_[planned.id];
+    entry = {*stamp, store::pack_summary(*record)};
     changed_ = true;
-    return store::summary_of(*record);
+    std::string_view bytes = entry.summary;
+    return store::unpack_summary(bytes, planned.scenario);
 }
 
 void ResultIndex::save() {
