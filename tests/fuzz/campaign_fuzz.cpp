@@ -15,7 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
         // What was taken must come back: a case as a campaign file of its own is the same case.
         std::string const frozen = to_toml(campaign.cases.front());
         if (!named_files(campaign.cases.front()).empty()) return 0;
-        if (to_toml(parse_campaign(frozen, "frozen.toml", "/no-such-folder").cases.front()) != frozen) std::abort();
+        if (to_toml(parse_campaign(frozen, "frozen.toml", "/no-such-folder").cases.front()) != frozen)
+            std::abort();
     } catch (Error const& error) {
         if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
     }

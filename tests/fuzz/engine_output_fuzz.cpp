@@ -1,5 +1,5 @@
-// Whatever an engine prints or leaves in its tables: the run gets a name and one printable line, and never crashes
-// its driver.
+// Whatever an engine prints or leaves in its tables: the run gets a name and one printable line, and never
+// crashes its driver.
 
 #include "core/error.hpp"
 #include "engine/outcome.hpp"
@@ -36,7 +36,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     auto const gap = std::min(text.find('\0'), text.size());
     std::ofstream(folder() / engine::output_file, std::ios::binary) << text.substr(0, gap);
     std::ofstream(folder() / "cycles.csv", std::ios::binary) << text.substr(std::min(gap + 1, text.size()));
-    engine::ExitStatus const status = data[0] < 128 ? engine::ExitStatus{data[0], 0} : engine::ExitStatus{0, data[0] & 31};
+    engine::ExitStatus const status =
+        data[0] < 128 ? engine::ExitStatus{data[0], 0} : engine::ExitStatus{0, data[0] & 31};
     for (auto const stage : {engine::Stage::settling, engine::Stage::driving}) {
         engine::RunReport const report = engine::examine_run(folder(), status, stage);
         if (to_string(report.outcome) == "unknown") std::abort();
