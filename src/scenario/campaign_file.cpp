@@ -52,13 +52,13 @@ CaseValues pick(CampaignText const& text, std::size_t index) {
 
 }  // namespace
 
-Campaign parse_campaign(std::string_view text, std::string const& name, std::filesystem::path const& folder) {
+Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source) {
     CampaignText const parsed = read_campaign_text(text, name);
     Campaign campaign{parsed.name, {}, parsed.run, parsed.files, 0};
     std::size_t const count = count_cases(parsed, name);
     for (std::size_t index = 0; index < count; ++index) {
         CaseValues const values = pick(parsed, index);
-        Scenario scenario = make_scenario(parsed.name, values, name, folder);
+        Scenario scenario = make_scenario(parsed.name, values, name, source);
         if (is_excluded(scenario, values, parsed.exclusions)) {
             ++campaign.excluded;
         } else {
@@ -84,7 +84,7 @@ Campaign read_campaign(std::filesystem::path const& path) {
         throw InputError(
             fmt::format("{}: there is no such file; give the path of a campaign file (TOML)", path.string()));
     }
-    return parse_campaign(read_file(path), path.string(), path.parent_path());
+    return parse_campaign(read_file(path), path.string(), {path.parent_path(), {}});
 }
 
 }  // namespace vibrotrough
