@@ -14,6 +14,16 @@ FileLock lock_case(PlannedCase const& planned) {
     return FileLock::wait_for(planned.folder / ".lock");
 }
 
+/// What a killed process left half-written; whoever writes here holds the case's lock.
+void remove_halves(PlannedCase const& planned) {
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(planned.folder, ignored)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("result.h5.part-") || name.starts_with("failure.json.part-"))
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
 }  // namespace
 
 std::optional<std::string> finish_case(PlannedCase const& planned, std::string const& engine_version) {
@@ -21,6 +31,7 @@ std::optional<std::string> finish_case(PlannedCase const& planned, std::string c
     if (count_finished_packings(planned) < planned.scenario.measure.packings) return {};
     FileLock const lock = lock_case(planned);
     if (auto const result = read_whole_result(planned)) return result->outcome;
+    remove_halves(planned);
     store::CaseRecord const record = assemble(planned, engine_version);
     store::write_result(planned.result_file(), record);
     std::filesystem::remove(planned.failure_file());

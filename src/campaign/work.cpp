@@ -30,6 +30,7 @@ class Try {
           deadline_(deadline),
           run_(context_, engine, settled_, planned, packing, [this](PackingOutcome const& outcome) {
               outcome_ = outcome;
+              ended_ = true;
               signals_.cancel();
               clock_.cancel();
           }) {}
@@ -50,6 +51,7 @@ class Try {
     }
 
     void tick() {
+        if (ended_) return;  // its timer had gone off already when the run ended
         run_.look();
         if (deadline_ && !late_ && std::chrono::steady_clock::now() > *deadline_) {
             late_ = true;
@@ -67,6 +69,7 @@ class Try {
     SettledPackings settled_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
     bool late_ = false;
+    bool ended_ = false;
     PackingOutcome outcome_{};
     PackingRun run_;
 };

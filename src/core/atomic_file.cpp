@@ -1,6 +1,7 @@
 #include "core/atomic_file.hpp"
 
 #include "core/error.hpp"
+#include "core/time.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -50,7 +51,8 @@ void make_folder(fs::path const& path) {
 }
 
 void write_atomically(fs::path const& path, std::function<void(fs::path const&)> const& write) {
-    fs::path const temporary = path.string() + ".part-" + std::to_string(::getpid());
+    fs::path const temporary =
+        path.string() + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
     try {
         write(temporary);
         sync_to_disk(temporary, O_RDONLY);
