@@ -51,7 +51,7 @@ void write_named_files(Scenario const& scenario, fs::path const& folder) {
 void write_case_files(PlannedCase const& planned) {
     make_folder(planned.folder);
     write_named_files(planned.scenario, planned.folder);
-    write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+    replace_file(planned.folder / "scenario.toml", to_toml(planned.scenario));
 }
 
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {

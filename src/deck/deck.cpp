@@ -101,7 +101,7 @@ std::string checkpoint_file(int cycle) {
 
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {
     make_folder(folder);
-    for (auto const& [name, content] : files) write_file_atomically(folder / name, content);
+    for (auto const& [name, content] : files) replace_file(folder / name, content);
 }
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder) {
