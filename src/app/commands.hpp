@@ -16,6 +16,8 @@ void add_deck(CLI::App& program, int& exit_code);
 void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
+void add_probe_engine(CLI::App& program, int& exit_code);
+void add_check(CLI::App& program, int& exit_code);
 void add_theory_point(CLI::App& theory, int& exit_code);
 void add_theory_map(CLI::App& theory, int& exit_code);
 void add_theory_trace(CLI::App& theory, int& exit_code);

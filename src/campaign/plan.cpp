@@ -72,6 +72,12 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
     for (fs::path const& file : plan.files)
         write_file_atomically(plan.folder / file.filename(), read_file(file));
+    fs::path const certificate = plan.folder / "certificate.json";
+    if (engine.certificate.empty()) {
+        fs::remove(certificate);  // another engine's
+    } else {
+        write_file_atomically(certificate, engine.certificate);
+    }
     for (PlannedCase const& planned : plan.cases) write_named_files(planned.scenario, plan.folder);
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }
