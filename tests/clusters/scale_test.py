@@ -71,7 +71,7 @@ class Scale(EndToEndTest):
         return json.loads(self.assert_quick("plan", campaign, "--output", self.output, "--json", "--liggghts", self.engine))
 
     def assert_cheap(self, campaign, cases):
-        seconds, megabytes, _ = self.measure(*self.run_arguments(campaign), "--quiet")
+        seconds, megabytes, _ = self.measure(*self.run_arguments(campaign), "--quiet", "--accept-failed-probes")
         print(f"run: {1000 * seconds / cases:.2f} ms of the driver per case, {megabytes:.0f} MB")
         self.assertLess(seconds / cases, MOST_DRIVER_SECONDS)
         self.assertLess(megabytes, MOST_MEGABYTES)

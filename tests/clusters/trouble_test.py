@@ -138,11 +138,9 @@ class Trouble(EndToEndTest):
 
     def test_too_little_memory(self):
         processes = self.make_memory_group(8 << 20)
-        limited = self.folder / "limited-liggghts"
-        limited.write_text(f'#!/bin/sh\ncase "$1" in -in) echo $$ > {processes};; esac\nexec "{self.engine}" "$@"\n')
-        limited.chmod(0o755)
         campaign = self.write_campaign({"measure.packings": 1})
-        done = self.call("run", campaign, "--output", self.output, "--liggghts", limited)
+        os.environ["VIBROTROUGH_TEST_BREAK"] = f"echo $$ > {processes}"
+        done = self.call(*self.run_arguments(campaign))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         (failure,) = self.failures()
         self.assertEqual(failure["outcome"], "out-of-memory", failure)
@@ -164,38 +162,35 @@ class Trouble(EndToEndTest):
         campaign = self.write_campaign({"measure.packings": 1})
         campaign.write_text(campaign.read_text() + "[run]\nretries = 2\n")
         tries = self.folder / "tries"
-        script = self.folder / "moody-liggghts"
         for last_words, code, count in (("kill -KILL $$", 0, 3), ("echo 'ERROR: no'; exit 1", 1, 1)):
             # Fails twice, then does its work.
             tries.unlink(missing_ok=True)
             shutil.rmtree(self.output, ignore_errors=True)
-            script.write_text(
-                f'#!/bin/sh\ncase "$1" in -in) echo x >> "{tries}"; [ $(wc -l < "{tries}") -gt 2 ] || {{ {last_words}; }};; esac\n'
-                f'exec "{self.engine}" "$@"\n'
+            os.environ["VIBROTROUGH_TEST_BREAK"] = (
+                f'echo x >> "{tries}"; [ $(wc -l < "{tries}") -gt 2 ] || {{ {last_words}; }}'
             )
-            script.chmod(0o755)
-            done = self.call("run", campaign, "--output", self.output, "--liggghts", script)
+            done = self.call(*self.run_arguments(campaign))
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)
             self.assertGreaterEqual(len(tries.read_text().splitlines()), count)
 
     def test_a_simulation_that_blows_up(self):
         campaign = self.write_campaign({"measure.packings": 1})
         # The real engine's cycles, the last of them spoilt as an explosion does it.
-        script = self.folder / "exploding-liggghts"
-        script.write_text(
-            f'#!/bin/sh\n"{self.engine}" "$@"; code=$?\n'
-            'case "$1" in -in) [ -f cycles.csv ] && sed -i \'$s/,[^,]*,[^,]*$/,nan,nan/\' cycles.csv;; esac\nexit $code\n'
+        os.environ["VIBROTROUGH_TEST_BREAK"] = (
+            f'VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; code=$?; '
+            "[ -f cycles.csv ] && sed -i '$s/,[^,]*,[^,]*$/,nan,nan/' cycles.csv; exit $code"
         )
-        script.chmod(0o755)
-        done = self.call("run", campaign, "--output", self.output, "--liggghts", script)
+        done = self.call(*self.run_arguments(campaign))
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         (failure,) = self.failures()
         self.assertEqual(failure["outcome"], "diverged", failure)
 
     def test_progress_for_programs(self):
         campaign = self.write_campaign({"measure.packings": 2}, SWEEP)
+        self.run_campaign(campaign)  # probes the engine, if no test has before
+        shutil.rmtree(self.output)
         done = self.call(*self.run_arguments(campaign), "--progress", "json")
-        events = [json.loads(line) for line in done.stderr.splitlines()]
+        events = [json.loads(line) for line in done.stderr.splitlines() if line.startswith("{")]
         self.assertEqual({event["event"] for event in events}, {"progress", "case_ended"})
         last = [event for event in events if event["event"] == "progress"][-1]
         self.assertGreater(last["core_time_s"], 0)
