@@ -9,6 +9,8 @@ namespace vibrotrough::app {
 // Each function adds one subcommand to the program: its options, its help, and what it runs, in a file
 // of the same name. What a subcommand runs stores its exit code; errors are thrown and worded by main.
 void add_run(CLI::App& program, int& exit_code);
+void add_plan(CLI::App& program, int& exit_code);
+void add_work(CLI::App& program, int& exit_code);
 void add_keys(CLI::App& program, int& exit_code);
 void add_deck(CLI::App& program, int& exit_code);
 void add_status(CLI::App& program, int& exit_code);

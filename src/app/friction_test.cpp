@@ -77,7 +77,7 @@ int run(Options const& options) {
     campaign::Summary summary;
     {
         ProgressPrinter printer;
-        summary = campaign::run_locally(plan, test_file, engine, options.jobs, printer);
+        summary = campaign::run_locally(plan, test_file, engine, campaign.run, options.jobs, printer);
     }
     campaign::write_campaign_file(plan);
     auto const tests = campaign::measure_friction(plan);

@@ -17,6 +17,8 @@ namespace {
 
 void add_commands(CLI::App& program, int& exit_code) {
     add_run(program, exit_code);
+    add_plan(program, exit_code);
+    add_work(program, exit_code);
     add_keys(program, exit_code);
     add_deck(program, exit_code);
     add_status(program, exit_code);

@@ -17,8 +17,38 @@ std::string describe(campaign::Progress const& progress) {
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
     text += fmt::format("; packings {}/{}; {} gone", progress.packings_done, progress.packings,
                         clock_time(progress.elapsed));
-    if (progress.time_to_go >= 0) text += fmt::format(", about {} to go", clock_time(progress.time_to_go));
+    if (progress.time_to_go >= 0) {
+        text += fmt::format(", about {} to go; {:.3g} core-hours spent, {:.3g} to go",
+                            clock_time(progress.time_to_go), progress.core_time / 3600,
+                            progress.core_time_to_go / 3600);
+    }
     return text;
+}
+
+/// "  6f285f55cce4 packing 2: cycle 45 of at most 300, eta 0.793 +- 0.051, 0:12 gone, about 0:04 to go"
+std::string describe(campaign::RunningPacking const& one) {
+    std::string text = fmt::format("  {} packing {}: cycle {} of at most {}", one.planned->id, one.packing,
+                                   one.cycles, one.planned->scenario.measure.max_cycles);
+    if (one.estimate && std::isfinite(one.estimate->mean))
+        text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
+    text += fmt::format(", {} gone", clock_time(one.elapsed));
+    if (one.time_to_go >= 0) text += fmt::format(", about {} to go", clock_time(one.time_to_go));
+    return text;
+}
+
+/// Lines for all engines, as far as they fit, and the total below.
+std::vector<std::string> describe_all(campaign::Progress const& progress) {
+    constexpr std::size_t most = 20;
+    std::vector<std::string> lines;
+    for (auto const& one : progress.engines) {
+        if (lines.size() == most) {
+            lines.push_back(fmt::format("  and {} more", progress.engines.size() - most));
+            break;
+        }
+        lines.push_back(describe(one));
+    }
+    lines.push_back(describe(progress));
+    return lines;
 }
 
 }  // namespace
@@ -33,27 +63,27 @@ ProgressPrinter::ProgressPrinter()
     : terminal_(::isatty(STDERR_FILENO) != 0), printed_(std::chrono::steady_clock::now() - 1h) {}
 
 ProgressPrinter::~ProgressPrinter() {
-    clear_line();
+    clear_lines();
 }
 
 void ProgressPrinter::progressed(campaign::Progress const& progress) {
     auto const now = std::chrono::steady_clock::now();
-    std::string const line = describe(progress);
-    if (line == line_ || (!terminal_ && now - printed_ < 10s)) return;
-    clear_line();
-    if (terminal_) {
-        fmt::print(stderr, "{}", line);
-        std::fflush(stderr);
-    } else {
-        fmt::print(stderr, "{}\n", line);
+    if (!terminal_ && now - printed_ < 10s) return;
+    std::vector<std::string> lines = describe_all(progress);
+    if (lines == lines_) return;
+    clear_lines();
+    for (std::string const& line : lines) {
+        bool const is_last = &line == &lines.back();
+        fmt::print(stderr, "{}{}", line, is_last && terminal_ ? "" : "\n");
     }
-    line_ = line;
+    std::fflush(stderr);
+    lines_ = std::move(lines);
     printed_ = now;
 }
 
 void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
                                  std::string const& message) {
-    clear_line();
+    clear_lines();
     Trough const& trough = planned.scenario.trough;
     constexpr double degrees = 180 / std::numbers::pi;
     fmt::print(stderr,
@@ -62,9 +92,12 @@ void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, std::stri
                trough.inclination * degrees, outcome, message.empty() ? "" : ": ", message);
 }
 
-void ProgressPrinter::clear_line() {
-    if (terminal_ && !line_.empty()) fmt::print(stderr, "\r\x1b[K");
-    line_.clear();
+void ProgressPrinter::clear_lines() {
+    if (terminal_ && !lines_.empty()) {
+        fmt::print(stderr, "\r\x1b[K");
+        for (std::size_t i = 1; i < lines_.size(); ++i) fmt::print(stderr, "\x1b[A\x1b[K");
+    }
+    lines_.clear();
 }
 
 }  // namespace vibrotrough::app

@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace vibrotrough::app {
 
-/// Shows a campaign's progress on standard error: one line that renews itself on a terminal, plain lines
+/// Shows a campaign's progress on standard error: a line per running packing and a total,
+/// which renew themselves on a terminal, plain lines
 /// (one per ended case, and one every ten seconds) elsewhere.
 class ProgressPrinter : public campaign::Observer {
   public:
@@ -19,10 +21,10 @@ class ProgressPrinter : public campaign::Observer {
                     std::string const& message) override;
 
   private:
-    void clear_line();
+    void clear_lines();
 
     bool terminal_;
-    std::string line_;
+    std::vector<std::string> lines_;
     std::chrono::steady_clock::time_point printed_;
 };
 

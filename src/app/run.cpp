@@ -2,10 +2,12 @@
 #include "app/commands.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
+#include "app/progress_log.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/folder_lock.hpp"
 #include "campaign/local_executor.hpp"
 #include "campaign/overview.hpp"
+#include "campaign/slurm_executor.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
@@ -27,6 +29,8 @@ struct Options {
     std::string campaign_file;
     std::string output;
     std::string engine;
+    std::string progress = "text";
+    bool quiet = false;
     bool accept_failed_probes = false;
     bool accept_findings = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -35,6 +39,53 @@ struct Options {
 int exit_code_of(campaign::Summary const& summary) {
     if (summary.interrupted) return interrupted;
     return summary.failed + summary.unsure > 0 ? some_cases_failed : all_well;
+}
+
+std::unique_ptr<campaign::Observer> make_observer(Options const& options) {
+    if (options.quiet || options.progress == "none") return std::make_unique<NoProgress>();
+    if (options.progress == "json") return std::make_unique<JsonProgress>();
+    return std::make_unique<ProgressPrinter>();
+}
+
+std::string describe(campaign::Summary const& summary, std::size_t cases) {
+    std::size_t const left =
+        cases - static_cast<std::size_t>(summary.finished + summary.unsure + summary.failed);
+    std::string text = fmt::format("{} of {} cases finished", summary.finished, cases);
+    if (summary.unsure > 0) text += fmt::format(", {} not steady or not precise", summary.unsure);
+    if (summary.failed > 0) text += fmt::format(", {} failed", summary.failed);
+    if (left > 0) text += fmt::format(", {} left", left);
+    return text + (summary.interrupted ? "; interrupted: the same command goes on where it stopped" : "");
+}
+
+/// Results of an earlier version of the campaign stay on disk and are no part of this one.
+void say_what_is_left_aside(campaign::Plan const& plan) {
+    std::size_t const aside = campaign::count_left_aside(plan);
+    if (aside > 0)
+        fmt::print("{} cases in {} are of an earlier version of the campaign and left aside\n", aside,
+                   (plan.folder / "cases").string());
+}
+
+/// Leaves the packings to Slurm and says what it found and did.
+int submit(campaign::Plan const& plan, Campaign const& campaign, Options const& options,
+           engine::Engine const& engine) {
+    fs::path const program = fs::read_symlink("/proc/self/exe");
+    campaign::Submission const done =
+        campaign::submit_to_slurm(plan, options.campaign_file, engine, campaign.run, program);
+    campaign::write_campaign_file(plan);
+    fmt::print("{} of {} cases finished", done.finished, plan.cases.size());
+    if (done.unsure > 0) fmt::print(", {} not steady or not precise", done.unsure);
+    if (done.in_queue > 0) fmt::print("; {} packings are in Slurm's queue already", done.in_queue);
+    if (done.submitted > 0) {
+        fmt::print("; {} packings submitted as job {}", done.submitted, fmt::join(done.jobs, ", "));
+        if (done.again > 0) fmt::print(" ({} of them once more)", done.again);
+    }
+    fmt::print("\n");
+    say_what_is_left_aside(plan);
+    CampaignLog(plan.folder)
+        .info(fmt::format("submitted {} packings to Slurm, job {}", done.submitted,
+                          fmt::join(done.jobs, ", ")));
+    fmt::print("follow with: vibrotrough status {}\n", shell_word(plan.folder));
+    return done.unsure > 0 && done.submitted + done.in_queue == 0 ? some_cases_failed : all_well;
 }
 
 /// Shows what the check warns of. Errors refuse the campaign unless the user accepts them.
@@ -63,19 +114,19 @@ int run(Options const& options) {
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine.version);
 
+    if (campaign.run.executor == ExecutorKind::slurm) return submit(plan, campaign, options, engine);
     campaign::Summary summary;
     {
-        ProgressPrinter printer;
-        summary = campaign::run_locally(plan, options.campaign_file, engine, options.jobs, printer);
+        auto const shown = make_observer(options);
+        LoggingObserver observer(*shown, folder);
+        summary =
+            campaign::run_locally(plan, options.campaign_file, engine, campaign.run, options.jobs, observer);
     }
+    std::string const end = describe(summary, plan.cases.size());
+    CampaignLog(folder).info("run ends: " + end);
     campaign::write_campaign_file(plan);
-    std::size_t const left =
-        plan.cases.size() - static_cast<std::size_t>(summary.finished + summary.unsure + summary.failed);
-    fmt::print("{} of {} cases finished", summary.finished, plan.cases.size());
-    if (summary.unsure > 0) fmt::print(", {} not steady or not precise", summary.unsure);
-    if (summary.failed > 0) fmt::print(", {} failed", summary.failed);
-    if (left > 0) fmt::print(", {} left", left);
-    fmt::print("{}\n", summary.interrupted ? "; interrupted: the same command goes on where it stopped" : "");
+    fmt::print("{}\n", end);
+    say_what_is_left_aside(plan);
     fmt::print("results in {}; see them with: vibrotrough compare {}\n", folder.string(), shell_word(folder));
     return exit_code_of(summary);
 }
@@ -90,11 +141,17 @@ void add_run(CLI::App& program, int& exit_code) {
         ->required();
     command->add_option("--output", options->output, "Folder of the campaign's results; default runs/<name>")
         ->type_name("DIR");
-    command->add_option("--jobs", options->jobs, "Engines that run at a time")
+    command
+        ->add_option("--jobs", options->jobs,
+                     "Cores to use: so many engines at a time, fewer when they have several MPI ranks")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
         ->type_name("PATH");
+    command->add_option("--progress", options->progress, "How to show progress on standard error")
+        ->check(CLI::IsMember({"text", "json", "none"}))
+        ->capture_default_str();
+    command->add_flag("--quiet", options->quiet, "Show no progress; the same as --progress none");
     command->add_flag("--accept-failed-probes", options->accept_failed_probes,
                       "Run although the engine failed its probes (see probe-engine)");
     command->add_flag("--accept-findings", options->accept_findings,
@@ -107,6 +164,9 @@ void add_run(CLI::App& program, int& exit_code) {
         "Exit codes: 0 all cases finished; 1 some failed, or were not steady or not precise; 2 the input is "
         "wrong;\n"
         "3 something is missing (no liggghts, one that failed its probes, no disk);\n130 interrupted.\n"
+        "With executor = \"slurm\" under [run] the packings are submitted as job arrays and the command "
+        "returns;\n"
+        "the same command sees which tasks died and submits them again.\n"
         "Example: vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -32,7 +32,8 @@ Counts count(std::vector<campaign::CaseOverview> const& cases) {
             ++(one.outcome == "finished" ? counts.finished : counts.unsure);
         } else if (one.outcome == "running") {
             ++counts.running;
-        } else if (one.outcome == "open" || one.outcome == "interrupted") {
+        } else if (one.outcome == "open" || one.outcome == "interrupted" || one.outcome == "queued" ||
+                   one.outcome == "unknown") {
             ++counts.left;
         } else {
             ++counts.failed;

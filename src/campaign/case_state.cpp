@@ -1,9 +1,11 @@
 #include "campaign/case_state.hpp"
 
 #include "campaign/layer.hpp"
+#include "campaign/outcome_names.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/time.hpp"
 #include "store/result_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -63,11 +65,10 @@ std::optional<Failure> read_failure(PlannedCase const& planned) {
 }
 
 void write_failure(PlannedCase const& planned, Failure const& failure) {
-    Json const json{{"case", planned.id},
-                    {"outcome", failure.outcome},
-                    {"message", failure.message},
-                    {"packing", failure.packing},
-                    {"attempts", failure.attempts}};
+    Json const json{{"case", planned.id},           {"outcome", failure.outcome},
+                    {"message", failure.message},   {"packing", failure.packing},
+                    {"attempts", failure.attempts}, {"try_again", retry_advice(failure.outcome)},
+                    {"host", host_name()},          {"time", utc_now()}};
     make_folder(planned.folder);
     write_file_atomically(planned.failure_file(), json.dump(2) + "\n");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "campaign/file_lock.hpp"
+
 #include <filesystem>
 
 namespace vibrotrough::campaign {
@@ -9,15 +11,12 @@ class FolderLock {
   public:
     /// @throws MissingError when another driver holds the folder
     explicit FolderLock(std::filesystem::path const& folder);
-    ~FolderLock();
-    FolderLock(FolderLock const&) = delete;
-    FolderLock& operator=(FolderLock const&) = delete;
 
     /// Whether some driver holds the folder now.
     static bool is_held(std::filesystem::path const& folder);
 
   private:
-    int descriptor_;
+    FileLock lock_;
 };
 
 }  // namespace vibrotrough::campaign

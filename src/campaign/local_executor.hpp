@@ -2,21 +2,37 @@
 
 #include "campaign/plan.hpp"
 #include "engine/engine.hpp"
+#include "measure/estimate.hpp"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace vibrotrough::campaign {
 
+/// A packing that is being simulated now.
+struct RunningPacking {
+    PlannedCase const* planned;
+    int packing;
+    int cycles;
+    std::optional<measure::PackingEstimate> estimate;  ///< of velocity efficiency, from the cycles so far
+    double elapsed;                                    ///< s
+    double time_to_go;                                 ///< s, negative while unknown
+};
+
 /// Where a campaign stands.
 struct Progress {
-    int finished = 0;        ///< cases with a result
-    int failed = 0;          ///< cases that failed in this run
-    int running = 0;         ///< packings being simulated
-    int left = 0;            ///< cases neither finished nor failed, running ones included
-    int packings_done = 0;   ///< of all unfinished cases, in this run and before
-    int packings = 0;        ///< of all cases that this run works on
-    double elapsed = 0;      ///< s
-    double time_to_go = -1;  ///< s, negative while unknown
+    int finished = 0;             ///< cases with a result
+    int failed = 0;               ///< cases that failed in this run
+    int running = 0;              ///< packings being simulated
+    int left = 0;                 ///< cases neither finished nor failed, running ones included
+    int packings_done = 0;        ///< of all unfinished cases, in this run and before
+    int packings = 0;             ///< of all cases that this run works on
+    double elapsed = 0;           ///< s
+    double time_to_go = -1;       ///< s, negative while unknown
+    double core_time = 0;         ///< core seconds spent on results and on what runs now
+    double core_time_to_go = -1;  ///< core seconds, negative while unknown
+    std::vector<RunningPacking> engines;
 };
 
 /// Is told what happens. Called from the executor's thread.
@@ -36,13 +52,14 @@ struct Summary {
 };
 
 /// Makes the folder, freezes the campaign in it and runs every packing of every case that is not finished,
-/// `jobs` engines at a time, on this machine. SIGINT and SIGTERM end the engines and return. A failed case
-/// does not stop the others.
+/// on `jobs` cores of this machine, the longest expected first. SIGINT and SIGTERM end the engines and
+/// return. A failed case does not stop the others.
 /// @param campaign_file  the file that the plan was made from
-/// @param jobs           at least 1
+/// @param settings       retries, ranks and time limit
+/// @param jobs           cores to use, at least 1
 /// @throws MissingError when another driver works on the folder or the disk refuses (the engines are ended
 /// first)
 Summary run_locally(Plan const& plan, std::filesystem::path const& campaign_file,
-                    engine::Engine const& engine, int jobs, Observer& observer);
+                    engine::Engine const& engine, RunSettings const& settings, int jobs, Observer& observer);
 
 }  // namespace vibrotrough::campaign

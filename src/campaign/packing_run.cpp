@@ -97,7 +97,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         started_ = checkpoint->started;
         earlier_wall_time_ = checkpoint->wall_time;
         sealed_cycle_ = checkpoint->cycle;
-        write_file_atomically(folder_ / deck::control_file, deck::control_go_on);
+        replace_file(folder_ / deck::control_file, deck::control_go_on);
     }
     start_ = std::chrono::steady_clock::now();
     process_ = std::make_unique<engine::EngineProcess>(
@@ -127,11 +127,12 @@ void PackingRun::look() {
         auto const series = measure::read_cycles(folder_ / "cycles.csv", deck_.time.steps_per_cycle,
                                                  planned_.scenario.layer.grains);
         cycles_ = series.cycles();
+        if (cycles_ >= 2) estimate_ = estimate_series(planned_.scenario, series).estimate;
         if (!enough_cycles(planned_.scenario, series)) return;
     } catch (InputError const&) {
         return;  // judged when the engine has ended
     }
-    write_file_atomically(folder_ / deck::control_file, deck::control_stop);
+    replace_file(folder_ / deck::control_file, deck::control_stop);
     told_to_end_ = true;
 }
 
@@ -146,7 +147,7 @@ void PackingRun::interrupt() {
 
 PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     // By hand the deck runs on as far as max_cycles.
-    write_file_atomically(folder_ / deck::control_file, deck::control_go_on);
+    replace_file(folder_ / deck::control_file, deck::control_go_on);
     if (interrupted_) return {false, "interrupted", "the run was interrupted"};
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.outcome != engine::Outcome::completed)

@@ -5,6 +5,7 @@
 #include "campaign/settled_packings.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
+#include "measure/estimate.hpp"
 
 #include <chrono>
 #include <functional>
@@ -43,6 +44,9 @@ class PackingRun {
     int packing() const { return packing_; }
     int cycles() const { return cycles_; }
 
+    /// Of the cycles seen so far; nothing before the first look at them.
+    std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
+
   private:
     void start_on(Settled const& settled);
     void start_engine(std::optional<Checkpoint> const& checkpoint);
@@ -63,6 +67,7 @@ class PackingRun {
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
+    std::optional<measure::PackingEstimate> estimate_;
     int sealed_cycle_ = 0;
     bool told_to_end_ = false;
     bool interrupted_ = false;

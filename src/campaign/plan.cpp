@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/text.hpp"
 #include "deck/deck.hpp"
 
 #include <set>
@@ -50,11 +51,11 @@ void write_named_files(Scenario const& scenario, fs::path const& folder) {
 void write_case_files(PlannedCase const& planned) {
     make_folder(planned.folder);
     write_named_files(planned.scenario, planned.folder);
-    write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+    replace_file(planned.folder / "scenario.toml", to_toml(planned.scenario));
 }
 
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
-    Plan plan{campaign.name, folder, engine_version, {}};
+    Plan plan{campaign.name, folder, engine_version, {}, campaign.files};
     std::set<std::string> ids;
     for (Scenario const& scenario : campaign.cases) {
         std::string const id = case_id(scenario, engine_version);
@@ -69,6 +70,8 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    for (fs::path const& file : plan.files)
+        write_file_atomically(plan.folder / file.filename(), read_file(file));
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
         fs::remove(certificate);  // another engine's
@@ -88,14 +91,32 @@ Plan open_plan(fs::path const& folder) {
                         "that 'vibrotrough run' made",
                         folder.string()));
     }
+    return make_plan(read_campaign(folder / "campaign.toml"), folder, read_engine(folder).version);
+}
+
+engine::Engine read_engine(fs::path const& folder) {
     try {
         auto const json = nlohmann::json::parse(read_file(folder / "engine.json"));
-        return make_plan(read_campaign(folder / "campaign.toml"), folder,
-                         json.at("version").get<std::string>());
+        return {json.at("program").get<std::string>(), json.at("version").get<std::string>()};
     } catch (nlohmann::json::exception const&) {
         throw InputError(fmt::format("{} is damaged; run the campaign again to mend it",
                                      (folder / "engine.json").string()));
     }
+}
+
+PlannedCase open_case(fs::path const& folder, std::string const& id, std::string const& engine_version) {
+    bool const is_id = id.size() == 12 && id.find_first_not_of("0123456789abcdef") == std::string::npos;
+    fs::path const file = folder / "cases" / id / "scenario.toml";
+    if (!is_id || !fs::is_regular_file(file))
+        throw InputError(
+            fmt::format("there is no case '{}' in {}; give the folder that 'vibrotrough run' made",
+                        printable(id, 60), folder.string()));
+    Plan const plan = make_plan(read_campaign(file), folder, engine_version);
+    if (plan.cases.size() == 1 && plan.cases.front().id == id) return plan.cases.front();
+    throw InputError(
+        fmt::format("{} is not the case that its folder's name says (another version of "
+                    "vibrotrough?); run the campaign again",
+                    file.string()));
 }
 
 }  // namespace vibrotrough::campaign

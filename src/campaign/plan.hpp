@@ -32,6 +32,7 @@ struct Plan {
     std::filesystem::path folder;
     std::string engine_version;
     std::vector<PlannedCase> cases;
+    std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
 };
 
 /// Works out the cases' ids and folders below `folder`. The same case always has the same id: it does not
@@ -55,5 +56,15 @@ void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine
 /// The plan of a folder that `freeze` made.
 /// @throws InputError when it is no campaign folder or is damaged
 Plan open_plan(std::filesystem::path const& folder);
+
+/// The engine that the campaign in `folder` was planned with (engine.json).
+/// @throws InputError when the file is damaged
+engine::Engine read_engine(std::filesystem::path const& folder);
+
+/// One case of a campaign folder from its own frozen scenario.toml: what a task on a cluster reads instead of
+/// planning the whole campaign.
+/// @throws InputError when the case is not there, or is not what its id says
+PlannedCase open_case(std::filesystem::path const& folder, std::string const& id,
+                      std::string const& engine_version);
 
 }  // namespace vibrotrough::campaign

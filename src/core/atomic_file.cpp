@@ -1,6 +1,7 @@
 #include "core/atomic_file.hpp"
 
 #include "core/error.hpp"
+#include "core/time.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -27,6 +28,37 @@ void sync_to_disk(fs::path const& path, int flags) {
     }
 }
 
+void write_and_rename(fs::path const& path, std::function<void(fs::path const&)> const& write, bool sync) {
+    // Machines that share a file system may have processes with the same number.
+    fs::path const temporary =
+        path.string() + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
+    try {
+        write(temporary);
+        if (sync) sync_to_disk(temporary, O_RDONLY);
+        fs::rename(temporary, path);
+        if (sync)
+            sync_to_disk(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+    } catch (fs::filesystem_error const& error) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw MissingError(fmt::format("cannot write {} ({})", path.string(), error.code().message()));
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw;
+    }
+}
+
+void write_whole(fs::path const& path, fs::path const& temporary, std::string_view content) {
+    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) {
+        throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
+                                       path.string(), std::strerror(errno)));
+    }
+}
+
 }  // namespace
 
 std::string read_file(fs::path const& path) {
@@ -50,33 +82,16 @@ void make_folder(fs::path const& path) {
 }
 
 void write_atomically(fs::path const& path, std::function<void(fs::path const&)> const& write) {
-    fs::path const temporary = path.string() + ".part-" + std::to_string(::getpid());
-    try {
-        write(temporary);
-        sync_to_disk(temporary, O_RDONLY);
-        fs::rename(temporary, path);
-        sync_to_disk(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
-    } catch (fs::filesystem_error const& error) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw MissingError(fmt::format("cannot write {} ({})", path.string(), error.code().message()));
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw;
-    }
+    write_and_rename(path, write, true);
 }
 
 void write_file_atomically(fs::path const& path, std::string_view content) {
-    write_atomically(path, [&](fs::path const& temporary) {
-        std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-        file.write(content.data(), static_cast<std::streamsize>(content.size()));
-        file.close();
-        if (!file) {
-            throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
-                                           path.string(), std::strerror(errno)));
-        }
-    });
+    write_atomically(path, [&](fs::path const& temporary) { write_whole(path, temporary, content); });
+}
+
+void replace_file(fs::path const& path, std::string_view content) {
+    write_and_rename(
+        path, [&](fs::path const& temporary) { write_whole(path, temporary, content); }, false);
 }
 
 }  // namespace vibrotrough

@@ -23,4 +23,8 @@ void write_atomically(std::filesystem::path const& path,
 /// The same for a text that is already there.
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 
+/// The same without the sync, which costs more than all else about a small file: never seen half-written while the
+/// machine runs, but perhaps empty after a power cut. For files that are written anew before each use.
+void replace_file(std::filesystem::path const& path, std::string_view content);
+
 }  // namespace vibrotrough

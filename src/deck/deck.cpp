@@ -37,18 +37,31 @@ std::string tidy(std::string const& text) {
     return result;
 }
 
+/// The template with its parts, {{> name}}, in their places.
+std::string with_parts(std::string const& name) {
+    std::string text(input_templates.at(name));
+    for (std::size_t start = 0; (start = text.find("{{> ", start)) != std::string::npos;) {
+        std::size_t const end = text.find("}}", start);
+        std::string const part = with_parts(text.substr(start + 4, end - start - 4));
+        text.replace(start, end + 2 - start, part);
+        start += part.size();
+    }
+    return text;
+}
+
+/// Parsed once: a campaign of ten thousand cases renders each of its decks to know its cases' ids.
+mustache::mustache& parsed(std::string const& name) {
+    thread_local std::map<std::string, mustache::mustache> decks;
+    auto found = decks.find(name);
+    if (found == decks.end()) found = decks.emplace(name, mustache::mustache(with_parts(name))).first;
+    return found->second;
+}
+
 std::string render(char const* name, mustache::data const& data) {
-    mustache::mustache deck{std::string(input_templates.at(name))};
+    mustache::mustache& deck = parsed(name);
     std::string const result = deck.render(data);
     if (!deck.is_valid()) throw std::logic_error("input_templates: " + deck.error_message());
     return tidy(result);
-}
-
-void add_partials(mustache::data& data) {
-    for (auto const& [name, content] : input_templates) {
-        if (name == drive_file || name == settle_file) continue;
-        data.set(std::string(name), mustache::partial([content = std::string(content)] { return content; }));
-    }
 }
 
 std::map<std::string, std::string> meshes(Scenario const& scenario, DeckNumbers const& numbers) {
@@ -76,7 +89,6 @@ Deck make_deck(Scenario const& scenario, int packing) {
     deck.weight = deck.mass * gravity * std::cos(scenario.trough.inclination);
     mustache::data data = describe(scenario, numbers, packing);
     for (auto const& [name, value] : phase_sampling(scenario, numbers.time)) data.set(name, value);
-    add_partials(data);
     deck.settle_files = meshes(scenario, numbers);
     deck.settle_files[settle_file] = render(settle_file, data);
     deck.files = deck.settle_files;
@@ -91,7 +103,7 @@ std::string checkpoint_file(int cycle) {
 
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {
     make_folder(folder);
-    for (auto const& [name, content] : files) write_file_atomically(folder / name, content);
+    for (auto const& [name, content] : files) replace_file(folder / name, content);
 }
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder) {

@@ -78,6 +78,33 @@ std::string ask_version(fs::path const& program) {
                                    program.string()));
 }
 
+/// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
+std::vector<std::string> run_words(Engine const& engine, Launch const& launch) {
+    std::vector<std::string> words{no_daemon};
+    if (engine.ranks > 1) {
+        if (bp::search_path("mpirun").empty()) {
+            throw MissingError(
+                "no mpirun on the PATH for more than one rank; install openmpi-bin, or write "
+                "ranks = 1 under [run]");
+        }
+        // mpirun would bind every run to the first cores; as root it wants to be told twice.
+        words = {"OMPI_MCA_mpi_yield_when_idle=1",
+                 "OMPI_ALLOW_RUN_AS_ROOT=1",
+                 "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                 "mpirun",
+                 "--bind-to",
+                 "none",
+                 "--oversubscribe",
+                 "-np",
+                 std::to_string(engine.ranks)};
+    }
+    for (char const* word : {"stdbuf", "-oL"}) words.push_back(word);
+    words.push_back(engine.program.string());
+    for (std::string const& word : {std::string("-in"), launch.input}) words.push_back(word);
+    words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
+    return words;
+}
+
 ExitStatus decode(int native) {
     return WIFSIGNALED(native) ? ExitStatus{0, WTERMSIG(native)} : ExitStatus{WEXITSTATUS(native), 0};
 }
@@ -118,16 +145,12 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                 std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
-    std::vector<std::string> command{no_daemon, "stdbuf",    "-oL", engine.program.string(),
-                                     "-in",     launch.input};
-    command.insert(command.end(), launch.arguments.begin(), launch.arguments.end());
     try {
-        // Line-buffered, so that an error message is not lost with the buffer.
-        state_->process =
-            bp::child(bp::search_path("env"), bp::args(command), bp::start_dir(folder.string()),
-                      (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null,
-                      context, bp::on_exit(ended),
-                      bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
+        state_->process = bp::child(
+            bp::search_path("env"), bp::args(run_words(engine, launch)), bp::start_dir(folder.string()),
+            (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null, context,
+            bp::on_exit(ended),
+            bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
         throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
                                        error.code().message()));

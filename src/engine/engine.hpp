@@ -16,6 +16,7 @@ struct Engine {
     std::filesystem::path program;
     std::string version;  ///< as it names itself, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32
                           ///< by buildd"
+    int ranks = 1;        ///< MPI processes of every run
     std::string certificate = {};  ///< JSON of the binary's Certificate; empty when it was not probed
 };
 
@@ -42,7 +43,8 @@ struct Launch {
 /// share the terminal's Ctrl-C. Destroying the object kills the engine.
 class EngineProcess {
   public:
-    /// Starts `liggghts -in <input>` in `folder`. `on_exit` is called once, from `context`, by the thread
+    /// Starts `liggghts -in <input>` in `folder`, under mpirun when it has several ranks. `on_exit` is called
+    /// once, from `context`, by the thread
     /// that runs it; that thread must be the one that constructs this object and must outlive the engine.
     /// @throws MissingError when the process cannot be started
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenario/case_values.hpp"
+#include "scenario/run_settings.hpp"
 #include "scenario/scenario.hpp"
 
 #include <filesystem>
@@ -13,7 +14,11 @@ namespace vibrotrough {
 /// A campaign file, read and checked.
 struct Campaign {
     std::string name;
-    std::vector<Scenario> cases;  ///< the Cartesian product of the sweep; at least one
+    std::vector<Scenario>
+        cases;        ///< the Cartesian product of the sweep and the lists, less the exclusions; at least one
+    RunSettings run;  ///< how to run them
+    std::vector<std::filesystem::path> files;  ///< that the campaign file reads: CSV files of points
+    std::size_t excluded = 0;                  ///< cases that the exclusions left out
 };
 
 /// Reads and checks a campaign file.

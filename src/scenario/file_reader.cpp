@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "core/text.hpp"
+#include "scenario/design_reader.hpp"
+#include "scenario/run_section.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +66,7 @@ class Reader {
 
     CampaignText read() {
         for (auto const& [name, node] : in_file_order(root_)) read_section(*name, *node);
+        check_design(result_, file_);
         for (Key const& key : all_keys()) check_present(key);
         return std::move(result_);
     }
@@ -81,13 +84,26 @@ class Reader {
 
     void read_section(toml::key const& name, toml::node const& node) {
         Position const where = position(name.source());
+        auto const read = [this](Key const& key, toml::node const& value) {
+            return read_content(key, value);
+        };
+        if (name.str() == "run" && node.is_table()) {
+            result_.run = read_run_section(*node.as_table(), file_, read);
+            return;
+        }
+        if (is_design_section(name.str())) {
+            read_design_section(name.str(), node, file_, read, result_);
+            return;
+        }
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
             fail(where, printable(name.str(), 60), "stands above the first [section]",
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, printable(name.str(), 60), "unknown section",
-                 "the sections are campaign, trough, grains, layer, measure, output, solver and sweep");
+                 "the sections are campaign, trough, grains, layer, measure, output, solver, sweep, zip, "
+                 "points, "
+                 "points_from, sample, exclude and run");
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",
@@ -330,7 +346,10 @@ class Reader {
 
     bool given(std::string_view path) const {
         return (path == "campaign.name" && !result_.name.empty()) || result_.base.contains(path) ||
-               std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; });
+               std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; }) ||
+               std::ranges::any_of(result_.lists, [&](PointList const& list) {
+                   return std::ranges::find(list.keys, path) != list.keys.end();
+               });
     }
 
     void check_present(Key const& key) const {

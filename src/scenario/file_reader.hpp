@@ -1,7 +1,10 @@
 #pragma once
 
 #include "scenario/case_values.hpp"
+#include "scenario/design.hpp"
+#include "scenario/run_settings.hpp"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +23,10 @@ struct CampaignText {
     std::string name;
     CaseValues base;
     std::vector<Axis> sweep;
+    std::vector<PointList> lists;
+    std::vector<Exclusion> exclusions;
+    std::vector<std::filesystem::path> files;  ///< that the campaign file names
+    RunSettings run;
 };
 
 /// Parses the text and checks every key and value for itself, and that each group of exclusive keys has one.

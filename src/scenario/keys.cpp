@@ -293,7 +293,9 @@ std::vector<std::string_view> choices(Key const& key) {
 
 std::string key_reference() {
     std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
-    for (Key const& key : keys) {
+    std::vector<Key> all(keys.begin(), keys.end());
+    all.insert(all.end(), run_keys().begin(), run_keys().end());
+    for (Key const& key : all) {
         std::string needed = "required";
         if (key.fallback) needed = std::isnan(*key.fallback) ? "none" : fmt::format("{:g}", *key.fallback);
         if (key.kind == KeyKind::choice || key.path == "grains.shape") needed = choices(key).front();

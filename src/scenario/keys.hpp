@@ -44,13 +44,16 @@ std::vector<std::string_view> choices(Key const& key);
 /// All keys, in the order of the reference.
 std::span<Key const> all_keys();
 
+/// The keys of [run] and [run.slurm]: how a campaign is run, not what its cases are. Not among all_keys().
+std::span<Key const> run_keys();
+
 /// The key with this path, or nullptr.
 Key const* find_key(std::string_view path);
 
 /// The known path nearest to a misspelt one, or an empty text when none is near.
 std::string_view nearest_key(std::string_view path);
 
-/// The reference of all keys as a Markdown table, as it stands in README.md.
+/// The reference of all keys, those of [run] last, as a Markdown table, as it stands in README.md.
 std::string key_reference();
 
 }  // namespace vibrotrough

@@ -1,0 +1,118 @@
+#include "app/progress_log.hpp"
+
+#include "core/text.hpp"
+#include "core/time.hpp"
+#include "core/version.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+namespace vibrotrough::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null when it is not known.
+Json known(double value) {
+    return value >= 0 ? Json(value) : Json();
+}
+
+Json describe(campaign::RunningPacking const& one) {
+    Json json{{"case", one.planned->id},  {"packing", one.packing},
+              {"cycles", one.cycles},     {"max_cycles", one.planned->scenario.measure.max_cycles},
+              {"efficiency", nullptr},    {"efficiency_half_width", nullptr},
+              {"elapsed_s", one.elapsed}, {"time_to_go_s", known(one.time_to_go)}};
+    if (one.estimate && std::isfinite(one.estimate->mean)) {
+        json["efficiency"] = one.estimate->mean;
+        json["efficiency_half_width"] = one.estimate->half_width;
+    }
+    return json;
+}
+
+}  // namespace
+
+void JsonProgress::progressed(campaign::Progress const& progress) {
+    if (shown_ >= 0 && progress.elapsed - shown_ < 1) return;
+    shown_ = progress.elapsed;
+    Json engines = Json::array();
+    for (auto const& one : progress.engines) engines.push_back(describe(one));
+    Json const json{{"event", "progress"},
+                    {"time", utc_now()},
+                    {"finished", progress.finished},
+                    {"failed", progress.failed},
+                    {"running", progress.running},
+                    {"left", progress.left},
+                    {"packings_done", progress.packings_done},
+                    {"packings", progress.packings},
+                    {"elapsed_s", progress.elapsed},
+                    {"time_to_go_s", known(progress.time_to_go)},
+                    {"core_time_s", progress.core_time},
+                    {"core_time_to_go_s", known(progress.core_time_to_go)},
+                    {"engines", engines}};
+    fmt::print(stderr, "{}\n", json.dump());
+}
+
+void JsonProgress::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+                              std::string const& message) {
+    Json const json{{"event", "case_ended"},
+                    {"time", utc_now()},
+                    {"case", planned.id},
+                    {"outcome", outcome},
+                    {"message", message}};
+    fmt::print(stderr, "{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+CampaignLog::CampaignLog(std::filesystem::path const& folder) {
+    try {
+        logger_ = std::make_shared<spdlog::logger>(
+            "campaign",
+            std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "campaign.log").string()));
+        logger_->set_pattern("%Y-%m-%dT%H:%M:%SZ %l %v", spdlog::pattern_time_type::utc);
+        logger_->flush_on(spdlog::level::info);
+        logger_->set_error_handler([](std::string const&) {});
+    } catch (spdlog::spdlog_ex const&) {
+        logger_ = nullptr;
+    }
+}
+
+void CampaignLog::info(std::string const& line) const {
+    if (logger_) logger_->info("{}", printable(line, 1000));
+}
+
+void CampaignLog::warn(std::string const& line) const {
+    if (logger_) logger_->warn("{}", printable(line, 1000));
+}
+
+LoggingObserver::LoggingObserver(campaign::Observer& next, std::filesystem::path folder)
+    : next_(next), folder_(std::move(folder)) {}
+
+CampaignLog const& LoggingObserver::log() {
+    if (!log_) {
+        log_ = std::make_unique<CampaignLog>(folder_);
+        log_->info(fmt::format("run starts: vibrotrough {} ({}) on {}, process {}", program_version(),
+                               program_commit(), host_name(), ::getpid()));
+    }
+    return *log_;
+}
+
+void LoggingObserver::progressed(campaign::Progress const& progress) {
+    log();
+    next_.progressed(progress);
+}
+
+void LoggingObserver::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+                                 std::string const& message) {
+    if (message.empty()) {
+        log().info(fmt::format("case {}: {}", planned.id, outcome));
+    } else {
+        log().warn(fmt::format("case {}: {}: {}", planned.id, outcome, message));
+    }
+    next_.case_ended(planned, outcome, message);
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,47 @@
+#include "campaign/case_end.hpp"
+
+#include "campaign/assemble.hpp"
+#include "campaign/case_state.hpp"
+#include "campaign/file_lock.hpp"
+#include "core/atomic_file.hpp"
+#include "store/result_file.hpp"
+
+namespace vibrotrough::campaign {
+namespace {
+
+FileLock lock_case(PlannedCase const& planned) {
+    make_folder(planned.folder);
+    return FileLock::wait_for(planned.folder / ".lock");
+}
+
+/// What a killed process left half-written; whoever writes here holds the case's lock.
+void remove_halves(PlannedCase const& planned) {
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(planned.folder, ignored)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("result.h5.part-") || name.starts_with("failure.json.part-"))
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+}  // namespace
+
+std::optional<std::string> finish_case(PlannedCase const& planned, std::string const& engine_version) {
+    // A packing that ends now has its marker already: of two that end at once, at least one sees both.
+    if (count_finished_packings(planned) < planned.scenario.measure.packings) return {};
+    FileLock const lock = lock_case(planned);
+    if (auto const result = read_whole_result(planned)) return result->outcome;
+    remove_halves(planned);
+    store::CaseRecord const record = assemble(planned, engine_version);
+    store::write_result(planned.result_file(), record);
+    std::filesystem::remove(planned.failure_file());
+    return record.outcome;
+}
+
+void record_failure(PlannedCase const& planned, int packing, PackingOutcome const& outcome) {
+    FileLock const lock = lock_case(planned);
+    auto const before = read_failure(planned);
+    write_failure(planned, {outcome.outcome, outcome.message, packing, before ? before->attempts + 1 : 1});
+}
+
+}  // namespace vibrotrough::campaign

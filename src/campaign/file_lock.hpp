@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace vibrotrough::campaign {
+
+/// An exclusive lock on a file; the kernel lets go when the process ends, however it ends. Also between
+/// machines, where the file system knows locks (NFS 4 does).
+class FileLock {
+  public:
+    /// Takes the lock, or gives nothing when another process has it.
+    /// @throws MissingError when the file cannot be made
+    static std::optional<FileLock> take(std::filesystem::path const& path);
+
+    /// Takes the lock as soon as nobody else has it.
+    /// @throws MissingError when the file cannot be made
+    static FileLock wait_for(std::filesystem::path const& path);
+
+    /// Whether somebody has it now; asking does not disturb.
+    static bool is_held(std::filesystem::path const& path);
+
+    ~FileLock();
+    FileLock(FileLock&& other) noexcept;
+    FileLock& operator=(FileLock&&) = delete;
+
+  private:
+    explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+
+    int descriptor_;
+};
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,85 @@
+#include "campaign/result_index.hpp"
+
+#include "campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "store/result_file.hpp"
+#include "store/sample_record.hpp"
+#include "store/summary.hpp"
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResultIndexTest : public CampaignFolder {
+  protected:
+    ResultIndexTest() {
+        fs::create_directories(planned.folder);
+        store::write_result(planned.result_file(), store::sample_record(planned.id));
+    }
+    /// What a fresh look finds, and whether it had to read the result itself.
+    std::pair<std::optional<store::CaseRecord>, bool> look() const {
+        ResultIndex index(plan);
+        auto record = index.find(planned);
+        bool const read = index.has_changed();
+        index.save();
+        return {record, read};
+    }
+};
+
+TEST_F(ResultIndexTest, ReadsEachResultOnce) {
+    EXPECT_TRUE(look().second);
+    auto const [record, read] = look();
+    EXPECT_FALSE(read);
+    ASSERT_TRUE(record);
+    auto const whole = store::read_result(planned.result_file());
+    EXPECT_EQ(record->outcome, whole.outcome);
+    EXPECT_EQ(record->estimate.mean, whole.estimate.mean);
+    ASSERT_EQ(record->packings.size(), whole.packings.size());
+    EXPECT_EQ(record->packings[0].estimate.half_width, whole.packings[0].estimate.half_width);
+    EXPECT_EQ(record->packings[0].wall_time, whole.packings[0].wall_time);
+    EXPECT_EQ(record->provenance.host, whole.provenance.host);
+    EXPECT_TRUE(record->packings[0].series.x.empty()) << "a summary has no cycles";
+}
+
+TEST_F(ResultIndexTest, NoticesADamagedAndARemovedResult) {
+    look();
+    std::string const whole = read_file(planned.result_file());
+    std::string flipped = whole;
+    flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
+    overwrite(planned.result_file(), flipped);
+    EXPECT_FALSE(look().first) << "as large as before, but not the same";
+    overwrite(planned.result_file(), whole);
+    EXPECT_TRUE(look().first);
+    fs::remove(planned.result_file());
+    EXPECT_FALSE(look().first);
+}
+
+TEST_F(ResultIndexTest, ADamagedIndexIsMadeAnew) {
+    look();
+    fs::path const file = folder / ".index";
+    std::string const whole = read_file(file);
+    for (std::string const& damaged : {std::string(), whole.substr(0, whole.size() / 2), whole + "x",
+                                       "another version\n" + whole, std::string("\xff\xff\xff")}) {
+        overwrite(file, damaged);
+        auto const [record, read] = look();
+        EXPECT_TRUE(record && read);
+        EXPECT_EQ(read_file(file), whole);
+    }
+}
+
+TEST(Summary, EndsTooEarlyAnywhere) {
+    auto const record = store::sample_record("0123456789ab");
+    std::string const bytes = store::pack_summary(record);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        std::string_view part(bytes.data(), size);
+        EXPECT_THROW(store::unpack_summary(part, record.scenario), InputError) << size;
+    }
+    std::string_view all = bytes;
+    EXPECT_EQ(store::pack_summary(store::unpack_summary(all, record.scenario)), bytes);
+    EXPECT_TRUE(all.empty());
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign

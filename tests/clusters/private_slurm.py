@@ -1,0 +1,173 @@
+"""A private Slurm of one node, from Debian's packages, without systemd: munged, slurmctld and slurmd in a short
+temporary folder (the munge socket's path may have 108 characters), on loopback, without accounting.
+"""
+
+import getpass
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+os.environ["PATH"] += ":/usr/sbin:/sbin"
+
+CONFIGURATION = """\
+ClusterName=vibrotrough
+SlurmctldHost={host}(127.0.0.1)
+{listen}
+SlurmUser={user}
+SlurmdUser={user}
+SlurmctldPort={controller_port}
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.sock
+CredType=cred/munge
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+PlugStackConfig={folder}/plugstack.conf
+MailProg=/bin/true
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU_Memory
+SchedulerParameters=batch_sched_delay=0,bf_interval=1,sched_interval=1
+SlurmdParameters=config_overrides
+ReturnToService=2
+KillWait=5
+MinJobAge=3600
+MaxArraySize={max_array}
+AccountingStorageType=accounting_storage/none
+JobAcctGatherType=jobacct_gather/none
+NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={node_port} CPUs={cpus} RealMemory={memory} State=UNKNOWN
+PartitionName=main Nodes=n1 Default=YES MaxTime=INFINITE DefaultTime=60 State=UP
+PartitionName=short Nodes=n1 MaxTime=5 State=UP
+"""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def resolves_to_loopback(host):
+    try:
+        return socket.gethostbyname(host) == "127.0.0.1"
+    except OSError:
+        return False
+
+
+def memory_of_machine():
+    for line in Path("/proc/meminfo").read_text().splitlines():
+        if line.startswith("MemTotal"):
+            return int(line.split()[1]) * 9 // 10 // 1024
+    raise AssertionError("no MemTotal in /proc/meminfo")
+
+
+def wait_for(question, what, patience=60):
+    deadline = time.monotonic() + patience
+    while not question():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {patience} s in vain until {what}")
+        time.sleep(0.05)
+
+
+class PrivateSlurm:
+    """Use as a context; `environment` leads Slurm's commands to it."""
+
+    def __init__(self, cpus=4, max_array=1001):
+        for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue"):
+            if shutil.which(program) is None:
+                raise AssertionError(f"{program} is not installed: ./setup packages lists what the tests need")
+        self.folder = Path(tempfile.mkdtemp(prefix="vt", dir="/tmp"))
+        self.processes = {}
+        os.chmod(self.folder, 0o755)
+        self.environment = dict(os.environ, SLURM_CONF=str(self.folder / "slurm.conf"))
+        host = socket.gethostname()
+        for name in ("state", "spool"):
+            (self.folder / name).mkdir()
+        listen = "CommunicationParameters=NoCtldInAddrAny,NoInAddrAny" if resolves_to_loopback(host) else ""
+        (self.folder / "slurm.conf").write_text(
+            CONFIGURATION.format(host=host, user=getpass.getuser(), folder=self.folder, listen=listen, controller_port=free_port(), node_port=free_port(),
+                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array)  # fmt: skip
+        )
+        (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
+        (self.folder / "plugstack.conf").write_text("")
+        key = self.folder / "munge.key"
+        key.write_bytes(os.urandom(1024))
+        key.chmod(0o400)
+
+    def __enter__(self):
+        try:
+            self.start_munge()
+            self.start_controller()
+            self.start_node()
+            return self
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def __exit__(self, *_):
+        if "slurmctld" in self.processes:
+            subprocess.run(["scancel", "-u", getpass.getuser()], env=self.environment, capture_output=True, timeout=60)
+            ended = time.monotonic() + 15
+            while self.command("squeue", "-h").stdout.strip() and time.monotonic() < ended:
+                time.sleep(0.2)
+        for process in reversed(list(self.processes.values())):
+            process.terminate()
+            try:
+                process.wait(timeout=20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        self.kill_leftovers()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def kill_leftovers(self):
+        """slurmstepd and what it started outlive a killed slurmd; they know this cluster's configuration."""
+        mark = f"SLURM_CONF={self.folder}/slurm.conf".encode()
+        for process in Path("/proc").iterdir():
+            if not process.name.isdigit() or int(process.name) == os.getpid():
+                continue
+            try:
+                if mark in (process / "environ").read_bytes():
+                    os.kill(int(process.name), signal.SIGKILL)
+            except OSError:
+                pass
+
+    def start(self, name, *words):
+        log = open(self.folder / f"{name}.out", "ab")
+        self.processes[name] = subprocess.Popen(
+            [name, *map(str, words)], stdin=subprocess.DEVNULL, stdout=log, stderr=log, env=self.environment
+        )
+        log.close()
+
+    def start_munge(self):
+        folder = self.folder
+        self.start("munged", "--foreground", f"--key-file={folder}/munge.key", f"--socket={folder}/munge.sock",
+                   f"--pid-file={folder}/munged.pid", f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed")  # fmt: skip
+        wait_for(lambda: self.command("munge", "-n", "-S", folder / "munge.sock").returncode == 0, "munge answered")
+
+    def start_controller(self):
+        self.start("slurmctld", "-D", "-f", self.folder / "slurm.conf")
+        wait_for(lambda: "is UP" in self.command("scontrol", "ping").stdout, "slurmctld answered")
+
+    def start_node(self):
+        self.start("slurmd", "-D", "-N", "n1", "-f", self.folder / "slurm.conf")
+        wait_for(lambda: self.command("sinfo", "-h", "-N", "-o", "%T").stdout.startswith("idle"), "the node was idle")
+
+    def stop(self, name):
+        process = self.processes.pop(name)
+        process.terminate()
+        process.wait(timeout=20)
+
+    def command(self, *words):
+        return subprocess.run([str(word) for word in words], env=self.environment, capture_output=True, text=True, timeout=60)

@@ -1,0 +1,160 @@
+"""A real small campaign through a real Slurm: submitted, watched, with tasks killed on the way, and finished."""
+
+import os
+import signal
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
+from private_slurm import PrivateSlurm  # noqa: E402
+from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, wait_until, without_wall_time  # noqa: E402
+
+SWEEP = {"layer.grains": [60, 70, 80]}
+CHANGES = {"measure.packings": 2}
+ASKED = """
+[run]
+executor = "slurm"
+[run.slurm]
+partition = "main"
+time = "10 minutes"
+memory = "200 MB"
+"""
+
+
+def parent_of(process):
+    return int(Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[1])
+
+
+class Slurm(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        # A name that would do harm in a script that is not careful.
+        self.output = self.folder / "runs $(touch hacked) & 'quoted'"
+
+    def start_slurm(self, **settings):
+        slurm = PrivateSlurm(**settings)
+        slurm.__enter__()
+        self.addCleanup(slurm.__exit__)
+        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
+        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
+        return slurm
+
+    def write_slurm_campaign(self, asked=ASKED, changes=CHANGES, sweep=SWEEP):
+        path = self.folder / "campaign.toml"
+        path.write_text(campaign_text(changes, sweep) + asked)
+        return path
+
+    def simulations(self):
+        """Engines that simulate; each task also asks one for its version."""
+        found = []
+        for number in engines_in(self.output):
+            try:
+                if "packing" in os.readlink(f"/proc/{number}/cwd"):
+                    found.append(number)
+            except OSError:
+                pass  # ended meanwhile
+        return found
+
+    def status(self):
+        return self.ask_json("status")
+
+    def wait_for_the_end(self):
+        def over():
+            status = self.status()
+            outcomes = {case["outcome"] for case in status["cases"]}
+            return not outcomes & {"queued", "running", "unknown"} and status
+
+        return wait_until(over, "no task was left in Slurm")
+
+    def count_submitted(self):
+        return sum(len(path.read_text().splitlines()) for path in self.output.glob("slurm/*/tasks.txt"))
+
+    def test_a_campaign_with_tasks_killed_on_the_way(self):
+        self.start_slurm(cpus=2, max_array=5)  # arrays of at most 4 tasks, so that 6 packings make two
+        campaign = self.write_slurm_campaign()
+        done = self.run_campaign(campaign)
+        self.assertRegex(done.stdout, r"0 of 3 cases finished; 6 packings submitted as job \d+, \d+\n")
+        self.assertEqual({case["outcome"] for case in self.status()["cases"]} - {"queued", "running"}, set())
+
+        # What is in the queue is not submitted twice.
+        done = self.run_campaign(campaign)
+        self.assertRegex(done.stdout, r"packings are in Slurm's queue already\n")
+        self.assertEqual(self.count_submitted(), 6)
+
+        # One task dies without its shell, one with it: the first leaves its exit code, of the other Slurm knows.
+        engine = wait_until(self.simulations, "an engine ran")[0]
+        os.kill(parent_of(engine), signal.SIGKILL)
+        other = wait_until(lambda: [one for one in self.simulations() if one != engine], "another engine ran")[0]
+        work = parent_of(other)
+        os.kill(parent_of(work), signal.SIGKILL)
+        os.kill(work, signal.SIGKILL)
+        status = self.wait_for_the_end()
+        self.assertEqual(status["failed"], 0, status)
+        cut = [case for case in status["cases"] if case["outcome"] == "interrupted"]
+        self.assertEqual(sum(2 - case["packings_done"] for case in status["cases"]), 2, status)
+        told = " ".join(case["message"] for case in cut)
+        self.assertRegex(told, "exit code 137|Slurm says")
+        kept = {path: fingerprint(path) for path in self.output.glob("cases/*/packing-*/packing.json")}
+        self.assertEqual(len(kept), 4)
+
+        self.take_starts()
+        done = self.run_campaign(campaign)
+        self.assertRegex(done.stdout, r"2 packings submitted as job \d+ \(2 of them once more\)\n")
+        status = self.wait_for_the_end()
+        self.assertEqual(status["finished"], 3, status)
+        self.assertEqual(len(self.take_starts()), 2, "only what died was run again")
+        for path, before in kept.items():
+            self.assertEqual(fingerprint(path), before, f"{path} was written again")
+        self.assertFalse((self.folder / "hacked").exists() or (self.output / "hacked").exists())
+
+        # The same numbers as on this machine without Slurm; how a case is run does not change its id.
+        self.assertIn("3 of 3 cases finished\n", self.run_campaign(campaign).stdout)
+        through_slurm = without_wall_time(self.table())
+        campaign.write_text(campaign_text(CHANGES, SWEEP))
+        local = self.folder / "local"
+        self.run_campaign(campaign, output=local)
+        self.assertEqual(through_slurm, without_wall_time(self.table(local)))
+
+    def test_a_controller_that_does_not_answer_is_no_end(self):
+        slurm = self.start_slurm(cpus=2)
+        campaign = self.write_slurm_campaign(changes={"measure.packings": 1}, sweep=None)
+        self.run_campaign(campaign)
+        slurm.stop("slurmctld")
+        (self.output / "slurm" / "0001" / "task-0.ended").unlink(missing_ok=True)
+        if not list(self.output.glob("cases/*/result.h5")):
+            self.assertEqual({case["outcome"] for case in self.status()["cases"]}, {"unknown"})
+            refused = self.call(*self.run_arguments(campaign))
+            self.assert_one_line_error(refused, 3, "Slurm does not answer")
+        slurm.start_controller()
+        self.wait_for_the_end()
+        self.run_campaign(campaign)
+        status = self.wait_for_the_end()
+        self.assertEqual(status["finished"], 1, status)
+
+    def test_what_slurm_refuses_is_said_in_one_line(self):
+        self.start_slurm(cpus=1)
+        for asked, *parts in (
+            ('[run]\nexecutor = "slurm"\n[run.slurm]\npartition = "nowhere"\n', "Slurm does not take the job", "partition"),
+            ('[run]\nexecutor = "slurm"\n[run.slurm]\npartition = "short"\ntime = "2 hours"\n', "has a limit of 5 minutes, and run.slurm.time asks for 120"),
+        ):  # fmt: skip
+            campaign = self.write_slurm_campaign(asked)
+            self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 3, *parts)
+            self.assertEqual(self.status()["left"], 3)
+            self.assertEqual(self.count_submitted(), 0)
+
+    def test_a_task_out_of_time_says_so(self):
+        self.start_slurm(cpus=2)
+        # Two seconds for a packing that nobody would stop for an hour.
+        campaign = self.write_slurm_campaign(
+            ASKED.replace("[run.slurm]", 'time_limit = "2 s"\n[run.slurm]'),
+            {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000}, None,
+        )  # fmt: skip
+        self.run_campaign(campaign)
+        status = self.wait_for_the_end()
+        self.assertEqual([case["outcome"] for case in status["cases"]], ["time-limit"])
+        self.assertEqual(status["failed"], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,53 @@
+// Whatever an engine prints or leaves in its tables: the run gets a name and one printable line, and never
+// crashes its driver.
+
+#include "core/error.hpp"
+#include "engine/outcome.hpp"
+#include "measure/cycle_series.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path const& folder() {
+    static fs::path const made = [] {
+        fs::path const path = fs::temp_directory_path() / ("vibrotrough-fuzz-" + std::to_string(::getpid()));
+        fs::create_directories(path);
+        return path;
+    }();
+    return made;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+    using namespace vibrotrough;
+    if (size == 0) return 0;
+    // The first byte chooses the exit status, a zero byte separates what was printed from the table.
+    std::string const text(reinterpret_cast<char const*>(data) + 1, size - 1);
+    auto const gap = std::min(text.find('\0'), text.size());
+    std::ofstream(folder() / engine::output_file, std::ios::binary) << text.substr(0, gap);
+    std::ofstream(folder() / "cycles.csv", std::ios::binary) << text.substr(std::min(gap + 1, text.size()));
+    engine::ExitStatus const status =
+        data[0] < 128 ? engine::ExitStatus{data[0], 0} : engine::ExitStatus{0, data[0] & 31};
+    for (auto const stage : {engine::Stage::settling, engine::Stage::driving}) {
+        engine::RunReport const report = engine::examine_run(folder(), status, stage);
+        if (to_string(report.outcome) == "unknown") std::abort();
+        for (char const c : report.message) {
+            if (c < ' ' || c > '~') std::abort();
+        }
+    }
+    try {
+        measure::read_cycles(folder() / "cycles.csv", 500, 60);
+    } catch (Error const&) {
+    }
+    return 0;
+}

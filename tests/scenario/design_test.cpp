@@ -1,0 +1,186 @@
+#include "scenario/design.hpp"
+
+#include "core/error.hpp"
+#include "example_campaign.hpp"
+#include "scenario/campaign_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough {
+namespace {
+
+std::vector<double> throw_numbers(Campaign const& campaign) {
+    std::vector<double> numbers;
+    for (Scenario const& scenario : campaign.cases) numbers.push_back(throw_number(scenario.trough));
+    return numbers;
+}
+
+Campaign parse(std::string const& design) {
+    return parse_campaign(example_campaign + design, "campaign.toml");
+}
+
+std::string refusal(std::string const& design) {
+    try {
+        parse(design);
+    } catch (InputError const& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(Design, PointsAreCases) {
+    auto const campaign = parse(
+        "[[points]]\n\"trough.throw_number\" = 1.5\n\"layer.height\" = \"9 mm\"\n"
+        "[[points]]\n\"trough.throw_number\" = 2.5\n\"layer.height\" = \"15 mm\"\n");
+    ASSERT_EQ(campaign.cases.size(), 2u);
+    EXPECT_NEAR(throw_number(campaign.cases[0].trough), 1.5, 1e-12);
+    EXPECT_NEAR(throw_number(campaign.cases[1].trough), 2.5, 1e-12);
+    EXPECT_DOUBLE_EQ(campaign.cases[0].layer.height.value(), 0.009);
+    EXPECT_DOUBLE_EQ(campaign.cases[1].layer.height.value(), 0.015);
+}
+
+TEST(Design, ZippedListsGoInStepAndMultiplyWithTheSweep) {
+    auto const campaign = parse(
+        "[zip]\n\"trough.friction\" = [0.1, 0.2, 0.3]\n\"grains.friction\" = [0.4, 0.5, 0.6]\n"
+        "[sweep]\n\"trough.throw_number\" = [1, 2]\n");
+    ASSERT_EQ(campaign.cases.size(), 6u);
+    for (Scenario const& scenario : campaign.cases)
+        EXPECT_NEAR(scenario.grains.friction - scenario.trough.friction, 0.3, 1e-12);
+    EXPECT_NEAR(throw_number(campaign.cases[2].trough), 1, 1e-12);
+    EXPECT_NEAR(throw_number(campaign.cases[3].trough), 2, 1e-12) << "the list runs fastest";
+}
+
+TEST(Design, PointsFromACsvFile) {
+    auto const folder = std::filesystem::path(testing::TempDir()) / ("design_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "points.csv")
+        << "# measured\r\ntrough.throw_number, layer.height\r\n1.5,9 mm\r\n\n2.5,0.015 m\n";
+    std::ofstream(folder / "campaign.toml") << example_campaign << "[points_from]\nfile = \"points.csv\"\n";
+    auto const campaign = read_campaign(folder / "campaign.toml");
+    ASSERT_EQ(campaign.cases.size(), 2u);
+    EXPECT_DOUBLE_EQ(campaign.cases[0].layer.height.value(), 0.009);
+    EXPECT_DOUBLE_EQ(campaign.cases[1].layer.height.value(), 0.015);
+    EXPECT_EQ(campaign.files, std::vector{folder / "points.csv"});
+    std::ofstream(folder / "points.csv") << "trough.throw_number\n1.5\nfast\n";
+    try {
+        read_campaign(folder / "campaign.toml");
+        ADD_FAILURE() << "a word was taken for a number";
+    } catch (InputError const& error) {
+        EXPECT_TRUE(std::string(error.what())
+                        .starts_with((folder / "points.csv").string() + ":3: trough.throw_number: "))
+            << error.what();
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Design, ExclusionsSeeGivenAndDerivedValues) {
+    // K = Gamma cos(alpha) / sin(beta): 30 degrees make K = 2 Gamma.
+    auto const campaign = parse(
+        "[sweep]\n\"trough.throw_number\" = [1, 2, 3]\n\"layer.height\" = [\"9 mm\", \"15 mm\"]\n"
+        "[[exclude]]\n\"trough.machine_number\" = { above = 5.9 }\n\"layer.height\" = { below = \"10 mm\" }\n"
+        "[[exclude]]\n\"trough.throw_number\" = 2\n");
+    EXPECT_EQ(campaign.excluded, 3u);
+    ASSERT_EQ(campaign.cases.size(), 3u);
+    auto const numbers = throw_numbers(campaign);
+    EXPECT_NEAR(numbers[0], 1, 1e-12);
+    EXPECT_NEAR(numbers[1], 1, 1e-12);
+    EXPECT_NEAR(numbers[2], 3, 1e-12);
+    EXPECT_DOUBLE_EQ(campaign.cases[2].layer.height.value(), 0.015);
+}
+
+// Both methods put exactly one point into each of n slices of every dimension: Latin hypercubes by
+// construction, Sobol's first 2^m points (with the origin; boost leaves it out, and the shift moves all)
+// nearly so. Their means are therefore within 1/n of 1/2 where independent points scatter by 1/sqrt(12 n).
+TEST(Design, LatinHypercubesFillEverySlice) {
+    for (unsigned const seed : {1u, 2u, 77u}) {
+        auto const points = sample_cube(SampleMethod::latin_hypercube, 50, 4, seed);
+        for (std::size_t k = 0; k < 4; ++k) {
+            std::set<int> slices;
+            for (auto const& point : points) slices.insert(static_cast<int>(point[k] * 50));
+            EXPECT_EQ(slices.size(), 50u) << "dimension " << k;
+        }
+    }
+}
+
+TEST(Design, SobolPointsAreEvenAndInTheCube) {
+    for (unsigned const seed : {1u, 2u, 77u}) {
+        auto const points = sample_cube(SampleMethod::sobol, 256, 5, seed);
+        for (std::size_t k = 0; k < 5; ++k) {
+            double sum = 0;
+            for (auto const& point : points) {
+                EXPECT_TRUE(point[k] >= 0 && point[k] < 1);
+                sum += point[k];
+            }
+            EXPECT_NEAR(sum / 256, 0.5, 2.0 / 256) << "dimension " << k;
+            std::vector<int> quarters(4);
+            for (auto const& point : points) ++quarters[static_cast<std::size_t>(point[k] * 4)];
+            for (int const count : quarters) EXPECT_NEAR(count, 64, 2);
+        }
+    }
+}
+
+TEST(Design, TheSeedMakesTheSample) {
+    for (auto const method : {SampleMethod::sobol, SampleMethod::latin_hypercube}) {
+        EXPECT_EQ(sample_cube(method, 20, 3, 5), sample_cube(method, 20, 3, 5));
+        EXPECT_NE(sample_cube(method, 20, 3, 5), sample_cube(method, 20, 3, 6));
+    }
+}
+
+TEST(Design, SamplesStayInTheirRanges) {
+    for (char const* method : {"sobol", "latin-hypercube"}) {
+        auto const campaign =
+            parse(std::string("[sample]\nmethod = \"") + method +
+                  "\"\ncount = 40\nseed = 3\n\"trough.throw_number\" = { from = 1, to = 3 }\n"
+                  "\"layer.grains\" = { from = 100, to = 200 }\n");
+        ASSERT_EQ(campaign.cases.size(), 40u);
+        std::set<double> distinct;
+        for (Scenario const& scenario : campaign.cases) {
+            EXPECT_GE(throw_number(scenario.trough), 1 - 1e-12);
+            EXPECT_LT(throw_number(scenario.trough), 3);
+            EXPECT_GE(scenario.layer.grains, 100);
+            EXPECT_LE(scenario.layer.grains, 200);
+            distinct.insert(scenario.trough.frequency);
+        }
+        EXPECT_EQ(distinct.size(), 40u);
+    }
+}
+
+TEST(Design, MistakesAreOneLineWithTheirPlace) {
+    auto const line = std::ranges::count(example_campaign, '\n') + 1;
+    std::string const head = "campaign.toml:" + std::to_string(line);
+    for (auto const& [design, part] : std::vector<std::pair<std::string, std::string>>{
+             {"[zip]\n\"trough.friction\" = [0.1, 0.2]\n\"grains.friction\" = [0.4]\n",
+              "zipped lists go in step"},
+             {"[zip]\n\"trough.fricton\" = [0.1]\n", "did you mean trough.friction?"},
+             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot vary"},
+             {"[[points]]\n\"trough.friction\" = 9\n", "out of range"},
+             {"[[points]]\n\"trough.friction\" = 0.1\n[[points]]\n\"grains.friction\" = 0.1\n",
+              "other keys than"},
+             {"[sweep]\n\"trough.friction\" = [0.1]\n[zip]\n\"trough.friction\" = [0.2]\n", "varies as well"},
+             {"[zip]\n\"trough.throw_number\" = [1]\n\"trough.machine_number\" = [2]\n", "varies as well"},
+             {"[sample]\nmethod = \"random\"\ncount = 3\n", "neither \"sobol\" nor"},
+             {"[sample]\nmethod = \"sobol\"\n\"trough.friction\" = { from = 0, to = 1 }\n", "count"},
+             {"[sample]\nmethod = \"sobol\"\ncount = 3\n\"trough.friction\" = { from = 1, to = 0 }\n",
+              "range is empty"},
+             {"[points_from]\nfile = \"../secret.csv\"\n", "no plain name"},
+             {"[points_from]\nfile = \"/etc/passwd\"\n", "no plain name"},
+             {"[points_from]\nfile = \"no_such.csv\"\n", "no_such.csv"},
+             {"[[exclude]]\n\"trough.friction\" = { above = 0 }\n", "leaves no case over"},
+             {"[[exclude]]\n\"trough.friction\" = { over = 0 }\n", "is no bound"},
+         }) {
+        std::string const message = refusal(design);
+        EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+}  // namespace
+}  // namespace vibrotrough

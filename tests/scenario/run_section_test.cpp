@@ -1,0 +1,85 @@
+#include "core/error.hpp"
+#include "example_campaign.hpp"
+#include "scenario/campaign_file.hpp"
+#include "scenario/keys.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough {
+namespace {
+
+RunSettings parse(std::string const& section) {
+    return parse_campaign(example_campaign + section, "campaign.toml").run;
+}
+
+TEST(RunSection, LocalByDefault) {
+    RunSettings const settings = parse("");
+    EXPECT_EQ(settings.executor, ExecutorKind::local);
+    EXPECT_EQ(settings.retries, 0);
+    EXPECT_FALSE(settings.ranks || settings.time_limit || settings.slurm.partition || settings.slurm.minutes);
+}
+
+TEST(RunSection, ReadsAllItsKeys) {
+    RunSettings const settings = parse(
+        "[run]\nexecutor = \"slurm\"\nretries = 2\nranks = 4\ntime_limit = \"2 hours\"\n"
+        "[run.slurm]\npartition = \"compute\"\naccount = \"granular-1\"\ntime = \"90 s\"\nmemory = \"1.5 "
+        "GB\"\n"
+        "concurrent_tasks = 7\n");
+    EXPECT_EQ(settings.executor, ExecutorKind::slurm);
+    EXPECT_EQ(settings.retries, 2);
+    EXPECT_EQ(settings.ranks, 4);
+    EXPECT_EQ(settings.time_limit, 7200);
+    EXPECT_EQ(settings.slurm.partition->str(), "compute");
+    EXPECT_EQ(settings.slurm.account->str(), "granular-1");
+    EXPECT_EQ(settings.slurm.minutes, 2) << "Slurm counts whole minutes";
+    EXPECT_EQ(settings.slurm.memory, 1536);
+    EXPECT_EQ(settings.slurm.concurrent_tasks, 7);
+}
+
+TEST(RunSection, DoesNotChangeTheCases) {
+    auto const with_run = parse_campaign(example_campaign + "[run]\nretries = 2\n", "campaign.toml");
+    EXPECT_EQ(to_toml(with_run.cases.at(0)),
+              to_toml(parse_campaign(example_campaign, "campaign.toml").cases.at(0)));
+}
+
+// What reaches a command line is a plain name or a number, whatever the file says.
+TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
+    for (char const* name : {"", "a b", "a;b", "$(id)", "`id`", "a\\nb", "a'b", "-x", "--wrap=id", "../a",
+                             "a&b", "a/b", ".", "\\u00e9", "a|b", "a>b", "a\\\"b"}) {
+        for (char const* key : {"partition", "account", "memory"}) {
+            try {
+                parse(std::string("[run.slurm]\n") + key + " = \"" + name + "\"\n");
+                ADD_FAILURE() << key << " took " << name;
+            } catch (InputError const& error) {
+                std::string const message = error.what();
+                EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;
+                EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            }
+        }
+    }
+    EXPECT_FALSE(PlainName::from(std::string(65, 'a')));
+    EXPECT_TRUE(PlainName::from(std::string(64, 'a')));
+}
+
+TEST(RunSection, MistakesNameTheirPlace) {
+    for (auto const& [section, part] : std::vector<std::pair<std::string, std::string>>{
+             {"[run]\nexecutor = \"cloud\"\n", "local or slurm"},
+             {"[run]\nexecutor = 3\n", "is not a text"},
+             {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
+             {"[run.slurm]\nqueue = \"a\"\n", "partition, account, time, memory, concurrent_tasks"},
+             {"[run]\nretries = -1\n", "out of range"},
+             {"[run]\nranks = 1.5\n", "not a whole number"},
+             {"[run.slurm]\ntime = \"3 m\"\n", "run.slurm.time"},
+             {"[run.slurm]\nmemory = \"3 kg\"\n", "1 MB to"},
+         }) {
+        try {
+            parse(section);
+            ADD_FAILURE() << "accepted " << section;
+        } catch (InputError const& error) {
+            EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vibrotrough
