@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/overview.hpp"
+#include "compare/comparison.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "deck/deck.hpp"
@@ -25,6 +26,15 @@ struct Options {
     std::string id;
 };
 
+/// The theory's periodic motion on this trough, when it has one.
+std::optional<theory::ConveyorMotion> point_mass_on(Trough const& trough) {
+    theory::Conveyor conveyor{};
+    conveyor.point = compare::plastic_point_mass(trough);
+    theory::ConveyorMotion motion = theory::solve(conveyor);
+    if (motion.motion.outcome != theory::Outcome::periodic) return {};
+    return motion;
+}
+
 /// Exports the frames that a case's first packing has written so far; nothing when it has none.
 std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
     fs::path const packing = planned.packing_folder(1);
@@ -38,6 +48,7 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .angular_frequency = angular_frequency(trough),
         .amplitude_x = trough.amplitude * std::cos(trough.vibration_angle),
         .amplitude_z = trough.amplitude * std::sin(trough.vibration_angle),
+        .point_mass = point_mass_on(trough),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario.campaign, planned.id, throw_number(trough),
                                machine_number(trough), trough.friction)};

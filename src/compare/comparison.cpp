@@ -1,7 +1,6 @@
 #include "compare/comparison.hpp"
 
 #include "theory/inputs.hpp"
-#include "theory/point_mass.hpp"
 
 #include <cmath>
 #include <limits>
@@ -21,19 +20,8 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-/// The plastic point mass on this trough. The machine number also describes a trough that shakes along
-/// itself.
-theory::Motion plastic_motion(Trough const& trough) {
-    theory::Inputs inputs;
-    inputs.set(theory::Input::machine_number, machine_number(trough));
-    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
-    inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
-    inputs.set(theory::Input::friction, trough.friction);
-    return theory::solve(inputs.point());
-}
-
 void add_theory(Row& row, Trough const& trough) {
-    theory::Motion const motion = plastic_motion(trough);
+    theory::Motion const motion = theory::solve(plastic_point_mass(trough));
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
@@ -76,6 +64,15 @@ std::string curve(Line const& line, double from, double to) {
 }
 
 }  // namespace
+
+theory::PointMass plastic_point_mass(Trough const& trough) {
+    theory::Inputs inputs;
+    inputs.set(theory::Input::machine_number, machine_number(trough));
+    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
+    inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
+    inputs.set(theory::Input::friction, trough.friction);
+    return inputs.point();
+}
 
 std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::string text = "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency\n";

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "theory/conveyor.hpp"
+
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace vibrotrough::view {
@@ -13,20 +16,24 @@ struct FrameSource {
     double angular_frequency;      ///< omega, rad/s: the trough's displacement is A sin(omega t)
     double amplitude_x;            ///< m, r cos(beta)
     double amplitude_z;            ///< m, r sin(beta)
+    std::optional<theory::ConveyorMotion> point_mass =
+        {};               ///< the theory's periodic motion on this trough; with its pieces
     std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
 };
 
 struct ExportedFrames {
-    int frames;
-    std::filesystem::path grains;  ///< grains.pvd
-    std::filesystem::path trough;  ///< trough.pvd
-    std::filesystem::path scene;   ///< view_case.py: `paraview --state=<scene>` opens all of it
+    int frames = 0;
+    std::filesystem::path grains;      ///< grains.pvd
+    std::filesystem::path trough;      ///< trough.pvd
+    std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the
+                                       ///< layer; without entries when it has no periodic motion
+    std::filesystem::path profile;     ///< profile.pvd: velocity and solid fraction over height
+    std::filesystem::path scene;       ///< view_case.py: `paraview --state=<scene>` opens all of it
 };
 
-/// Turns the engine's dumps into compressed inline .vtp files, one collection (.pvd) for the grains and one
-/// for the trough, with true times (s), and a ParaView scene, all under `target`. The collections are renewed
-/// while frames are written, so an export that is stopped opens with the frames it has. One frame at a time
-/// is in memory.
+/// Turns the engine's dumps into compressed inline .vtp files, one collection (.pvd) for each object, with
+/// true times (s), and a ParaView scene, all under `target`. The collections are renewed while frames are
+/// written, so an export that is stopped opens with the frames it has. One frame at a time is in memory.
 ///
 /// A last frame that the engine had not finished writing is left out; no frame at all makes empty
 /// collections.
