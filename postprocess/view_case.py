@@ -122,7 +122,7 @@ def show_point_mass(view, trough):
     _, _, front, back, _, _ = trough.GetDataInformation().GetBounds()
     left_of_block, right_of_block = block.GetDataInformation().GetBounds()[2:4]
     edge = right_of_block - left_of_block
-    low, high = left_of_block - 0.5 * edge, right_of_block + 0.5 * edge
+    low, high = left_of_block - 0.3 * edge, right_of_block + 0.3 * edge
     lane.Transform.Scale = [1.0, (high - low) / (back - front), 1.0]
     lane.Transform.Translate = [0.0, low - front * (high - low) / (back - front), 0.0]
     show_trough(view, lane)
@@ -130,7 +130,7 @@ def show_point_mass(view, trough):
     shown.SetRepresentationType("Surface With Edges")
     shown.EdgeColor = INK
     ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
-    return block
+    return block, lane
 
 
 def annotate(view, grains, block):
@@ -163,6 +163,8 @@ def show_chart(layout, location, share, profile, what, axis_title, reach, height
     shown.SeriesLineThickness = ["height", "2"]
     shown.SeriesMarkerStyle = ["height", "4"]
     chart.ShowLegend = 0
+    chart.BottomAxisTitleFontSize = chart.LeftAxisTitleFontSize = 14
+    chart.BottomAxisTitleBold = chart.LeftAxisTitleBold = 0
     chart.BottomAxisTitle = axis_title
     chart.LeftAxisTitle = "height above the trough, m"
     chart.BottomAxisUseCustomRange = chart.LeftAxisUseCustomRange = 1
@@ -180,12 +182,14 @@ def show_profile(view, height):
     SetActiveView(view)
 
 
-def look_along_the_width(view, trough, grains):
+def look_along_the_width(view, trough, lane, grains):
     """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
     left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
+    if lane:
+        front = lane.GetDataInformation().GetBounds()[2]
     length, width = right - left, back - front
     height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
-    focus = [(left + right) / 2, (front + back) / 2, floor + 0.6 * height]
+    focus = [(left + right) / 2, (front + back) / 2, floor + 0.45 * height]
     away = 3.0 * max(length, width, height)
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = focus
@@ -193,7 +197,7 @@ def look_along_the_width(view, trough, grains):
     view.CameraViewUp = [0.0, 0.0, 1.0]
     # The box as seen from there: turned by 17 degrees, tilted by 19; half its larger side plus margins.
     seen_length, seen_depth = 0.96 * length + 0.29 * width, 0.96 * width + 0.29 * length
-    view.CameraParallelScale = max(0.37 * seen_length, 0.85 * height + 0.17 * seen_depth)
+    view.CameraParallelScale = max(0.37 * seen_length, 0.68 * height + 0.25 * seen_depth)
     return height
 
 
@@ -214,11 +218,11 @@ def main():
     trough = open_collection("trough")
     GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     show_trough(view, trough)
-    block = show_point_mass(view, trough) if has_frames("point_mass.pvd") else None
+    block, lane = show_point_mass(view, trough) if has_frames("point_mass.pvd") else (None, None)
     show_grains(view, grains)
     annotate(view, grains, block)
-    height = look_along_the_width(view, trough, grains)
-    show_profile(view, height)
+    height = look_along_the_width(view, trough, lane, grains)
+    show_profile(view, 1.8 * height)
     Render(view)
 
 

@@ -84,7 +84,7 @@ vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, dou
     double const length = trough_[1] - trough_[0];
     double const travel = 0.5 * length + state.x;
     double const centre_x = trough_[0] + travel - length * std::floor(travel / length);
-    double const front = trough_[2] - 2.5 * edge_;
+    double const front = trough_[2] - 1.8 * edge_;
     double const floor = trough_[5] + trough_z + state.gap;
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> cells;
