@@ -15,6 +15,7 @@ from paraview.simple import (
     AnnotateTimeFilter,
     AssignViewToLayout,
     ColorBy,
+    CreateLayout,
     CreateView,
     GetActiveViewOrCreate,
     GetAnimationScene,
@@ -176,6 +177,9 @@ def show_chart(layout, location, share, profile, what, axis_title, reach, height
 def show_profile(view, height):
     profile = open_collection("profile")
     layout = GetLayout(view)
+    if layout is None:
+        layout = CreateLayout(name="layout")
+        AssignViewToLayout(view=view, layout=layout, hint=0)
     right = show_chart(layout, 0, 0.7, profile, "velocity_relative_to_trough_x", "velocity relative to the trough, m/s",
                        (-1.5 * SPEED, 2.0 * SPEED), height)
     show_chart(layout, right + 1, 0.5, profile, "solid_fraction", "solid fraction, 1", (0.0, 0.8), height)
