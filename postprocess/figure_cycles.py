@@ -10,7 +10,8 @@ MOST_PACKINGS = 6  # drawn; more would be too small to read
 def plot_cycles(source, case, result, output):
     packings = len(result["packings/seed"])
     shown = min(packings, MOST_PACKINGS)
-    figure, columns = new_figure(shown, 1, size=(7.2, 1.2 + 1.35 * shown), sharex=True, sharey=True, squeeze=False)
+    height = 1.2 + 1.35 * shown
+    figure, columns = new_figure(shown, 1, size=(7.2, height), sharex=True, sharey=True, squeeze=False)
     row = source.row_of(case)
     for number, axes in enumerate(columns[:, 0]):
         draw_packing(axes, result, number, row)
@@ -19,12 +20,11 @@ def plot_cycles(source, case, result, output):
     figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=10)
     handles, labels = columns[0, 0].get_legend_handles_labels()
     title = f"case {case}: throw number {row['throw_number']:.3g}, \u03b2 = {row['vibration_angle_deg']:.3g}\u00b0"
-    figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=8, bbox_to_anchor=(0.5, 0.96 - 0.04 / shown))
-    figure.suptitle(title, fontsize=10, y=0.99)
+    figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1 - 0.22 / height))
+    figure.suptitle(title, fontsize=10, y=1 - 0.08 / height)
     note = f"{shown} of {packings} packings" if shown < packings else ""
     corner(figure, source.attributes, note)
-    top = 1 - 0.62 / (1.2 + 1.35 * shown)
-    figure.tight_layout(rect=(0, 0.02, 1, top))
+    figure.tight_layout(rect=(0, 0.02, 1, 1 - 0.4 / height))
     return save(figure, output)
 
 

@@ -21,7 +21,7 @@ from collections import defaultdict
 import h5py
 import numpy as np
 
-from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, save
+from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, plain_axes, save
 
 
 def read_campaign(path):
@@ -121,9 +121,12 @@ def label(axes, columns, attributes, theory):
     axes.set_xlabel(THROW_NUMBER)
     axes.set_ylabel(EFFICIENCY)
     axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
-    axes.grid(True, color="#e5e5e5", linewidth=0.6)
-    title = f"points: DEM with {bars}" + ("\nlines: point-mass theory" if theory else "")
-    axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="best")
+    plain_axes(axes)
+    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "")
+    # Above the axes, where no point can be mistaken for a part of it.
+    entries = len(axes.get_legend_handles_labels()[1])
+    axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0),
+                ncols=min(entries, 4))
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
     corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady)" if without else "")
 

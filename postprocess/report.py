@@ -19,6 +19,8 @@ import markupsafe
 
 from figure_style import Problem
 
+DEGREE = "\u00b0"
+
 # Columns of the table: name in campaign.json, heading, unit, format.
 COLUMNS = [
     ("case", "case", "", "{}"),
@@ -38,6 +40,8 @@ COLUMNS = [
     ("wall_s", "wall time", "s", "{:.0f}"),
     ("outcome", "outcome", "", "{}"),
 ]
+# Told in a sentence instead when they are the same in all of several cases.
+MAY_BE_CONSTANT = ("throw_number", "vibration_angle_deg", "inclination_deg", "friction", "frequency_hz")
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
     ("efficiency", "Velocity efficiency against throw number"),
@@ -96,13 +100,21 @@ def cell(row, name, form):
     return {"shown": form.format(value), "key": value if isinstance(value, (int, float)) else str(value)}
 
 
-def table(cases):
+def split_columns(cases):
+    """The columns of the table, and a sentence about those that are the same in all cases."""
+    same = [name for name in MAY_BE_CONSTANT if len(cases) > 1 and len({case[name] for case in cases}) == 1]
+    told = [f"{heading} = {form.format(cases[0][name])}{unit if unit == DEGREE else ' ' * bool(unit) + unit}"
+            for name, heading, unit, form in COLUMNS if name in same]
+    return [column for column in COLUMNS if column[0] not in same], ", ".join(told)
+
+
+def table(cases, columns):
     lines = []
     for case in cases:
         row = dict(case, residual=None)
         if row["efficiency_dem"] is not None and row["efficiency_theory"] is not None:
             row["residual"] = row["efficiency_dem"] - row["efficiency_theory"]
-        cells = [dict(cell(row, name, form), name=name) for name, _, _, form in COLUMNS]
+        cells = [dict(cell(row, name, form), name=name) for name, _, _, form in columns]
         lines.append({"id": row["case"], "cells": cells, "finished": row["outcome"] == "finished"})
     return lines
 
@@ -118,14 +130,16 @@ def render(directory, output):
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
     figures = Figures(output)
+    columns, told = split_columns(cases)
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
         overview=overview,
         counts=counts(cases),
-        columns=[{"name": name, "heading": heading, "unit": unit} for name, heading, unit, _ in COLUMNS],
-        lines=table(cases),
+        columns=[{"name": name, "heading": heading, "unit": unit} for name, heading, unit, _ in columns],
+        same_in_all=told,
+        lines=table(cases, columns),
         failures=[case for case in cases if case["outcome"] not in WITHOUT_FAILURE],
         waiting=[case for case in cases if case["outcome"] in WITHOUT_FAILURE[1:]],
         figures=figures.all(FIGURES),

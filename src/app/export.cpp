@@ -2,19 +2,24 @@
 #include "app/exit_code.hpp"
 #include "campaign/overview.hpp"
 #include "compare/comparison.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "deck/deck.hpp"
 #include "view/frames.hpp"
+#include "view/table_vtk.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
 namespace {
@@ -24,7 +29,51 @@ namespace fs = std::filesystem;
 struct Options {
     std::string folder;
     std::string id;
+    bool table = false;
 };
+
+/// The rows of `compare` as columns: what is a text in some row is one, all else are numbers.
+std::vector<view::TableColumn> columns_of(std::vector<compare::Row> const& rows) {
+    using Json = nlohmann::ordered_json;
+    Json const list = Json::parse(compare::to_json(rows));
+    Json const names = Json::parse(compare::to_json({compare::Row{}})).at(0);
+    std::vector<view::TableColumn> columns;
+    for (auto const& [name, example] : names.items()) {
+        std::vector<std::string> texts;
+        std::vector<double> numbers;
+        for (Json const& row : list) {
+            Json const& value = row.at(name);
+            if (example.is_string()) {
+                texts.push_back(value.get<std::string>());
+            } else {
+                numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                                  : value.get<double>());
+            }
+        }
+        if (example.is_string()) {
+            columns.push_back({name, std::move(texts)});
+        } else {
+            columns.push_back({name, std::move(numbers)});
+        }
+    }
+    return columns;
+}
+
+/// Writes the campaign's table for ParaView and returns its path.
+fs::path export_table(campaign::Plan const& plan) {
+    std::vector<compare::Row> rows;
+    for (campaign::CaseOverview const& one : campaign::look_at(plan)) {
+        rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
+    }
+    fs::path const path = plan.folder / "view" / "campaign.vtt";
+    make_folder(path.parent_path());
+    view::write_table(path, columns_of(rows));
+    return fs::absolute(path).lexically_normal();
+}
+
+void print_table(campaign::Plan const& plan) {
+    fmt::print("table of all cases: open with: paraview {}\n", shell_word(export_table(plan)));
+}
 
 /// The theory's periodic motion on this trough, when it has one.
 std::optional<theory::ConveyorMotion> point_mass_on(Trough const& trough) {
@@ -57,6 +106,10 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
+    if (options.table) {
+        print_table(plan);
+        return all_well;
+    }
     bool known = options.id.empty();
     int exported = 0;
     for (campaign::PlannedCase const& planned : plan.cases) {
@@ -84,6 +137,7 @@ int run(Options const& options) {
             "run it again",
             options.folder));
     }
+    if (options.id.empty()) print_table(plan);
     return all_well;
 }
 
@@ -97,9 +151,16 @@ void add_export(CLI::App& program, int& exit_code) {
         ->required();
     command->add_option("--case", options->id, "Only this case; default: all that have frames")
         ->type_name("ID");
+    command->add_flag("--table", options->table,
+                      "Only the table of all cases (view/campaign.vtt), no frames");
     command->footer(
         "Frames come from the first packing of each case when the campaign asks for them: [output] "
         "frames_per_cycle.\n"
+        "The grains, the trough, the theory's point mass as a block that moves in step, and the layer's "
+        "profile each are a\n"
+        ".pvd; view.sh opens all of them. Without --case the campaign's table is written, too. Works while a "
+        "case runs.\n"
+        "Exit codes: 0 all well; 2 the input is wrong or there is no frame; 3 something is missing (disk).\n"
         "Example: vibrotrough export runs/demo");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

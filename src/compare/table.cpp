@@ -63,17 +63,25 @@ std::string outcome_colour(Row const& row) {
     return row.outcome == "finished" || waits ? "" : "\x1b[31m";
 }
 
+constexpr std::size_t headings = 2;
+
+/// Columns with the same value in all of several rows.
+std::vector<bool> constant(std::vector<Cells> const& lines) {
+    std::vector<bool> same(column_count, lines.size() > headings + 1);
+    for (std::size_t i = 0; i < column_count; ++i) {
+        for (std::size_t n = headings; n < lines.size(); ++n)
+            same[i] = same[i] && lines[n][i] == lines[headings][i];
+    }
+    return same;
+}
+
 /// Which columns are shown in `width` characters: the least important are dropped, and first of all those
-/// whose value is the same in all of several rows.
-std::vector<bool> chosen(std::vector<Cells> const& lines, std::vector<std::size_t> const& widths,
+/// that are the same in all rows.
+std::vector<bool> chosen(std::vector<bool> const& same, std::vector<std::size_t> const& widths,
                          std::size_t width) {
-    constexpr std::size_t headings = 2;
     std::vector<int> importance(column_count);
     for (std::size_t i = 0; i < column_count; ++i) {
-        bool const same = lines.size() > headings + 1 &&
-                          std::all_of(lines.begin() + headings, lines.end(),
-                                      [&](Cells const& line) { return line[i] == lines[headings][i]; });
-        importance[i] = columns[i].importance - (same && columns[i].importance < never_dropped ? 10 : 0);
+        importance[i] = columns[i].importance - (same[i] && columns[i].importance < never_dropped ? 10 : 0);
     }
     std::vector<bool> keep(column_count, true);
     auto const needed = [&] {
@@ -92,13 +100,24 @@ std::vector<bool> chosen(std::vector<Cells> const& lines, std::vector<std::size_
     return keep;
 }
 
-std::string dropped_note(std::vector<bool> const& keep, std::size_t width) {
-    std::string names;
+/// Says what was dropped, and the value of what is the same in all rows.
+std::string dropped_note(std::vector<bool> const& keep, std::vector<bool> const& same, Cells const& first) {
+    std::string values, names;
     for (std::size_t i = 0; i < column_count; ++i) {
-        if (!keep[i]) names += (names.empty() ? "" : ", ") + std::string(columns[i].name);
+        std::string const name = columns[i].name, unit = columns[i].unit;
+        if (keep[i]) continue;
+        if (same[i]) {
+            bool const quantity = unit == "deg" || unit == "Hz" || unit == "m/s";
+            values += fmt::format("{}{} {}{}", values.empty() ? "" : ", ", name, first[i],
+                                  quantity ? " " + unit : "");
+        } else {
+            names += (names.empty() ? "" : ", ") + name;
+        }
     }
-    if (names.empty()) return {};
-    return fmt::format("(not shown in {} columns: {}; a wider terminal or --csv shows all)\n", width, names);
+    std::string note;
+    if (!values.empty()) note += fmt::format("the same in all: {}\n", values);
+    if (!names.empty()) note += fmt::format("no room for {}; a wider terminal or --csv shows all\n", names);
+    return note;
 }
 
 std::string painted(std::string const& text, std::string const& colour) {
@@ -112,7 +131,7 @@ std::string painted(std::string const& text, std::string const& colour) {
 }  // namespace
 
 std::string to_table(std::vector<Row> const& rows, TableStyle const& style) {
-    std::vector<Cells> lines(2);
+    std::vector<Cells> lines(headings);
     for (Column const& column : columns) {
         lines[0].emplace_back(column.name);
         lines[1].emplace_back(column.unit);
@@ -122,7 +141,7 @@ std::string to_table(std::vector<Row> const& rows, TableStyle const& style) {
     for (Cells const& line : lines) {
         for (std::size_t i = 0; i < column_count; ++i) widths[i] = std::max(widths[i], line[i].size());
     }
-    std::vector<bool> const keep = chosen(lines, widths, style.width);
+    std::vector<bool> const same = constant(lines), keep = chosen(same, widths, style.width);
     std::string text;
     for (std::size_t n = 0; n < lines.size(); ++n) {
         std::string line;
@@ -131,13 +150,14 @@ std::string to_table(std::vector<Row> const& rows, TableStyle const& style) {
             std::string const cell = columns[i].flush_left ? fmt::format("{:<{}}", lines[n][i], widths[i])
                                                            : fmt::format("{:>{}}", lines[n][i], widths[i]);
             std::string colour;
-            if (style.colour && n >= 2 && i == difference_at) colour = difference_colour(rows[n - 2]);
-            if (style.colour && n >= 2 && i == outcome_at) colour = outcome_colour(rows[n - 2]);
+            if (style.colour && n >= headings && i == difference_at)
+                colour = difference_colour(rows[n - headings]);
+            if (style.colour && n >= headings && i == outcome_at) colour = outcome_colour(rows[n - headings]);
             line += painted(cell, colour) + std::string(gap, ' ');
         }
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
-    return text + dropped_note(keep, style.width);
+    return text + (rows.empty() ? "" : dropped_note(keep, same, lines[headings]));
 }
 
 }  // namespace vibrotrough::compare

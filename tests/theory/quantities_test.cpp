@@ -86,7 +86,8 @@ TEST(Trace, RepeatsItselfFromPeriodToPeriod) {
             // Rounding of t, 40 periods: 250 * 2e-16, times velocities of order 1 to 10.
             EXPECT_NEAR(again.displacement, samples[i].displacement + periods * travel, 1e-11);
             EXPECT_NEAR(again.gap, samples[i].gap, 1e-11);
-            if (again.kind == samples[i].kind) EXPECT_NEAR(again.mass_vx, samples[i].mass_vx, 1e-11);
+            if (again.kind != samples[i].kind) continue;  // at the very end of a phase
+            EXPECT_NEAR(again.mass_vx, samples[i].mass_vx, 1e-11);
         }
     }
     EXPECT_THROW(sample(ConveyorMotion{}, 0.0), std::invalid_argument);

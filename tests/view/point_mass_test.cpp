@@ -51,7 +51,7 @@ TEST_F(PointMass, IsConveyedByTheVelocityEfficiency) {
 
 TEST_F(PointMass, RestsSlidesAndFliesInStep) {
     int flies = 0, rests = 0, slides = 0;
-    for (double const throw_number : {0.7, 2.0}) {
+    for (double const throw_number : {0.15, 2.0}) {
         auto const motion = motion_at(throw_number);
         PointMassMotion const mass(source, motion);
         for (int i = 0; i < 720; ++i) {
