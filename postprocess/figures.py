@@ -49,15 +49,24 @@ def draw(source, only, cases):
     if "residuals" in only:
         yield figure_residuals.plot_residuals(source, source.output / "residuals")
     for case in source.campaign["case"]:
-        if cases and case not in cases:
-            continue
+        if not cases or case in cases:
+            yield from draw_case(source, only, case)
+
+
+def draw_case(source, only, case):
+    """The figures of one case, when its result.h5 is there and whole."""
+    drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
+               "profiles": figure_portraits.plot_profiles}
+    wanted = [kind for kind in drawers if kind in only]
+    if not wanted:
+        return
+    try:
         result = source.campaign.case(case)
-        if "cycles" in only:
-            yield figure_cycles.plot_cycles(source, case, result, source.output / f"cycles-{case}")
-        if "portraits" in only:
-            yield figure_portraits.plot_portraits(source, case, result, source.output / f"portraits-{case}")
-        if "profiles" in only:
-            yield figure_portraits.plot_profiles(source, case, result, source.output / f"profiles-{case}")
+    except (OSError, ValueError) as error:
+        print(f"figures.py: case {case} is left out: {error}", file=sys.stderr)
+        return
+    for kind in wanted:
+        yield drawers[kind](source, case, result, source.output / f"{kind}-{case}")
 
 
 def main():

@@ -24,6 +24,9 @@ import numpy as np
 from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, plain_axes, save
 
 
+UNCERTAIN = "not steady or not precise"
+
+
 def read_campaign(path):
     """Columns of campaign.h5 as arrays, and its root attributes."""
     try:
@@ -110,7 +113,7 @@ def mark_uncertain(axes, columns):
             s=160,
             facecolors="none",
             edgecolors="#777777",
-            label="not steady or not precise",
+            label=UNCERTAIN,
             zorder=1,
         )
 
@@ -123,10 +126,12 @@ def label(axes, columns, attributes, theory):
     axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
     plain_axes(axes)
     title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "")
-    # Above the axes, where no point can be mistaken for a part of it.
-    entries = len(axes.get_legend_handles_labels()[1])
-    axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0),
-                ncols=min(entries, 4))
+    # Above the axes, where no point can be mistaken for a part of it; the series first, then the ring.
+    handles, names = axes.get_legend_handles_labels()
+    order = sorted(range(len(names)), key=lambda index: names[index] == UNCERTAIN)
+    axes.legend([handles[index] for index in order], [names[index] for index in order], frameon=False, fontsize=9, title=title,
+                title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3), columnspacing=1.2,
+                handletextpad=0.4)
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
     corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady)" if without else "")
 
