@@ -39,14 +39,19 @@ int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
-    write_report_data(plan, output / "data");
+    bool const finished = write_report_data(plan, output / "data") > 0;
+    if (!finished && !options.report) {
+        throw InputError(fmt::format("{} holds no finished case yet; 'vibrotrough status {}' tells more",
+                                     options.folder, options.folder));
+    }
+    std::vector<std::string> modules{"numpy", "h5py", "matplotlib"};
+    if (options.report) modules.emplace_back("jinja2");
     std::vector<std::string> arguments{options.folder, "--output", output.string()};
-    for (std::string const& kind : options.only) arguments.insert(arguments.end(), {"--only", kind});
-    for (std::string const& id : options.cases) arguments.insert(arguments.end(), {"--case", id});
-    run_script("figures.py", arguments, options.python, {"numpy", "h5py", "matplotlib"});
-    if (!options.report) return all_well;
-    run_script("report.py", {options.folder, "--output", output.string()}, options.python,
-               {"numpy", "h5py", "matplotlib", "jinja2"});
+    std::vector<std::string> drawing = arguments;
+    for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
+    for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});
+    if (finished) run_script("figures.py", drawing, options.python, modules);
+    if (options.report) run_script("report.py", arguments, options.python, modules);
     return all_well;
 }
 

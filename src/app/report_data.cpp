@@ -8,6 +8,7 @@
 #include "theory/conveyor.hpp"
 #include "theory/quantities.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,16 +33,18 @@ std::string point_mass_csv(Trough const& trough) {
     constexpr int per_cycle = 360;
     std::string text =
         "cycles,phase,gap_m,relative_displacement_m,velocity_x_m_per_s,velocity_z_m_per_s,"
-        "relative_velocity_x_m_per_s,normal_force_n_per_kg,tangential_force_n_per_kg\n";
+        "relative_velocity_x_m_per_s,relative_velocity_z_m_per_s,normal_force_n_per_kg,tangential_force_n_"
+        "per_kg\n";
     double const start = theory::sample(motion, 0.0).displacement;
     for (int i = 0; i <= per_cycle * motion.motion.period_cycles; ++i) {
         double const cycles = static_cast<double>(i) / per_cycle;
         theory::TraceSample const s = theory::sample(motion, 2.0 * std::numbers::pi * cycles);
-        text += fmt::format(
-            "{:.6g},{},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", cycles, theory::to_string(s.kind),
-            normal * s.gap, along * (s.displacement - start), omega * along * s.mass_vx,
-            omega * normal * s.mass_vy, omega * along * (s.mass_vx - s.trough_vx),
-            omega * omega * normal * s.normal_force, omega * omega * along * s.tangential_force);
+        text +=
+            fmt::format("{:.6g},{},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", cycles,
+                        theory::to_string(s.kind), normal * s.gap, along * (s.displacement - start),
+                        omega * along * s.mass_vx, omega * normal * s.mass_vy,
+                        omega * along * (s.mass_vx - s.trough_vx), omega * normal * (s.mass_vy - s.trough_vy),
+                        omega * omega * normal * s.normal_force, omega * omega * along * s.tangential_force);
     }
     return text;
 }
@@ -57,7 +60,8 @@ Json case_list(std::vector<campaign::CaseOverview> const& cases, std::vector<com
     return list;
 }
 
-/// Makes campaign.h5 anew when a case was finished after it was written: figures can be drawn while cases run.
+/// Makes campaign.h5 anew when a case was finished after it was written: figures can be drawn while cases
+/// run.
 void renew_campaign_file(campaign::Plan const& plan) {
     std::error_code none;
     fs::file_time_type const written = fs::last_write_time(plan.folder / "campaign.h5", none);
@@ -70,7 +74,7 @@ void renew_campaign_file(campaign::Plan const& plan) {
 
 }  // namespace
 
-void write_report_data(campaign::Plan const& plan, fs::path const& folder) {
+int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
     renew_campaign_file(plan);
     auto const cases = campaign::look_at(plan);
     std::vector<compare::Row> rows;
@@ -87,6 +91,8 @@ void write_report_data(campaign::Plan const& plan, fs::path const& folder) {
     constexpr auto replace = Json::error_handler_t::replace;  // what users write need not be UTF-8
     write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     write_file_atomically(folder / "theory_curves.csv", compare::theory_curves_csv(rows));
+    return static_cast<int>(
+        std::ranges::count_if(cases, [](auto const& one) { return one.record.has_value(); }));
 }
 
 }  // namespace vibrotrough::app

@@ -12,7 +12,8 @@ namespace vibrotrough::app {
 ///   point_mass/<id>.csv  the theory's point mass over one period on each case's trough, SI; empty without a
 ///   period
 /// and campaign.h5 made anew when it lacks a finished case.
+/// Returns the number of cases that have a result.
 /// @throws MissingError when the disk refuses
-void write_report_data(campaign::Plan const& plan, std::filesystem::path const& folder);
+int write_report_data(campaign::Plan const& plan, std::filesystem::path const& folder);
 
 }  // namespace vibrotrough::app
