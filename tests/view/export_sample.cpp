@@ -2,10 +2,13 @@
 // below "poor" what has no frame, one frame, no grain or no periodic point mass.
 
 #include "view/frames.hpp"
+#include "view/table_vtk.hpp"
+#include "view/theory_map_vtk.hpp"
 
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 namespace {
@@ -53,6 +56,20 @@ void export_poor(fs::path const& dumps, fs::path const& folder) {
     view::export_frames(source, folder / "no_point_mass");
 }
 
+void export_maps(fs::path const& folder) {
+    fs::create_directories(folder);
+    theory::Inputs inputs;
+    inputs.set(theory::Input::friction, 0.35);
+    theory::Map const map = theory::solve_map(inputs, {theory::Input::throw_number, 0.5, 3, 6},
+                                              {theory::Input::vibration_angle_deg, 10, 50, 5}, {.jobs = 1});
+    view::write_theory_image(folder / "map.vti", map);
+    view::write_theory_boundaries(folder / "modes.vtp", map);
+    view::write_table(
+        folder / "campaign.vtt",
+        {{"case", std::vector<std::string>{"a", "b", "c"}},
+         {"throw_number", std::vector<double>{1.5, 2.0, std::numeric_limits<double>::quiet_NaN()}}});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,6 +82,7 @@ int main(int argc, char** argv) {
         view::ExportedFrames const exported = view::export_frames(sample(argv[1]), folder);
         std::printf("%d frames, %s\n", exported.frames, exported.scene.c_str());
         export_poor(argv[1], folder / "poor");
+        export_maps(folder / "maps");
         return 0;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());
