@@ -193,7 +193,7 @@ def look_along_the_width(view, trough, lane, grains):
         front = lane.GetDataInformation().GetBounds()[2]
     length, width = right - left, back - front
     height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
-    focus = [(left + right) / 2, (front + back) / 2, floor + 0.45 * height]
+    focus = [(left + right) / 2, (front + back) / 2, floor + 0.52 * height]
     away = 3.0 * max(length, width, height)
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = focus
@@ -201,7 +201,7 @@ def look_along_the_width(view, trough, lane, grains):
     view.CameraViewUp = [0.0, 0.0, 1.0]
     # The box as seen from there: turned by 17 degrees, tilted by 19; half its larger side plus margins.
     seen_length, seen_depth = 0.96 * length + 0.29 * width, 0.96 * width + 0.29 * length
-    view.CameraParallelScale = max(0.37 * seen_length, 0.68 * height + 0.25 * seen_depth)
+    view.CameraParallelScale = max(0.4 * seen_length, 0.78 * height + 0.25 * seen_depth)
     return height
 
 
