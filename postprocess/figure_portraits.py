@@ -109,7 +109,7 @@ def label_portraits(axes):
         plain_axes(one)
         one.set_xlabel(below)
         one.set_ylabel(left)
-    axes[1, 1].text(0.5, 0.97, "the point mass's impacts are not drawn", transform=axes[1, 1].transAxes, ha="center", va="top",
+    axes[1, 1].text(0.42, 0.97, "the point mass's impacts are not drawn", transform=axes[1, 1].transAxes, ha="center", va="top",
                     fontsize=8, color=GREY)
 
 

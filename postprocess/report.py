@@ -54,6 +54,9 @@ CASE_FIGURES = [
 ]
 
 
+MOST_CASES = 60  # whose own figures are in the report: 140 kB each
+
+
 def read_json(path, needed=True):
     try:
         return json.loads(path.read_text(encoding="utf-8"))
@@ -126,11 +129,26 @@ def counts(cases):
     return found
 
 
+def split_certificate(certificate):
+    """Its facts, and its lists of objects (the probes), which are tables of their own."""
+    if not isinstance(certificate, dict):
+        return certificate, {}
+    lists = {name: one for name, one in certificate.items() if isinstance(one, list) and one and isinstance(one[0], dict)}
+    return {name: one for name, one in certificate.items() if name not in lists}, lists
+
+
 def render(directory, output):
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
     figures = Figures(output)
+    general = figures.all(FIGURES)
+    certificate, lists = split_certificate(read_json(directory / "certificate.json", needed=False))
     columns, told = split_columns(cases)
+    single = [
+        {"case": case, "figures": found}
+        for case in cases
+        if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES]))
+    ] if len(cases) <= MOST_CASES else []
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.StrictUndefined)
@@ -142,13 +160,11 @@ def render(directory, output):
         lines=table(cases, columns),
         failures=[case for case in cases if case["outcome"] not in WITHOUT_FAILURE],
         waiting=[case for case in cases if case["outcome"] in WITHOUT_FAILURE[1:]],
-        figures=figures.all(FIGURES),
-        case_figures=[
-            {"case": case, "figures": found}
-            for case in cases
-            if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES]))
-        ],
-        certificate=read_json(directory / "certificate.json", needed=False),
+        figures=general,
+        case_figures=single,
+        outside=len(cases) > MOST_CASES,
+        certificate=certificate,
+        certificate_lists=lists,
     )
 
 

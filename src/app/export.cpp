@@ -20,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -101,7 +102,12 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario.campaign, planned.id, throw_number(trough),
                                machine_number(trough), trough.friction)};
-    return view::export_frames(source, planned.folder / "frames");
+    bool const terminal = ::isatty(STDERR_FILENO) == 1;
+    auto exported = view::export_frames(source, planned.folder / "frames", [&](int written, int all) {
+        if (terminal) fmt::print(stderr, "\r{}: {} of {} frames\x1b[K", planned.id, written, all);
+    });
+    if (terminal) fmt::print(stderr, "\r\x1b[K");
+    return exported;
 }
 
 int run(Options const& options) {

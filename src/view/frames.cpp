@@ -149,7 +149,8 @@ class FrameExport {
 
 }  // namespace
 
-ExportedFrames export_frames(FrameSource const& source, fs::path const& target) {
+ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
+                             std::function<void(int, int)> const& progressed) {
     std::vector<Dump> dumps = find_dumps(source.folder);
     std::vector<TroughPosition> const positions = match(dumps, source.folder / "frames.csv");
     for (TroughPosition const& position : positions) check_motion(source, position);
@@ -180,6 +181,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target) 
         frames.write(frame, positions[i]);
         if (auto const now = std::chrono::steady_clock::now(); now - written > std::chrono::seconds(1)) {
             frames.write_collections();
+            if (progressed) progressed(frames.frames(), static_cast<int>(dumps.size()));
             written = now;
         }
     }

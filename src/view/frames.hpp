@@ -3,6 +3,7 @@
 #include "theory/conveyor.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,10 +39,12 @@ struct ExportedFrames {
 /// A last frame that the engine had not finished writing is left out; no frame at all makes empty
 /// collections.
 ///
+/// @param progressed  is told about once a second; may be empty
 /// @throws InputError naming file and line when a dump or frames.csv is damaged, when a frame in between is
 /// missing, or
 ///         when the trough is not where A sin(omega t) puts it
 /// @throws MissingError when a file cannot be read or the disk refuses
-ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target);
+ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target,
+                             std::function<void(int written, int all)> const& progressed = {});
 
 }  // namespace vibrotrough::view

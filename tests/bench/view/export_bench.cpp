@@ -82,12 +82,15 @@ view::FrameSource make_frames(fs::path const& folder, int count) {
         table << fmt::format("{},{},{}\n", step, amplitude_x * sine, amplitude_z * sine);
         write_dump(folder / fmt::format("frames.{}.dump", step), step, random);
     }
+    theory::Conveyor conveyor{};
+    conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
     return {.folder = folder,
             .trough = folder / "trough.stl",
             .time_step = time_step,
             .angular_frequency = omega,
             .amplitude_x = amplitude_x,
             .amplitude_z = amplitude_z,
+            .point_mass = theory::solve(conveyor),
             .caption = ""};
 }
 
