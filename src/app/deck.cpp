@@ -2,7 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
-#include "core/atomic_file.hpp"
+#include "campaign/plan.hpp"
 #include "core/shell.hpp"
 #include "scenario/campaign_file.hpp"
 
@@ -30,13 +30,15 @@ int run(Options const& options) {
         for (int packing = 1; packing <= scenario.measure.packings; ++packing) {
             deck::write_deck(deck::make_deck(scenario, packing), folder / fmt::format("packing-{}", packing));
         }
-        write_file_atomically(folder / "scenario.toml", to_toml(scenario));
+        campaign::write_case_files({{}, scenario, folder});
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
                    folder.string(), throw_number(scenario.trough), machine_number(scenario.trough),
                    scenario.layer.grains, scenario.measure.packings);
     }
-    fmt::print("{} cases written; run one by hand with: cd {} && liggghts -in in.liggghts\n",
-               campaign.cases.size(), shell_word(fs::path(options.output) / "case-001" / "packing-1"));
+    fmt::print(
+        "{} cases written; run one by hand with: cd {} && liggghts -in settle.liggghts && liggghts -in "
+        "in.liggghts\n",
+        campaign.cases.size(), shell_word(fs::path(options.output) / "case-001" / "packing-1"));
     return all_well;
 }
 

@@ -15,6 +15,9 @@ namespace {
 
 std::vector<double> efficiency_of(Scenario const& scenario, measure::CycleSeries const& series) {
     Trough const& trough = scenario.trough;
+    // The engine does not unwrap the positions of rigid bodies.
+    if (is_clump(scenario.grains) || scenario.layer.block == Block::plate)
+        return measure::velocity_efficiency_by_mean(series, velocity_scale(trough));
     return measure::velocity_efficiency(series, trough.amplitude * std::cos(trough.vibration_angle));
 }
 

@@ -38,6 +38,7 @@ class LocalExecutor {
         : plan_(plan), engine_(engine), jobs_(jobs), observer_(observer) {}
 
     Summary run() {
+        settled_.remove_leftovers();
         collect_jobs();
         signals_.async_wait([this](auto const& cancelled, int) {
             if (!cancelled) interrupt();
@@ -63,9 +64,11 @@ class LocalExecutor {
                 if (read_finished_packing(planned, packing)) {
                     ++progress_.packings_done;
                 } else {
-                    // What an interrupted run left would look like a run of today's.
-                    if (case_state(planned) != CaseState::failed)
-                        fs::remove_all(planned.packing_folder(packing));
+                    // What an interrupted run left would look like a run of today's, unless this goes on
+                    // from its checkpoint.
+                    fs::path const left = planned.packing_folder(packing);
+                    if (case_state(planned) != CaseState::failed && !has_checkpoint(left))
+                        fs::remove_all(left);
                     enqueue({i, packing});
                 }
             }
@@ -110,14 +113,13 @@ class LocalExecutor {
 
     void start(Job const& job) {
         PlannedCase const& planned = plan_.cases[job.case_index];
-        make_folder(planned.folder);
-        write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+        write_case_files(planned);
         fs::remove(planned.failure_file());  // a failure.json means that the last try failed
         running_.emplace_back();
         auto const place = std::prev(running_.end());
         try {
             *place = std::make_unique<PackingRun>(
-                context_, engine_, planned, job.packing,
+                context_, engine_, settled_, planned, job.packing,
                 [this, job, place](PackingOutcome const& outcome) { ended(job, place, outcome); });
         } catch (...) {
             running_.erase(place);
@@ -209,6 +211,7 @@ class LocalExecutor {
     boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
     boost::asio::steady_timer clock_{context_};
     std::deque<Job> queue_;
+    SettledPackings settled_{context_, engine_, plan_.folder};
     std::list<std::unique_ptr<PackingRun>> running_;
     std::map<std::size_t, int> missing_;           ///< packings that an unfinished case still needs
     std::map<std::size_t, std::string> outcomes_;  ///< of cases with a result

@@ -39,6 +39,20 @@ void refuse_other_campaign(Plan const& plan) {
 
 }  // namespace
 
+void write_named_files(Scenario const& scenario, fs::path const& folder) {
+    for (NamedFile const& file : named_files(scenario)) {
+        std::error_code missing;
+        if (!fs::exists(folder / file.name, missing) || read_file(folder / file.name) != file.content)
+            write_file_atomically(folder / file.name, file.content);
+    }
+}
+
+void write_case_files(PlannedCase const& planned) {
+    make_folder(planned.folder);
+    write_named_files(planned.scenario, planned.folder);
+    write_file_atomically(planned.folder / "scenario.toml", to_toml(planned.scenario));
+}
+
 Plan make_plan(Campaign const& campaign, fs::path const& folder, std::string const& engine_version) {
     Plan plan{campaign.name, folder, engine_version, {}};
     std::set<std::string> ids;
@@ -55,6 +69,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    for (PlannedCase const& planned : plan.cases) write_named_files(planned.scenario, plan.folder);
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }
 

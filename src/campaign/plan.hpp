@@ -35,6 +35,14 @@ struct Plan {
 Plan make_plan(Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
 
+/// Puts the files that the scenario names into the folder.
+/// @throws MissingError when the disk refuses
+void write_named_files(Scenario const& scenario, std::filesystem::path const& folder);
+
+/// Makes the case's folder with its frozen scenario.
+/// @throws MissingError when the disk refuses
+void write_case_files(PlannedCase const& planned);
+
 /// Makes the folder and freezes the campaign there: campaign.toml and the engine's version (engine.json).
 /// @throws MissingError when the disk refuses
 void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "deck/time_grid.hpp"
 #include "scenario/scenario.hpp"
 
 #include <filesystem>
@@ -8,47 +9,44 @@
 
 namespace vibrotrough::deck {
 
-/// How the run is cut into steps.
-struct TimeGrid {
-    double time_step;          ///< s
-    int steps_per_cycle;       ///< whole, so that every sample is locked to the phase
-    double rayleigh_fraction;  ///< time step / Rayleigh time of the smallest grain
-    double hertz_fraction;     ///< time step / Hertz contact time of the smallest grain at `impact_speed`
-    double impact_speed;       ///< m/s, the fastest impact reckoned with
-};
-
-/// One packing's input for the engine: a folder that `liggghts -in in.liggghts` runs by hand.
+/// One packing's input for the engine: a folder in which `liggghts -in settle.liggghts` and then
+/// `liggghts -in in.liggghts` run by hand.
 struct Deck {
-    std::map<std::string, std::string> files;  ///< name and content
+    std::map<std::string, std::string> settle_files;  ///< of the first deck, which knows nothing of the drive
+    std::map<std::string, std::string> files;         ///< of both, name and content
     TimeGrid time;
     int seed;       ///< of the packing, a prime as the engine wants it
     double mass;    ///< kg, of all grains
     double weight;  ///< N, what the layer at rest presses onto the trough: m g cos(alpha)
 };
 
-/// Lines that the deck prints and the driver looks for.
+/// Lines that the decks print and the driver looks for.
 constexpr char const* end_marker = "VIBROTROUGH DONE";
 constexpr char const* failure_marker = "VIBROTROUGH FAILED";
 constexpr char const* settled_marker = "VIBROTROUGH SETTLED";
+constexpr char const* begin_marker = "VIBROTROUGH BEGIN";
+
+constexpr char const* settle_file = "settle.liggghts";
+constexpr char const* drive_file = "in.liggghts";
+constexpr char const* settled_file = "settled.restart";
+constexpr char const* checkpoint_list = "checkpoints.txt";  ///< a line with its cycle per checkpoint
 
 /// The file that the deck reads after each cycle, and its two contents.
 constexpr char const* control_file = "control.in";
 constexpr char const* control_go_on = "variable stop equal 0\n";
 constexpr char const* control_stop = "variable stop equal 1\n";
 
-/// Time step: the smallest of 20 % of the Rayleigh time, 10 % of the Hertz contact time, 1/500 of a cycle,
-/// and what makes the steps per cycle (and per frame) a whole number. Rayleigh time  T_R = pi R sqrt(rho / G)
-/// / (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
-///   (Li, Xu & Thornton, Powder Technology 160, 2005).
-/// Hertz contact  t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5) of two equal grains
-///   (Johnson, Contact Mechanics, 1985, section 11.4), at v = 2 omega r: a grain that flies at the trough's
-///   largest speed against a trough that comes at its largest speed.
-/// @throws InputError when a cycle would take more than 1e8 steps
-TimeGrid choose_time_step(Scenario const& scenario);
-
 /// The deck of packing number `packing` (from 1). Different packings differ by their seeds only.
 /// @throws std::invalid_argument when `packing` is below 1 or above 1000
+/// @throws InputError when the scenario cannot be cut into steps
 Deck make_deck(Scenario const& scenario, int packing);
+
+/// Name of the restart file that the deck writes after this cycle.
+std::string checkpoint_file(int cycle);
+
+/// Writes files into the folder, which is made.
+/// @throws MissingError when the disk refuses
+void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder);
 
 /// Writes the deck's files into the folder, which is made.
 /// @throws MissingError when the disk refuses

@@ -9,33 +9,47 @@
 namespace vibrotrough::deck {
 namespace {
 
-struct Node {
-    double x, y;
-};
+using Node = std::array<double, 3>;
 
-std::string facet(std::array<Node, 3> const& nodes) {
-    std::string text = "  facet normal 0 0 1\n    outer loop\n";
-    for (Node const& node : nodes) text += fmt::format("      vertex {} {} 0\n", node.x, node.y);
+std::string facet(Node const& normal, std::array<Node, 3> const& nodes) {
+    std::string text =
+        fmt::format("  facet normal {} {} {}\n    outer loop\n", normal[0], normal[1], normal[2]);
+    for (Node const& node : nodes) text += fmt::format("      vertex {} {} {}\n", node[0], node[1], node[2]);
     return text + "    endloop\n  endfacet\n";
+}
+
+/// A rectangle over x in [0, length] and another coordinate in [0, width]; `place` puts (x, other) in space.
+template <typename Place>
+std::string rectangle(std::string const& name, double length, double width, double edge, Node const& normal,
+                      Place const& place) {
+    int const across = std::max(1, static_cast<int>(std::lround(width / edge)));
+    int const along = std::max(1, static_cast<int>(std::lround(length * across / width)));
+    // The last node is the length itself, not a product that rounds beside it.
+    auto const node = [&](int i, int j) {
+        return place(i == along ? length : length * i / along, j == across ? width : width * j / across);
+    };
+    std::string text = fmt::format("solid {}\n", name);
+    for (int i = 0; i < along; ++i) {
+        for (int j = 0; j < across; ++j) {
+            text += facet(normal, {node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+            text += facet(normal, {node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+        }
+    }
+    return text + fmt::format("endsolid {}\n", name);
 }
 
 }  // namespace
 
 std::string flat_trough_stl(double length, double width, double edge) {
-    int const across = std::max(1, static_cast<int>(std::lround(width / edge)));
-    int const along = std::max(1, static_cast<int>(std::lround(length * across / width)));
-    // The last node is the length itself, not a product that rounds beside it.
-    auto const node = [&](int i, int j) {
-        return Node{i == along ? length : length * i / along, j == across ? width : width * j / across};
-    };
-    std::string text = "solid trough\n";
-    for (int i = 0; i < along; ++i) {
-        for (int j = 0; j < across; ++j) {
-            text += facet({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-            text += facet({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-        }
-    }
-    return text + "endsolid trough\n";
+    return rectangle("trough", length, width, edge, {0, 0, 1}, [](double x, double y) {
+        return Node{x, y, 0};
+    });
+}
+
+std::string side_wall_stl(double length, double height, double y, double edge) {
+    return rectangle("wall", length, height, edge, {0, 1, 0}, [y](double x, double z) {
+        return Node{x, y, z};
+    });
 }
 
 }  // namespace vibrotrough::deck

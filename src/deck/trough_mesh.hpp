@@ -4,9 +4,12 @@
 
 namespace vibrotrough::deck {
 
-/// A flat floor at z = 0 over the whole periodic box as ASCII STL. The outermost nodes lie exactly on the box
-/// faces (the same doubles as in the deck) and the triangles are nearly isosceles, with edges of about
-/// `edge`: LIGGGHTS wants both (see README.md of this room).
+/// An STL of a flat floor 0 <= x <= length, 0 <= y <= width, z = 0, with its outermost nodes exactly on the
+/// ends and elements as near to `edge` long and to isosceles as fits: the engine stops at long thin
+/// triangles.
 std::string flat_trough_stl(double length, double width, double edge);
+
+/// An STL of a side wall 0 <= x <= length, 0 <= z <= height in the plane y, in the same way.
+std::string side_wall_stl(double length, double height, double y, double edge);
 
 }  // namespace vibrotrough::deck

@@ -103,7 +103,7 @@ struct EngineProcess::State {
 };
 
 EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& engine, fs::path const& folder,
-                             std::function<void(ExitStatus)> on_exit)
+                             std::function<void(ExitStatus)> on_exit, Launch const& launch)
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
     // The state is kept by whoever waits for the exit; a destroyed EngineProcess has no handler any more. The
@@ -118,14 +118,16 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                 std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
+    std::vector<std::string> command{no_daemon, "stdbuf",    "-oL", engine.program.string(),
+                                     "-in",     launch.input};
+    command.insert(command.end(), launch.arguments.begin(), launch.arguments.end());
     try {
         // Line-buffered, so that an error message is not lost with the buffer.
-        state_->process = bp::child(
-            bp::search_path("env"),
-            bp::args({no_daemon, "stdbuf", "-oL", engine.program.string(), "-in", "in.liggghts"}),
-            bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > (folder / output_file).string(),
-            bp::std_in < bp::null, context, bp::on_exit(ended),
-            bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
+        state_->process =
+            bp::child(bp::search_path("env"), bp::args(command), bp::start_dir(folder.string()),
+                      (bp::std_out & bp::std_err) > (folder / output_file).string(), bp::std_in < bp::null,
+                      context, bp::on_exit(ended),
+                      bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
         throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
                                        error.code().message()));

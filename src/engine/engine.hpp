@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <boost/asio/io_context.hpp>
 
@@ -30,15 +31,21 @@ struct ExitStatus {
 /// The file in the run's folder that receives what the engine prints.
 constexpr char const* output_file = "engine.out";
 
+/// What the engine is started on.
+struct Launch {
+    std::string input = "in.liggghts";   ///< the deck, in the run's folder
+    std::vector<std::string> arguments;  ///< after the deck, e.g. {"-var", "done", "50"}
+};
+
 /// A running engine on one deck folder. It dies with the driver (also when that is killed) and does not
 /// share the terminal's Ctrl-C. Destroying the object kills the engine.
 class EngineProcess {
   public:
-    /// Starts `liggghts -in in.liggghts` in `folder`. `on_exit` is called once, from `context`, by the thread
+    /// Starts `liggghts -in <input>` in `folder`. `on_exit` is called once, from `context`, by the thread
     /// that runs it; that thread must be the one that constructs this object and must outlive the engine.
     /// @throws MissingError when the process cannot be started
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,
-                  std::function<void(ExitStatus)> on_exit);
+                  std::function<void(ExitStatus)> on_exit, Launch const& launch = {});
     ~EngineProcess();
     EngineProcess(EngineProcess const&) = delete;
     EngineProcess& operator=(EngineProcess const&) = delete;

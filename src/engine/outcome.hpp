@@ -19,11 +19,17 @@ enum class Outcome {
     outputs_incomplete,    ///< the engine ended without what it should have written (often a full disk)
 };
 
+/// Which of the two decks was run.
+enum class Stage {
+    settling,  ///< ends with the settled marker
+    driving,   ///< ends with the end marker
+};
+
 struct RunReport {
     Outcome outcome;
     std::string message;       ///< one line for people; empty when completed
-    long last_step = 0;        ///< of the end marker
-    double settled_force = 0;  ///< N, of the resting layer on the trough, pressing positive
+    long last_step = 0;        ///< of the end marker, of driving
+    double settled_force = 0;  ///< N, of the resting layer on the trough, pressing positive, of settling
 };
 
 /// "completed", "insertion-incomplete", ...
@@ -31,6 +37,6 @@ std::string to_string(Outcome outcome);
 
 /// Judges an ended run by its exit status and what it printed into `folder`. An exit code alone proves
 /// nothing: LIGGGHTS also ends with 0 after a signal and on a full disk.
-RunReport examine_run(std::filesystem::path const& folder, ExitStatus status);
+RunReport examine_run(std::filesystem::path const& folder, ExitStatus status, Stage stage);
 
 }  // namespace vibrotrough::engine

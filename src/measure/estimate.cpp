@@ -74,6 +74,14 @@ std::vector<double> velocity_efficiency(CycleSeries const& series, double amplit
     return eta;
 }
 
+std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, double velocity_scale) {
+    if (!(velocity_scale > 0))
+        throw std::invalid_argument("velocity efficiency needs a drive along the trough");
+    std::vector<double> eta = series.mean_velocity;
+    for (double& value : eta) value /= velocity_scale;
+    return eta;
+}
+
 int startup_length(std::span<double const> values) {
     // Sums from the end: those of the first d values removed are there for every d at once.
     int const n = static_cast<int>(values.size());

@@ -48,6 +48,11 @@ constexpr double fewest_independent = 3;
 /// @param amplitude_x  r cos(beta), m, > 0
 std::vector<double> velocity_efficiency(CycleSeries const& series, double amplitude_x);
 
+/// The same from the mean velocity of each cycle, for bodies whose positions the engine does not unwrap:
+/// eta_k = v_k / (omega r cos(beta)).
+/// @param velocity_scale  omega r cos(beta), m/s, > 0
+std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, double velocity_scale);
+
 /// Length of the start-up by the marginal standard error rule MSER (White, Simulation 69, 1997, 323-334): the
 /// d <= n/2 that minimises sum_{i >= d} (y_i - mean_d)^2 / (n - d)^2. An answer of n/2 means that the
 /// start-up is not over.

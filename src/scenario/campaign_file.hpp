@@ -20,7 +20,8 @@ struct Campaign {
 /// @throws MissingError when the file is there but cannot be read
 Campaign read_campaign(std::filesystem::path const& path);
 
-/// The same for a text; `name` stands for the file in errors.
-Campaign parse_campaign(std::string_view text, std::string const& name);
+/// The same for a text; `name` stands for the file in errors, `folder` is where files are that it names.
+Campaign parse_campaign(std::string_view text, std::string const& name,
+                        std::filesystem::path const& folder = {});
 
 }  // namespace vibrotrough

@@ -3,9 +3,12 @@
 #include "scenario/keys.hpp"
 #include "scenario/scenario.hpp"
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace vibrotrough {
 
@@ -20,10 +23,19 @@ struct Place {
     Position where;
 };
 
-/// A value in SI and where it was written.
+/// What stands right of an equals sign: a number in SI, a word, a list of either. Which one follows from the
+/// key's kind.
+using Content = std::variant<double, std::string, std::vector<double>, std::vector<std::string>>;
+
+/// A value and where it was written.
 struct Value {
-    double number;
+    Content content;
     Position where;
+
+    double number() const { return std::get<double>(content); }
+    std::string const& word() const { return std::get<std::string>(content); }
+    std::vector<double> const& numbers() const { return std::get<std::vector<double>>(content); }
+    std::vector<std::string> const& words() const { return std::get<std::vector<std::string>>(content); }
 };
 
 /// The values of one case by the path of their key.
@@ -34,7 +46,10 @@ using CaseValues = std::map<std::string, Value, std::less<>>;
                            std::string_view instead);
 
 /// Puts one case together and checks what only shows when keys are seen together.
+/// @param file    the campaign file, for errors
+/// @param folder  where the files that the case names are
 /// @throws InputError
-Scenario make_scenario(std::string const& campaign, CaseValues const& values, std::string const& file);
+Scenario make_scenario(std::string const& campaign, CaseValues const& values, std::string const& file,
+                       std::filesystem::path const& folder);
 
 }  // namespace vibrotrough

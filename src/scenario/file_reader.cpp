@@ -30,6 +30,16 @@ std::string write_instead(Key const& key) {
     return fmt::format("write {} = {}", name_of(key.path), key.example);
 }
 
+/// A plain name: it cannot lead out of its folder, nor mean anything to the engine or a shell.
+bool is_file_name(std::string_view name) {
+    bool const plain = std::ranges::all_of(name, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+               c == '_' || c == '-';
+    });
+    return plain && name.size() > 4 && name.size() <= 100 && name.ends_with(".csv") && name.front() != '.' &&
+           name.front() != '-';
+}
+
 /// toml++ gives a table's entries by name; people expect them, and their errors, in the order of the file.
 std::vector<std::pair<toml::key const*, toml::node const*>> in_file_order(toml::table const& table) {
     std::vector<std::pair<toml::key const*, toml::node const*>> entries;
@@ -77,7 +87,7 @@ class Reader {
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, printable(name.str(), 60), "unknown section",
-                 "the sections are campaign, trough, grains, layer, measure, output and sweep");
+                 "the sections are campaign, trough, grains, layer, measure, output, solver and sweep");
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",
@@ -112,10 +122,10 @@ class Reader {
                      "keep one of the two");
             }
         }
-        if (key.kind == KeyKind::text) {
+        if (key.kind == KeyKind::name) {
             read_name(key, where, node);
         } else {
-            result_.base[path] = {read_number(key, node), where};
+            result_.base[path] = {read_content(key, node), where};
         }
     }
 
@@ -134,6 +144,61 @@ class Reader {
                              key.range));
         }
         result_.name = name;
+    }
+
+    Content read_content(Key const& key, toml::node const& node) const {
+        switch (key.kind) {
+            case KeyKind::choice:
+            case KeyKind::file:
+                return read_word(key, node);
+            case KeyKind::quantities:
+            case KeyKind::numbers:
+                return read_numbers(key, node);
+            case KeyKind::harmonics:
+                return read_words(key, node);
+            default:
+                return read_number(key, node);
+        }
+    }
+
+    std::string read_word(Key const& key, toml::node const& node) const {
+        std::string const word = node.value<std::string>().value_or("");
+        auto const known = choices(key);
+        if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
+        if (key.kind == KeyKind::file && node.is_string() && is_file_name(word)) return word;
+        fail(position(node), key.path, fmt::format("{} is not one of its values", written(node)),
+             fmt::format("{}: {}", write_instead(key), key.range));
+    }
+
+    std::vector<double> read_numbers(Key const& key, toml::node const& node) const {
+        constexpr std::size_t most = 100;
+        toml::array const* const list = node.as_array();
+        if (list == nullptr || list->empty() || list->size() > most) {
+            fail(position(node), key.path, fmt::format("is not a list of 1 to {} values", most),
+                 write_instead(key));
+        }
+        std::vector<double> values;
+        for (toml::node const& value : *list) {
+            values.push_back(key.kind == KeyKind::quantities ? read_quantity(key, value)
+                                                             : read_plain(key, value));
+            if (!(values.back() > 0 && values.back() >= key.least && values.back() <= key.most)) {
+                fail(position(value), key.path, fmt::format("{} is out of range", written(value)),
+                     fmt::format("{}, in the range {}", write_instead(key), key.range));
+            }
+        }
+        return values;
+    }
+
+    std::vector<std::string> read_words(Key const& key, toml::node const& node) const {
+        toml::array const* const list = node.as_array();
+        std::vector<std::string> words;
+        if (list != nullptr) {
+            for (toml::node const& value : *list) words.push_back(value.value<std::string>().value_or(""));
+        }
+        if (words.empty() || words.size() > 30) {
+            fail(position(node), key.path, "is not a list of 1 to 30 texts", write_instead(key));
+        }
+        return words;
     }
 
     double read_number(Key const& key, toml::node const& node) const {
@@ -192,7 +257,11 @@ class Reader {
 
     void read_axis(std::string const& path, Position where, toml::node const& node) {
         Key const& key = known_key(path, where);
-        if (key.kind == KeyKind::text) fail(where, path, "a name cannot be swept", "sweep a physical input");
+        if (key.kind == KeyKind::name) fail(where, path, "a name cannot be swept", "sweep a physical input");
+        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers ||
+            key.kind == KeyKind::harmonics) {
+            fail(where, path, "a list cannot be swept", "sweep a key with one value");
+        }
         for (Axis const& other : result_.sweep) {
             if (other.key == path) fail(where, path, "is swept twice", "keep one of the two");
             if (!key.group.empty() && find_key(other.key)->group == key.group) {
@@ -203,9 +272,9 @@ class Reader {
         }
         Axis axis{path, {}, where};
         if (auto const* list = node.as_array()) {
-            for (toml::node const& value : *list) axis.values.push_back(read_number(key, value));
+            for (toml::node const& value : *list) axis.values.push_back(read_content(key, value));
         } else if (auto const* range = node.as_table()) {
-            axis.values = read_range(key, *range, where);
+            for (double const value : read_range(key, *range, where)) axis.values.emplace_back(value);
         }
         check_axis(axis);
         result_.sweep.push_back(std::move(axis));
@@ -216,12 +285,14 @@ class Reader {
             fail(axis.where, axis.key, "has no values to sweep over",
                  "write a list [a, b] or { from = a, to = b, step = c }");
         }
-        if (std::set<double>(axis.values.begin(), axis.values.end()).size() != axis.values.size()) {
+        if (std::set<Content>(axis.values.begin(), axis.values.end()).size() != axis.values.size()) {
             fail(axis.where, axis.key, "a value stands in the list twice", "list each value once");
         }
     }
 
     std::vector<double> read_range(Key const& key, toml::table const& range, Position where) const {
+        if (key.kind == KeyKind::choice || key.kind == KeyKind::file)
+            fail(where, key.path, "words make no range", "write a list [a, b]");
         for (auto const& [name, node] : range) {
             if (name.str() != "from" && name.str() != "to" && name.str() != "step") {
                 fail(position(name.source()), key.path,
@@ -263,7 +334,7 @@ class Reader {
     }
 
     void check_present(Key const& key) const {
-        if (key.fallback || given(key.path)) return;
+        if (is_optional(key) || given(key.path)) return;
         std::vector<std::string_view> names{name_of(key.path)};
         for (Key const& other : all_keys()) {
             if (key.group.empty() || other.group != key.group || other.path == key.path) continue;

@@ -8,10 +8,10 @@
 
 namespace vibrotrough {
 
-/// One key of the sweep and its values, in SI.
+/// One key of the sweep and its values.
 struct Axis {
     std::string key;
-    std::vector<double> values;
+    std::vector<Content> values;
     Position where;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -13,10 +15,11 @@ namespace {
 
 using enum KeyKind;
 constexpr double radian = 57.295779513082321;  // degrees
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array keys{
     Key{"campaign.name",
-        text,
+        name,
         "",
         1,
         100,
@@ -109,17 +112,45 @@ constexpr std::array keys{
         "0.5",
         "e, grain on trough"},
 
-    Key{"grains.diameter", quantity, "m", 1e-6, 1, "1 um to 1 m", "", {}, "\"3 mm\"", "mean diameter d"},
-    Key{"grains.diameter_spread",
-        number,
-        "",
-        0,
-        0.5,
-        "0 to 0.5",
-        "",
+    Key{"trough.side_wall_friction", number, "", 0, 5, "0 to 5", "", none, "0.3",
+        "side walls that move with the trough, and their friction; without it periodic across"},
+    Key{"trough.along_phase", quantity, "radian", -180 / radian, 180 / radian, "-180 to 180 deg", "", 0.0,
+        "\"20 deg\"", "x = r cos(beta) sin(omega t + along_phase): an elliptical drive"},
+    Key{"trough.harmonics", harmonics, "", 0, 0, "orders 2 to 100, ratios -10 to 10", "", none,
+        "[\"25, 0.2, 0 deg\"]", "order, ratio and phase of further parts of the acceleration (Eq. 22)"},
+    Key{"trough.waveform", file, "", 0, 0, "a .csv beside this file", "", none, "\"measured.csv\"",
+        "one measured cycle (time_s,x_m,z_m) instead of the sinusoid"},
+
+    Key{"grains.diameter",
+        quantity,
+        "m",
+        1e-6,
+        1,
+        "1 um to 1 m",
+        "size of the grains",
         {},
-        "0.1",
-        "s: three classes of equal number with diameters 1-s, 1 and 1+s times d"},
+        "\"3 mm\"",
+        "d: mean; of a clump, of the sphere with its volume; of the log-normal law, the median"},
+    Key{"grains.diameters",
+        quantities,
+        "m",
+        1e-6,
+        1,
+        "1 um to 1 m each, up to 100",
+        "size of the grains",
+        {},
+        "[\"2 mm\", \"3 mm\"]",
+        "a list of diameters, with number_fractions or mass_fractions"},
+    Key{"grains.number_fractions", numbers, "", 0, 1e9, "above 0 each", "", none, "[0.3, 0.7]",
+        "of the listed diameters; their sum is taken as 1"},
+    Key{"grains.mass_fractions", numbers, "", 0, 1e9, "above 0 each", "", none, "[0.3, 0.7]",
+        "of the listed diameters; their sum is taken as 1"},
+    Key{"grains.diameter_spread", number, "", 0, 0.5, "0 to 0.5", "", 0.0, "0.1", "s, see size_law"},
+    Key{"grains.size_law", choice, "", 0, 0, "three-classes, uniform or lognormal", "", none,
+        "\"three-classes\"",
+        "by number: 1-s, 1 and 1+s times d in equal shares; all between 1-s and 1+s; ln(d) normal with "
+        "standard "
+        "deviation s"},
     Key{"grains.density",
         quantity,
         "kg/m3",
@@ -143,16 +174,12 @@ constexpr std::array keys{
     Key{"grains.poisson_ratio", number, "", 0, 0.49, "0 to 0.49", "", {}, "0.35", "of grain and trough"},
     Key{"grains.friction", number, "", 0, 5, "0 to 5", "", {}, "0.5", "grain on grain"},
     Key{"grains.restitution", number, "", 0.05001, 1, "above 0.05, to 1", "", {}, "0.5", "grain on grain"},
-    Key{"grains.rolling_friction",
-        number,
-        "",
-        0,
-        5,
-        "0 to 5",
-        "",
-        {},
-        "0.0",
-        "coefficient of the epsd2 model, all contacts; 0 switches it off"},
+    Key{"grains.rotation", choice, "", 0, 0, "free, rolling or blocked", "", none, "\"free\"",
+        "rolling: rolling_friction resists; blocked: grains do not rotate"},
+    Key{"grains.rolling_friction", number, "", 0, 5, "0 to 5", "", 0.0, "0.1",
+        "coefficient of the epsd2 model, all contacts, for rotation = \"rolling\""},
+    Key{"grains.shape", file, "", 0, 0, "sphere, cube, rod or a .csv beside this file", "", none, "\"cube\"",
+        "rigid clumps of 8 and 3 spheres, or those of a file (x,y,z,radius, scaled to d)"},
 
     Key{"layer.length",
         quantity,
@@ -195,6 +222,17 @@ constexpr std::array keys{
         "600",
         "number of grains"},
 
+    Key{"layer.block",
+        choice,
+        "",
+        0,
+        0,
+        "point or plate",
+        "height of the layer",
+        {},
+        "\"point\"",
+        "no layer: one rigid block with plastic contact, a sphere that cannot rotate or a plate of nine"},
+
     Key{"measure.packings", integer, "", 1, 1000, "1 to 1000", "", 3, "3",
         "independent packings per case; the interval comes from all of them"},
     Key{"measure.confidence", number, "", 0.5, 0.9999, "0.5 to 0.9999", "", 0.95, "0.95",
@@ -205,6 +243,13 @@ constexpr std::array keys{
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0, "0",
         "frames of the first packing for ParaView; 0 writes none"},
+    Key{"output.checkpoint_cycles", integer, "", 0, 1e6, "0 to 1000000", "", 50, "50",
+        "cycles between checkpoints, from which a killed run goes on; 0 writes none"},
+
+    Key{"solver.rayleigh_fraction", number, "", 0.01, 0.5, "0.01 to 0.5", "", 0.2, "0.2",
+        "largest time step, in Rayleigh times of the smallest grain"},
+    Key{"solver.block_stiffness", number, "", 30, 10000, "30 to 10000", "", 300, "300",
+        "a block's contact lasts the cycle divided by this"},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -232,10 +277,26 @@ Key const* find_key(std::string_view path) {
     return found == keys.end() ? nullptr : &*found;
 }
 
+bool is_optional(Key const& key) {
+    return key.fallback.has_value();
+}
+
+std::vector<std::string_view> choices(Key const& key) {
+    std::vector<std::string_view> words;
+    for (std::string_view rest = key.range; !rest.empty();) {
+        std::size_t const end = std::min({rest.find(", "), rest.find(" or "), rest.size()});
+        words.push_back(rest.substr(0, end));
+        rest.remove_prefix(std::min(rest.size(), end + (rest.substr(end).starts_with(", ") ? 2 : 4)));
+    }
+    return words;
+}
+
 std::string key_reference() {
     std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
     for (Key const& key : keys) {
-        std::string needed = key.fallback ? fmt::format("{:g}", *key.fallback) : "required";
+        std::string needed = "required";
+        if (key.fallback) needed = std::isnan(*key.fallback) ? "none" : fmt::format("{:g}", *key.fallback);
+        if (key.kind == KeyKind::choice || key.path == "grains.shape") needed = choices(key).front();
         if (!key.group.empty()) needed = "exactly one of these";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
                             key.meaning);

@@ -60,7 +60,7 @@ class FailingEngine(EndToEndTest):
         self.assertEqual([row["outcome"] for row in self.table()], ["finished"] * 2)
 
     def test_a_failed_case_does_not_stop_the_others(self):
-        self.break_engine('grep -q "grains    60 " in.liggghts && exit 7')
+        self.break_engine('grep -q "grains    60 " "$2" && exit 7')
         done = self.run_campaign(self.campaign, wanted=1)
         self.assertIn("1 of 2 cases finished, 1 failed", done.stdout)
         self.assertEqual([row["outcome"] for row in self.table()], ["engine-error", "finished"])

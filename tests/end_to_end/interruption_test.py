@@ -11,7 +11,7 @@ from trough_program import EndToEndTest, engines_in, fingerprint, processes_in, 
 SWEEP = {"layer.grains": [60, 70, 80]}
 CASES, PACKINGS = 3, 3
 # An engine that nobody stops would run for an hour, far longer than these tests are patient.
-CHANGES = {"measure.packings": PACKINGS, "measure.max_cycles": 100000}
+CHANGES = {"measure.packings": PACKINGS, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
 
 
 class Interruption(EndToEndTest):
@@ -92,7 +92,7 @@ class Interruption(EndToEndTest):
 
     def test_killed_engine(self):
         driver = self.start_campaign(self.campaign)
-        victim = wait_until(lambda: engines_in(self.output), "an engine ran", driver)[0]
+        victim = wait_until(lambda: engines_in(self.output / "cases"), "an engine ran", driver)[0]
         packing = os.path.relpath(os.readlink(f"/proc/{victim}/cwd"), (self.output / "cases").resolve())
         os.kill(victim, signal.SIGKILL)
         code, output, errors = self.finish(driver)

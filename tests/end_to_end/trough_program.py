@@ -39,7 +39,6 @@ SMALL = {
         "poisson_ratio": 0.35,
         "friction": 0.5,
         "restitution": 0.5,
-        "rolling_friction": 0.0,
     },
     "layer": {"length": "15 mm", "width": "15 mm", "grains": 60},
     "measure": {"packings": 2, "half_width": 0.2, "max_cycles": 300},
@@ -117,6 +116,7 @@ class EndToEndTest(unittest.TestCase):
         self.addCleanup(self.kill_leftovers)
         self.output = self.folder / "runs"
         self.starts_file = self.folder / "starts"
+        self.settles_file = self.folder / "settles"
         self.engine = self.make_counting_engine()
 
     def kill_leftovers(self):
@@ -124,11 +124,11 @@ class EndToEndTest(unittest.TestCase):
             os.kill(number, signal.SIGKILL)
 
     def make_counting_engine(self):
-        """The real engine behind a script that notes the folder of each simulation it starts."""
+        """The real engine behind a script that notes the folder of each simulation and of each settling it starts."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
         script = self.folder / "counting-liggghts"
-        script.write_text(f'#!/bin/sh\ncase "$1" in -in) pwd >> "{self.starts_file}";; esac\nexec "{real}" "$@"\n')
+        script.write_text(f'#!/bin/sh\ncase "$2" in in.liggghts) pwd >> "{self.starts_file}";; settle.liggghts) pwd >> "{self.settles_file}";; esac\nexec "{real}" "$@"\n')
         script.chmod(script.stat().st_mode | stat.S_IXUSR)
         return script
 

@@ -61,7 +61,7 @@ TEST_F(EngineTest, RunsADeckInItsFolder) {
     int ended = 0;
     EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
         ++ended;
-        RunReport const report = examine_run(folder, status);
+        RunReport const report = examine_run(folder, status, Stage::driving);
         EXPECT_EQ(report.outcome, Outcome::completed) << report.message;
         EXPECT_EQ(report.last_step, 7);
     });
@@ -73,7 +73,7 @@ TEST_F(EngineTest, RunsADeckInItsFolder) {
 TEST_F(EngineTest, AnErrorMessageIsKept) {
     write_deck("fix nonsense all no/such/style\n");
     EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
-        RunReport const report = examine_run(folder, status);
+        RunReport const report = examine_run(folder, status, Stage::driving);
         EXPECT_EQ(report.outcome, Outcome::engine_error);
         EXPECT_EQ(report.message.find("ERROR"), 0u) << report.message;
     });

@@ -97,37 +97,75 @@ TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
               "meet their own images; write at least \"13.2 mm\"");
 }
 
+TEST(CampaignFile, SweepsWords) {
+    auto const cases = parse_campaign(sweep("grains.rotation = [\"free\", \"rolling\", \"blocked\"]\n"
+                                            "grains.rolling_friction = [0.1]\n"),
+                                      "c")
+                           .cases;
+    ASSERT_EQ(cases.size(), 3u);
+    EXPECT_EQ(cases[1].grains.rotation, Rotation::rolling);
+    EXPECT_EQ(cases[1].grains.rolling_friction, 0.1);
+    EXPECT_EQ(cases[2].grains.rotation, Rotation::blocked);
+    EXPECT_EQ(cases[2].grains.rolling_friction, 0);  // what has no effect is not another case
+}
+
 TEST(CampaignFile, EveryErrorIsOneLine) {
     std::string const hostile = std::string("\"a\\nb'$(x)") + std::string(300, 'y') + "\" = 1\n";
-    for (std::string const& text : {std::string(),
-                                    std::string("["),
-                                    std::string("x = 1"),
-                                    std::string("[trough"),
-                                    with("[layer]", "[lair]"),
-                                    with("name = \"pvc-horizontal\"", "name = \"../x\""),
-                                    with("name = \"pvc-horizontal\"", "name = \"a\\nshell\""),
-                                    with("name = \"pvc-horizontal\"", "name = 1"),
-                                    with("[trough]", "[trough]\n" + hostile),
-                                    with("throw_number = 2.0", "throw_number = 1e999"),
-                                    with("throw_number = 2.0", "throw_number = [1]"),
-                                    with("vibration_angle = \"30 deg\"", "vibration_angle = \"0 deg\""),
-                                    with("height = \"12 mm\"", "height = \"1 mm\""),
-                                    with("amplitude = \"6 mm\"", "amplitude = \"6 mm; shell\""),
-                                    sweep("\"trough.friction\" = []"),
-                                    sweep("\"trough.friction\" = [0.1, 0.1]"),
-                                    sweep("\"trough.friction\" = 3"),
-                                    sweep("\"trough.friction\" = {from = 1, to = 0, step = 1}"),
-                                    sweep("\"trough.friction\" = {from = 0, to = 1}"),
-                                    sweep("\"trough.friction\" = {from = 0, to = 1, step = 0}"),
-                                    sweep("\"trough.friction\" = {from = 0, to = 9, step = 1}"),
-                                    sweep("\"trough.friction\" = {from = 0, to = 1, stop = 1}"),
-                                    sweep("\"campaign.name\" = [1]"),
-                                    sweep("\"trough.friction\" = [0.1]\ntrough.friction = [0.2]"),
-                                    with("throw_number = 2.0", "frequency = \"100 Hz\""),
-                                    sweep("\"no.key\" = [1]"),
-                                    sweep("throw_number = [1]"),
-                                    sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
-                                    std::string("campaign = 1\n")}) {
+    for (std::string const& text :
+         {std::string(),
+          std::string("["),
+          std::string("x = 1"),
+          std::string("[trough"),
+          with("[layer]", "[lair]"),
+          with("name = \"pvc-horizontal\"", "name = \"../x\""),
+          with("name = \"pvc-horizontal\"", "name = \"a\\nshell\""),
+          with("name = \"pvc-horizontal\"", "name = 1"),
+          with("[trough]", "[trough]\n" + hostile),
+          with("throw_number = 2.0", "throw_number = 1e999"),
+          with("throw_number = 2.0", "throw_number = [1]"),
+          with("vibration_angle = \"30 deg\"", "vibration_angle = \"0 deg\""),
+          with("height = \"12 mm\"", "height = \"1 mm\""),
+          with("amplitude = \"6 mm\"", "amplitude = \"6 mm; shell\""),
+          sweep("\"trough.friction\" = []"),
+          sweep("\"trough.friction\" = [0.1, 0.1]"),
+          sweep("\"trough.friction\" = 3"),
+          sweep("\"trough.friction\" = {from = 1, to = 0, step = 1}"),
+          sweep("\"trough.friction\" = {from = 0, to = 1}"),
+          sweep("\"trough.friction\" = {from = 0, to = 1, step = 0}"),
+          sweep("\"trough.friction\" = {from = 0, to = 9, step = 1}"),
+          sweep("\"trough.friction\" = {from = 0, to = 1, stop = 1}"),
+          sweep("\"campaign.name\" = [1]"),
+          sweep("\"trough.friction\" = [0.1]\ntrough.friction = [0.2]"),
+          with("throw_number = 2.0", "frequency = \"100 Hz\""),
+          with("rolling_friction = 0.0", "rolling_friction = 0.1"),
+          with("rolling_friction = 0.0", "rotation = \"rolling\""),
+          with("rolling_friction = 0.0", "rotation = \"blokked\""),
+          with("rolling_friction = 0.0", "rotation = 1"),
+          with("rolling_friction = 0.0", "size_law = \"gauss\""),
+          with("rolling_friction = 0.0", "number_fractions = [1]"),
+          with("rolling_friction = 0.0", "shape = \"cube\""),  // in three sizes
+          with("diameter_spread = 0.1", "shape = \"ball\""),
+          with("diameter_spread = 0.1", "shape = \"../secret.csv\""),
+          with("diameter_spread = 0.1", "shape = \"no-such-file.csv\""),
+          with("diameter = \"3 mm\"", "diameters = []"),
+          with("diameter = \"3 mm\"", "diameters = [\"3 mm\"]"),
+          with("diameter = \"3 mm\"\ndiameter_spread = 0.1", "diameters = [\"3 mm\"]"),
+          with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
+               "diameters = [\"3 mm\"]\nmass_fractions = [1, 2]"),
+          with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"25\"]"),
+          with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"1, 0.2, 0 deg\"]"),
+          with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"2, x, 0 deg\"]"),
+          with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"2, 0.2, 3 mm\"]"),
+          with("throw_number = 2.0", "throw_number = 2.0\nharmonics = 25"),
+          with("throw_number = 2.0", "throw_number = 2.0\nwaveform = \"none.csv\""),
+          with("height = \"12 mm\"", "block = \"point\""),  // in three sizes
+          with("height = \"12 mm\"", "block = \"ball\""),
+          sweep("\"grains.rotation\" = [\"free\", \"free\"]"),
+          sweep("\"trough.harmonics\" = [[\"2, 0.2, 0 deg\"]]"),
+          sweep("\"no.key\" = [1]"),
+          sweep("throw_number = [1]"),
+          sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
+          std::string("campaign = 1\n")}) {
         std::string const error = error_of(text);
         EXPECT_EQ(error.find("c.toml:"), 0u) << error << "\n in: " << text;
         EXPECT_EQ(error.find_first_of("\n\r"), std::string::npos) << error;

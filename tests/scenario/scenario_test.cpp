@@ -47,9 +47,20 @@ TEST(Scenario, GrainsFromHeight) {
 
 // The stored text of a case is the case: bit for bit.
 TEST(Scenario, TextRoundTrip) {
-    for (std::string const& text : {example_campaign, with("throw_number = 2.0", "machine_number = 3.3"),
-                                    with("height = \"12 mm\"", "grains = 77"),
-                                    with("vibration_angle = \"30 deg\"", "tan_vibration_angle = 0.3")}) {
+    for (std::string const& text :
+         {example_campaign, with("throw_number = 2.0", "machine_number = 3.3"),
+          with("height = \"12 mm\"", "grains = 77"),
+          with("vibration_angle = \"30 deg\"", "tan_vibration_angle = 0.3"),
+          with("rolling_friction = 0.0", "rolling_friction = 0.1\nrotation = \"rolling\""),
+          with("rolling_friction = 0.0", "rotation = \"blocked\"\nsize_law = \"lognormal\""),
+          with("diameter_spread = 0.1", "shape = \"rod\""),
+          with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
+               "diameters = [\"2 mm\", \"3.1 mm\"]\nmass_fractions = [0.3, 0.71]"),
+          with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"),
+          with("throw_number = 2.0",
+               "throw_number = 2.0\nalong_phase = \"20 deg\"\n"
+               "harmonics = [\"25, 0.2, 0 deg\", \"3, -0.1, -40 deg\"]"),
+          with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1", ""))}) {
         Scenario const first = scenario(text);
         Scenario const second = scenario(to_toml(first));
         EXPECT_EQ(to_toml(first), to_toml(second));

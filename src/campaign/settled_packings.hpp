@@ -1,0 +1,58 @@
+#pragma once
+
+#include "deck/deck.hpp"
+#include "engine/engine.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// How the settling of a packing ended.
+struct Settled {
+    bool well;
+    std::string outcome, message;   ///< of a failure
+    std::filesystem::path restart;  ///< the settled packing, when it ended well
+};
+
+/// The campaign's settled packings, each made once and used by all cases that share grains, layer and trough:
+/// packings/<key>/, the key a hash of the settling deck and the engine's version. Each is made in a folder of
+/// its own and appears by rename, so that several drivers may make them at the same time.
+class SettledPackings {
+  public:
+    /// Deck and engine must outlive the calls they are given to.
+    SettledPackings(boost::asio::io_context& context, engine::Engine const& engine,
+                    std::filesystem::path const& campaign_folder);
+    ~SettledPackings();
+
+    using Ready = std::function<void(Settled const&)>;
+
+    /// Calls `ready` once, from the context, when the packing is there: soon if it was made before, whole and
+    /// undamaged, else after the engine has settled it. Asked twice for one packing, the engine runs once.
+    /// @throws MissingError when the disk refuses or the engine cannot be started
+    void obtain(deck::Deck const& deck, Ready ready);
+
+    /// Removes what killed drivers left half made. For a driver that is alone in the folder.
+    void remove_leftovers();
+
+    /// Ends all settling soon; whoever waits is told "interrupted".
+    void interrupt();
+
+  private:
+    struct Making;
+    void ended(std::string const& key, engine::ExitStatus status);
+
+    boost::asio::io_context& context_;
+    engine::Engine const& engine_;
+    std::filesystem::path folder_;
+    std::map<std::string, std::unique_ptr<Making>> making_;
+};
+
+/// The key of a deck's settled packing: 12 hexadecimal digits.
+std::string packing_key(deck::Deck const& deck, std::string const& engine_version);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,267 @@
+#include "deck/deck_data.hpp"
+
+#include "deck/drive_formula.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <boost/math/special_functions/prime.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::deck {
+namespace {
+
+namespace mustache = kainjow::mustache;
+constexpr double degrees = 180 / std::numbers::pi;
+
+std::string text(double number) {
+    return fmt::format("{}", number);
+}
+
+std::string rounded(double number) {
+    return fmt::format("{:.6g}", number);
+}
+
+bool is_body(Scenario const& s) {
+    return is_clump(s.grains) || s.layer.block == Block::plate;
+}
+
+std::string template_of(Scenario const& s, DeckNumbers const& n, double diameter, int index) {
+    std::string const start =
+        fmt::format("{} {} atom_type 1 density constant {}", is_body(s) ? "multisphere" : "sphere",
+                    seed_number(4000 + index), s.grains.density);
+    if (!n.clump) return fmt::format("{} radius constant {}", start, diameter / 2);
+    std::vector<std::string> spheres, inertia;
+    for (Sphere const& sphere : n.clump->spheres)
+        spheres.push_back(fmt::format("{} {} {} {}", sphere.x, sphere.y, sphere.z, sphere.radius));
+    for (double const moment : n.clump->inertia) inertia.push_back(text(moment * s.grains.density));
+    bool const turns = s.grains.rotation != Rotation::blocked;
+    return fmt::format("{} nspheres {} ntry 100000 spheres {} type 1 mass {} inertia_tensor {} use_density{}",
+                       start, spheres.size(), fmt::join(spheres, " "), n.clump->volume * s.grains.density,
+                       fmt::join(inertia, " "), turns ? "" : " tflag off off off");
+}
+
+mustache::list describe_classes(Scenario const& s, DeckNumbers const& n, int packing) {
+    mustache::list list;
+    int index = 0;
+    int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
+    // Packings have seeds of their own: three primes each for three classes, as many as there are for more.
+    int const stride = std::max(3, static_cast<int>(n.classes.size()));
+    for (ClassCount const& size : n.classes) {
+        mustache::data entry;
+        so_far += size.count;
+        entry.set("index", std::to_string(index + 1));
+        entry.set("diameter", text(size.diameter));
+        entry.set("count", std::to_string(size.count));
+        entry.set("count_so_far", std::to_string(so_far));
+        entry.set("template", template_of(s, n, size.diameter, index));
+        entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
+        entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
+        list.push_back(entry);
+        ++index;
+    }
+    return list;
+}
+
+std::string grain_words(Scenario const& s) {
+    if (s.layer.block == Block::point) return "block, a sphere that does not rotate,";
+    if (s.layer.block == Block::plate) return "block, a plate of nine spheres,";
+    return is_clump(s.grains) ? fmt::format("clumps of shape {}", s.grains.shape) : "spheres";
+}
+
+std::string rotation_word(Rotation rotation) {
+    switch (rotation) {
+        case Rotation::rolling:
+            return "with rolling friction";
+        case Rotation::blocked:
+            return "blocked";
+        default:
+            return "free";
+    }
+}
+
+void describe_inputs(mustache::data& data, Scenario const& s) {
+    data.set("inclination_deg", rounded(s.trough.inclination * degrees));
+    data.set("trough_friction", text(s.trough.friction));
+    data.set("trough_restitution", text(s.trough.restitution));
+    data.set("walls", s.trough.side_wall_friction.has_value());
+    data.set("side_wall_friction", text(s.trough.side_wall_friction.value_or(0)));
+    data.set("grains", std::to_string(s.layer.grains));
+    data.set("grain_words", grain_words(s));
+    data.set("density", text(s.grains.density));
+    data.set("youngs_modulus", text(s.grains.youngs_modulus));
+    data.set("poisson_ratio", text(s.grains.poisson_ratio));
+    data.set("grain_friction", text(s.grains.friction));
+    data.set("grain_restitution", text(s.grains.restitution));
+    data.set("rolling_friction", text(s.grains.rolling_friction));
+    data.set("rotation", rotation_word(s.grains.rotation));
+    data.set("length", text(s.layer.length));
+    data.set("width", text(s.layer.width));
+    data.set("gravity", text(gravity));
+    data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
+    data.set("gravity_z", text(-std::cos(s.trough.inclination)));
+}
+
+/// Properties of pairs of types: grain with grain, grain with floor, grain with side wall. The engine wants
+/// them for pairs that never meet as well.
+std::string per_pair(int types, double grain, double floor, double wall) {
+    std::vector<std::string> values;
+    for (int i = 0; i < types; ++i) {
+        for (int j = 0; j < types; ++j) {
+            int const highest = std::max(i, j);
+            values.push_back(text(highest == 0 ? grain : highest == 1 ? floor : wall));
+        }
+    }
+    return fmt::format("{}", fmt::join(values, " "));
+}
+
+std::string repeated(int times, double value) {
+    return fmt::format(
+        "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
+}
+
+void describe_block_contact(mustache::data& data, Scenario const& s, DeckNumbers const& n, int types) {
+    BlockContact const contact =
+        block_contact(s, n.mass, n.clump ? static_cast<int>(n.clump->spheres.size()) : 1);
+    auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
+    data.set("contact_stiffness", rounded(contact.stiffness));
+    data.set("contact_stiffnesses", everywhere(contact.stiffness));
+    data.set("tangential_stiffnesses", everywhere(contact.tangential_stiffness));
+    data.set("contact_dampings", everywhere(contact.damping));
+    data.set("no_dampings", everywhere(0));
+}
+
+void describe_contact(mustache::data& data, Scenario const& s, DeckNumbers const& n) {
+    bool const block = s.layer.block != Block::none, rolls = s.grains.rotation == Rotation::rolling;
+    int const types = s.trough.side_wall_friction ? 3 : 2;
+    std::string const model = block ? "hooke/stiffness tangential history" : "hertz tangential history";
+    std::string const options =
+        block ? "limitForce off tangential_damping off" : "limitForce on tangential_damping off";
+    std::string const wall_model = model + (rolls ? " rolling_friction epsd2" : "");
+    double const wall_friction = s.trough.side_wall_friction.value_or(0);
+    data.set("block", block);
+    data.set("rolls", rolls);
+    data.set("types", std::to_string(types));
+    data.set("wall_model", wall_model);
+    data.set("contact_options", options);
+    data.set("contact_model", wall_model + " " + options);
+    data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus));
+    data.set("poisson_ratios", repeated(types, s.grains.poisson_ratio));
+    data.set("soft", !block && s.grains.youngs_modulus < 5e6);  // LIGGGHTS asks for a word of consent
+    data.set("restitutions",
+             per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
+    data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));
+    double const rolling = s.grains.rolling_friction;
+    data.set("rolling_frictions", per_pair(types, rolling, rolling, rolling));
+    if (block) describe_block_contact(data, s, n, types);
+}
+
+std::string integrator(Scenario const& s) {
+    if (is_body(s)) return "multisphere allow_group_and_set yes";
+    return s.grains.rotation == Rotation::blocked ? "nve" : "nve/sphere";
+}
+
+void describe_drive(mustache::data& data, Scenario const& s, TimeGrid const& time) {
+    data.set("vibration_angle_deg", rounded(s.trough.vibration_angle * degrees));
+    data.set("amplitude", text(s.trough.amplitude));
+    data.set("frequency", text(s.trough.frequency));
+    data.set("throw_number", rounded(throw_number(s.trough)));
+    data.set("machine_number", rounded(machine_number(s.trough)));
+    std::string remark;
+    if (s.trough.waveform) remark = fmt::format(",\n#             waveform of {}", s.trough.waveform->name);
+    if (s.trough.along_phase != 0)
+        remark += fmt::format(",\n#             x ahead of z by {:.6g} deg", s.trough.along_phase * degrees);
+    for (DriveHarmonic const& harmonic : s.trough.harmonics) {
+        remark += fmt::format(
+            ",\n#             harmonic of order {} with {} times the acceleration, phase {:.6g} deg",
+            harmonic.order, harmonic.ratio, harmonic.phase * degrees);
+    }
+    data.set("drive_remark", remark);
+    DriveMotion const motion = drive_motion(s.trough);
+    mustache::list lines;
+    for (auto const& [axis, terms] : {std::pair{"x", &motion.along}, std::pair{"z", &motion.normal}}) {
+        DriveFormula const formula = drive_formula(*terms, axis);
+        for (Formula const& term : formula.terms) {
+            mustache::data entry;
+            entry.set("name", term.name);
+            entry.set("expression", term.expression);
+            lines.push_back(entry);
+        }
+        data.set(fmt::format("speed_{}", axis), formula.speed);
+    }
+    data.set("drive_terms", lines);
+    data.set("time_step", text(time.time_step));
+    data.set("steps_per_cycle", std::to_string(time.steps_per_cycle));
+    data.set("rayleigh_percent", fmt::format("{:.3g}", 100 * time.rayleigh_fraction));
+    data.set("hertz_percent", fmt::format("{:.3g}", 100 * time.contact_fraction));
+    data.set("contact_name", s.layer.block == Block::none ? "Hertz" : "block's");
+    data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
+}
+
+void describe_output(mustache::data& data, Scenario const& s, TimeGrid const& time, int packing) {
+    bool const frames = packing == 1 && s.output.frames_per_cycle > 0;  // frames show the first packing
+    data.set("frames", frames);
+    if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
+    data.set("max_cycles", std::to_string(s.measure.max_cycles));
+    data.set("checkpoints", s.output.checkpoint_cycles > 0);
+    data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));
+}
+
+/// Where the grains are poured from, and how long that may take.
+void describe_packing(mustache::data& data, Scenario const& s, DeckNumbers const& n) {
+    bool const walls = s.trough.side_wall_friction.has_value();
+    double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
+    double const fall_time = std::sqrt(2 * n.fill_top / gravity);
+    double const chunk_time = std::sqrt(diameter / gravity);
+    double const mean_mass = n.mass / s.layer.grains;
+    int const spheres = n.clump ? static_cast<int>(n.clump->spheres.size()) : 1;
+    data.set("integrator", integrator(s));
+    data.set("orientation", is_body(s) && s.layer.block == Block::none ? "orientation random " : "");
+    data.set("spheres_per_grain", std::to_string(spheres));
+    data.set("settle_time_step", text(step));
+    data.set("skin", text(0.3 * diameter));
+    data.set("bottom", text(n.box_bottom));
+    data.set("top", text(n.box_top));
+    // Walls stand in the box with room behind them.
+    data.set("box_left", text(walls ? -extent : 0));
+    data.set("box_right", text(s.layer.width + (walls ? extent : 0)));
+    data.set("fill_left", text(walls ? extent / 2 : 0));
+    data.set("fill_right", text(s.layer.width - (walls ? extent / 2 : 0)));
+    data.set("fill_bottom", text(n.fill_bottom));
+    data.set("fill_top", text(n.fill_top));
+    data.set("fill_speed", rounded(0.5 * std::sqrt(gravity * diameter)));
+    data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / step))));
+    data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
+    data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
+    data.set("settled_energy", rounded(1e-7 * n.mass * gravity * diameter));
+    data.set("mass", text(n.mass));
+}
+
+}  // namespace
+
+int seed_number(int index) {
+    // boost counts primes from 0: prime(1229) = 10007.
+    return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
+}
+
+mustache::data describe(Scenario const& s, DeckNumbers const& n, int packing) {
+    mustache::data data;
+    mustache::list const classes = describe_classes(s, n, packing);
+    data.set("title",
+             fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
+    data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));
+    data.set("class_count", std::to_string(classes.size()));
+    data.set("classes", classes);
+    data.set("packing_number", std::to_string(packing));
+    data.set("seed", std::to_string(seed_number(3 * (packing - 1))));
+    describe_inputs(data, s);
+    describe_contact(data, s, n);
+    describe_packing(data, s, n);
+    describe_drive(data, s, n.time);
+    describe_output(data, s, n.time, packing);
+    return data;
+}
+
+}  // namespace vibrotrough::deck

@@ -1,0 +1,36 @@
+#include "deck/drive_formula.hpp"
+
+#include <fmt/format.h>
+
+namespace vibrotrough::deck {
+namespace {
+
+constexpr std::size_t harmonics_per_line = 5;
+
+std::string sine(DriveTerm const& term, char const* angle) {
+    std::string argument =
+        term.order == 1 ? fmt::format("v_{}", angle) : fmt::format("{}*v_{}", term.order, angle);
+    // The engine reads no minus sign after a plus.
+    if (term.phase > 0) argument += fmt::format("+{}", term.phase);
+    if (term.phase < 0) argument += fmt::format("-{}", -term.phase);
+    return fmt::format("sin({})", argument);
+}
+
+}  // namespace
+
+DriveFormula drive_formula(std::vector<DriveTerm> const& terms, std::string const& axis) {
+    DriveFormula formula;
+    for (std::size_t first = 0; first < terms.size(); first += harmonics_per_line) {
+        Formula line{fmt::format("step_{}{}", axis, first / harmonics_per_line + 1), {}};
+        for (std::size_t i = first; i < std::min(terms.size(), first + harmonics_per_line); ++i) {
+            line.expression += fmt::format("{}({})*({}-{})", i == first ? "" : "+", terms[i].amplitude,
+                                           sine(terms[i], "angle"), sine(terms[i], "angle_before"));
+        }
+        formula.speed += (first == 0 ? "v_" : "+v_") + line.name;
+        formula.terms.push_back(std::move(line));
+    }
+    formula.speed = formula.terms.empty() ? "0" : fmt::format("({})/dt", formula.speed);
+    return formula;
+}
+
+}  // namespace vibrotrough::deck

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scenario/scenario.hpp"
+
+namespace vibrotrough::deck {
+
+/// How the run is cut into steps.
+struct TimeGrid {
+    double time_step;          ///< s
+    int steps_per_cycle;       ///< a multiple of `phases_per_cycle` and of the frames per cycle
+    double rayleigh_fraction;  ///< time step / Rayleigh time of the smallest grain or clump's sphere
+    double contact_fraction;   ///< time step / contact time of the smallest grain at `impact_speed`
+    double impact_speed;       ///< m/s, the fastest impact reckoned with
+};
+
+/// Every cycle is sampled at this many phases.
+constexpr int phases_per_cycle = 100;
+
+/// Time step: the smallest of what `solver.rayleigh_fraction` says of the Rayleigh time, 10 % of the Hertz
+/// contact time, 1/500 of a cycle, 1/50 of the period of the drive's highest harmonic, and what makes the
+/// steps per cycle (and per phase and frame) a whole number. Rayleigh time  T_R = pi R sqrt(rho / G) /
+/// (0.1631 nu + 0.8766), G = E / (2 (1 + nu))
+///   (Li, Xu & Thornton, Powder Technology 160, 2005).
+/// Hertz contact  t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5) of two equal grains
+///   (Johnson, Contact Mechanics, 1985, section 11.4), at v = twice the drive's largest speed: a grain that
+///   flies at the trough's largest speed against a trough that comes at its largest speed.
+/// A block has a linear contact of duration T / block_stiffness instead, and 1/30 of that as its time step.
+/// @throws InputError when a cycle would take more than 1e8 steps
+TimeGrid choose_time_step(Scenario const& scenario);
+
+/// The time step for settling: the same rules at the speed of a free fall from `fall_height` (m), whatever
+/// the drive.
+double settling_time_step(Scenario const& scenario, double fall_height);
+
+/// The plastic contact of a block: linear spring of stiffness k = m (pi / t_c)^2 with t_c the contact's
+/// duration; damped at 1.5 times its critical damping nothing rebounds.
+struct BlockContact {
+    double duration;              ///< s
+    double stiffness;             ///< N/m, of one of its spheres
+    double tangential_stiffness;  ///< N/m, of one of its spheres
+    double damping;               ///< 1/s: the damping force is damping * m * v, of one of its spheres
+};
+
+/// @param spheres  that the block stands on
+BlockContact block_contact(Scenario const& scenario, double mass, int spheres);
+
+}  // namespace vibrotrough::deck

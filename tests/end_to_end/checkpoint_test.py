@@ -1,0 +1,120 @@
+"""Settled packings are made once; a killed run goes on from its last checkpoint, and gives the same numbers."""
+
+import json
+import os
+import signal
+import unittest
+
+from trough_program import EndToEndTest, engines_in, processes_in, wait_until, without_wall_time
+
+# One packing that runs to its last cycle, with a checkpoint every five.
+LONG = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 60, "output.checkpoint_cycles": 5}
+
+
+class Checkpoint(EndToEndTest):
+    def packing(self):
+        return next(iter(self.output.glob("cases/*/packing-1")))
+
+    def sealed_cycle(self):
+        for seal in self.output.glob("cases/*/packing-1/checkpoint.json"):
+            return json.loads(seal.read_text())["cycle"]
+        return 0
+
+    def begun(self):
+        """The cycle at which the last start of the engine began."""
+        for line in (self.packing() / "engine.out").read_text().splitlines():
+            if line.startswith("VIBROTROUGH BEGIN cycle "):
+                return int(line.split()[-1])
+        return None
+
+    def kill_in_the_middle(self, campaign):
+        driver = self.start_campaign(campaign)
+        wait_until(lambda: self.sealed_cycle() >= 10, "a checkpoint was sealed", driver)
+        driver.send_signal(signal.SIGKILL)
+        self.finish(driver)
+        wait_until(lambda: not processes_in(self.output), "the engine was gone")
+
+    def undisturbed(self, campaign):
+        folder = self.folder / "undisturbed"
+        self.run_campaign(campaign, output=folder, wanted=1)
+        cycles = next(iter(folder.glob("cases/*/packing-1/cycles.csv"))).read_text()
+        return without_wall_time(self.table(folder)), cycles
+
+    def numbers(self, text):
+        return [line for line in text.splitlines() if line[:1].isdigit()]
+
+    def test_a_killed_run_goes_on_and_gives_the_same_numbers(self):
+        campaign = self.write_campaign(LONG)
+        table, cycles = self.undisturbed(campaign)
+        self.kill_in_the_middle(campaign)
+        self.assertEqual(self.ask_json("status")["left"], 1)
+        self.run_campaign(campaign, wanted=1)  # not as precise as asked
+        self.assertGreaterEqual(self.begun(), 10)
+        self.assertEqual(without_wall_time(self.table()), table)
+        # Every cycle, digit for digit: a checkpoint is where the run itself starts again from its file.
+        self.assertEqual(self.numbers((self.packing() / "cycles.csv").read_text()), self.numbers(cycles))
+        # What a finished packing needs no more is gone.
+        self.assertEqual(list(self.packing().glob("checkpoint*")), [])
+
+    def test_a_checkpoint_is_verified_before_it_is_trusted(self):
+        campaign = self.write_campaign(LONG)
+        table, _ = self.undisturbed(campaign)
+        self.kill_in_the_middle(campaign)
+        seal = json.loads((self.packing() / "checkpoint.json").read_text())
+        restart = self.packing() / seal["file"]
+        damaged = bytearray(restart.read_bytes())
+        damaged[len(damaged) // 2] ^= 1
+        restart.write_bytes(damaged)
+        self.run_campaign(campaign, wanted=1)
+        self.assertEqual(self.begun(), 0)
+        self.assertEqual(without_wall_time(self.table()), table)
+
+    def test_a_checkpoint_of_lost_cycles_is_not_trusted(self):
+        campaign = self.write_campaign(LONG)
+        table, _ = self.undisturbed(campaign)
+        self.kill_in_the_middle(campaign)
+        (self.packing() / "cycles.csv").write_text("")
+        self.run_campaign(campaign, wanted=1)
+        self.assertEqual(self.begun(), 0)
+        self.assertEqual(without_wall_time(self.table()), table)
+
+
+class SettledPackings(EndToEndTest):
+    def settles(self):
+        return len(self.settles_file.read_text().splitlines()) if self.settles_file.exists() else 0
+
+    def test_a_sweep_over_drives_settles_once(self):
+        campaign = self.write_campaign({}, {"trough.throw_number": [1.8, 2.0, 2.4]})
+        self.run_campaign(campaign)
+        self.assertEqual(len(self.take_starts()), 6)
+        self.assertEqual(self.settles(), 2)  # two packings
+        # The same packings in another case: none is settled again. Other grains are.
+        self.run_campaign(self.write_campaign({}, {"trough.throw_number": [2.2]}))
+        self.assertEqual(self.settles(), 2)
+        self.run_campaign(self.write_campaign({"grains.friction": 0.4}))
+        self.assertEqual(self.settles(), 4)
+
+    def test_a_damaged_packing_is_made_again(self):
+        campaign = self.write_campaign({"measure.packings": 1})
+        self.run_campaign(campaign)
+        restart = next(iter(self.output.glob("packings/*/settled.restart")))
+        restart.unlink()
+        restart.write_bytes(b"damaged")
+        self.run_campaign(self.write_campaign({"measure.packings": 1, "trough.throw_number": 2.4}))
+        self.assertEqual(self.settles(), 2)
+        self.assertNotEqual(restart.read_bytes(), b"damaged")
+
+    def test_a_killed_settling_leaves_nothing_to_be_taken_for_whole(self):
+        campaign = self.write_campaign({"measure.packings": 1})
+        driver = self.start_campaign(campaign)
+        wait_until(lambda: engines_in(self.output / "packings"), "the engine settled a packing", driver)
+        driver.send_signal(signal.SIGKILL)
+        self.finish(driver)
+        wait_until(lambda: not processes_in(self.output), "the engine was gone")
+        self.run_campaign(campaign)
+        self.assertEqual([row["outcome"] for row in self.table()], ["finished"])
+        self.assertEqual([name for name in os.listdir(self.output / "packings") if "." in name], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,118 @@
+#include "scenario/drive.hpp"
+
+#include "example_campaign.hpp"
+#include "scenario/campaign_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Scenario scenario(std::string const& text) {
+    return parse_campaign(text, "test.toml").cases.front();
+}
+
+// X'' = - omega^2 r cos(beta) (sin t + a sin(k t + phase)), so X = r cos(beta) (sin t + a / k^2 sin(k t +
+// phase)).
+TEST(Drive, HarmonicsAreOfAcceleration) {
+    Scenario const s =
+        scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"5, 0.25, 90 deg\"]"));
+    DriveMotion const motion = drive_motion(s.trough);
+    ASSERT_EQ(motion.along.size(), 2u);
+    EXPECT_NEAR(motion.along[0].amplitude, 6e-3 * std::cos(pi / 6), 1e-15);
+    EXPECT_NEAR(motion.along[1].amplitude, 6e-3 * std::cos(pi / 6) * 0.25 / 25, 1e-15);
+    EXPECT_NEAR(motion.normal[1].amplitude, 6e-3 * std::sin(pi / 6) * 0.01, 1e-15);
+    EXPECT_NEAR(motion.normal[1].phase, pi / 2, 1e-15);
+    EXPECT_EQ(highest_order(motion), 5);
+    EXPECT_NEAR(largest_speed(motion, 10), 10 * 6e-3 * (1 + 0.25 / 5), 1e-12);
+    EXPECT_NEAR(largest_excursion(motion), 6e-3 * 1.01, 1e-12);
+}
+
+TEST(Drive, AlongPhaseMakesAnEllipse) {
+    DriveMotion const motion = drive_motion(
+        scenario(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\"")).trough);
+    EXPECT_NEAR(motion.along[0].phase, pi / 9, 1e-15);
+    EXPECT_EQ(motion.normal[0].phase, 0);
+}
+
+std::string samples(int count, double period, double spoilt = 0) {
+    std::string text = "# a shaker\ntime_s,x_m,z_m\n";
+    for (int i = 0; i < count; ++i) {
+        double const t = 2 * pi * i / count;
+        text +=
+            fmt::format("{},{},{}\n", period * i / count + (i == 3 ? spoilt : 0),
+                        0.001 + 5e-3 * std::sin(t + 0.3) + 1e-4 * std::sin(4 * t - 1), 3e-3 * std::sin(t));
+    }
+    return text;
+}
+
+// The discrete Fourier series of a sum of sines below half the sampling frequency is that sum: to rounding.
+TEST(Drive, WaveformBecomesItsFourierSeries) {
+    DriveMotion const motion = read_waveform(samples(16, 0.1), 0.1);
+    ASSERT_EQ(motion.along.size(), 2u);
+    EXPECT_NEAR(motion.along[0].amplitude, 5e-3, 1e-15);
+    EXPECT_NEAR(motion.along[0].phase, 0.3, 1e-12);
+    EXPECT_EQ(motion.along[1].order, 4);
+    EXPECT_NEAR(motion.along[1].amplitude, 1e-4, 1e-15);
+    EXPECT_NEAR(motion.along[1].phase, -1, 1e-11);
+    ASSERT_EQ(motion.normal.size(), 1u);
+    EXPECT_NEAR(motion.normal[0].amplitude, 3e-3, 1e-15);
+}
+
+TEST(Drive, WaveformMistakesAreNamed) {
+    auto const error_of = [](std::string const& text) -> std::string {
+        try {
+            read_waveform(text, 0.1);
+        } catch (std::invalid_argument const& error) {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(error_of("t,x,z\n"), "line 1 is not the header time_s,x_m,z_m");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,1\n"), "line 2 is not three numbers");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,nan\n"), "line 2 is not three numbers");
+    EXPECT_EQ(error_of(samples(7, 0.1)), "7 samples are fewer than 8");
+    EXPECT_NE(error_of(samples(16, 0.2)).find("sample 2 is at 0.0125 s"), std::string::npos);
+    EXPECT_NE(error_of(samples(16, 0.1, 0.001)).find("sample 4 is at"), std::string::npos);
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,0\n0.0125,0,0\n0.025,0,0\n0.0375,0,0\n0.05,0,0\n0.0625,0,0\n"
+                       "0.075,0,0\n0.0875,0,0\n"),
+              "the trough does not move");
+}
+
+// Amplitude and vibration angle stay the keys', and the error says what to write when they are not the
+// file's.
+TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
+    std::filesystem::path const folder = testing::TempDir() + "waveform_" + std::to_string(::getpid());
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "shaker.csv") << samples(32, 0.1);
+    auto const read = [&](std::string const& drive) {
+        std::string const text = with("amplitude = \"6 mm\"\nthrow_number = 2.0", drive,
+                                      with("vibration_angle = \"30 deg\"\n", ""));
+        return parse_campaign(text, "c.toml", folder).cases.front();
+    };
+    std::string const file = "frequency = \"10 Hz\"\nwaveform = \"shaker.csv\"\n";
+    try {
+        read("amplitude = \"6 mm\"\nvibration_angle = \"30 deg\"\n" + file);
+        FAIL() << "an amplitude that is not the waveform's was taken";
+    } catch (std::exception const& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("write amplitude = \"5.83095 mm\" and vibration_angle = \"30.964 deg\""),
+                  std::string::npos)
+            << error.what();
+    }
+    Scenario const s = read("amplitude = \"5.83095 mm\"\nvibration_angle = \"30.964 deg\"\n" + file);
+    EXPECT_EQ(drive_motion(s.trough).along.size(), 2u);
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace vibrotrough
