@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/point_mass.hpp"
 #include "campaign/overview.hpp"
 #include "compare/comparison.hpp"
 #include "core/atomic_file.hpp"
@@ -76,13 +77,13 @@ void print_table(campaign::Plan const& plan) {
     fmt::print("table of all cases: open with: paraview {}\n", shell_word(export_table(plan)));
 }
 
-/// The theory's periodic motion on this trough, when it has one.
-std::optional<theory::ConveyorMotion> point_mass_on(Trough const& trough) {
-    theory::Conveyor conveyor{};
-    conveyor.point = compare::plastic_point_mass(trough);
-    theory::ConveyorMotion motion = theory::solve(conveyor);
-    if (motion.motion.outcome != theory::Outcome::periodic) return {};
-    return motion;
+/// The theory's motion in its units, when there is one.
+std::optional<view::TheoryMotion> point_mass_on(Trough const& trough) {
+    auto motion = point_mass_motion(trough);
+    if (!motion) return {};
+    return view::TheoryMotion{.motion = std::move(*motion),
+                              .length_x = trough.amplitude * std::cos(trough.vibration_angle),
+                              .length_z = trough.amplitude * std::sin(trough.vibration_angle)};
 }
 
 /// Exports the frames that a case's first packing has written so far; nothing when it has none.
@@ -96,8 +97,8 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .trough = packing / "trough.stl",
         .time_step = deck::choose_time_step(planned.scenario).time_step,
         .angular_frequency = angular_frequency(trough),
-        .amplitude_x = trough.amplitude * std::cos(trough.vibration_angle),
-        .amplitude_z = trough.amplitude * std::sin(trough.vibration_angle),
+        .drive = drive_motion(trough),
+        .width = planned.scenario.layer.width,
         .point_mass = point_mass_on(trough),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario.campaign, planned.id, throw_number(trough),

@@ -1,11 +1,11 @@
 #include "app/report_data.hpp"
 
+#include "app/point_mass.hpp"
 #include "campaign/overview.hpp"
 #include "compare/comparison.hpp"
 #include "core/atomic_file.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
-#include "theory/conveyor.hpp"
 #include "theory/quantities.hpp"
 
 #include <algorithm>
@@ -23,10 +23,9 @@ namespace fs = std::filesystem;
 
 /// One period of the point mass; none when its motion has no period.
 std::string point_mass_csv(Trough const& trough) {
-    theory::Conveyor conveyor{};
-    conveyor.point = compare::plastic_point_mass(trough);
-    theory::ConveyorMotion const motion = theory::solve(conveyor);
-    if (motion.motion.outcome != theory::Outcome::periodic) return {};
+    auto const found = point_mass_motion(trough);
+    if (!found) return {};
+    theory::ConveyorMotion const& motion = *found;
     double const omega = angular_frequency(trough);
     double const along = trough.amplitude * std::cos(trough.vibration_angle);
     double const normal = trough.amplitude * std::sin(trough.vibration_angle);

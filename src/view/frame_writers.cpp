@@ -60,10 +60,9 @@ void set_time(vtkPolyData& data, FrameSource const& source, double time) {
 }
 
 void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, double time) {
-    // Velocity of the trough: d/dt of A sin(omega t).
-    double const rate = source_.angular_frequency * std::cos(source_.angular_frequency * time);
-    auto const trough_x = static_cast<float>(source_.amplitude_x * rate);
-    auto const trough_z = static_cast<float>(source_.amplitude_z * rate);
+    TroughState const trough = trough_state(source_, time);
+    auto const trough_x = static_cast<float>(trough.vx);
+    auto const trough_z = static_cast<float>(trough.vz);
     relative_ = frame.velocity;
     for (std::size_t i = 0; i < relative_.size(); i += 3) {
         relative_[i] -= trough_x;
@@ -106,15 +105,16 @@ void TroughWriter::write(std::filesystem::path const& path, TroughPosition const
 }
 
 void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,
-                   std::vector<float> const& relative_velocity, double trough_z, double time) {
-    Profile profile = profile_of(frame, relative_velocity, trough_z);
+                   std::vector<float> const& relative_velocity, double surface, double time) {
+    double const area = (frame.box[1] - frame.box[0]) * source.width;
+    Profile profile = profile_of(frame, relative_velocity, surface, area);
     vtkNew<vtkPolyData> data;
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> line;
     auto const slabs = static_cast<vtkIdType>(profile.height.size());
     if (slabs > 0) line->InsertNextCell(static_cast<int>(slabs));
     for (vtkIdType i = 0; i < slabs; ++i) {
-        double const height = profile.height[static_cast<std::size_t>(i)] + trough_z;
+        double const height = profile.height[static_cast<std::size_t>(i)] + surface;
         line->InsertCellPoint(points->InsertNextPoint(frame.box[0], frame.box[3], height));
     }
     data->SetPoints(points);

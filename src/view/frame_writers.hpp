@@ -45,8 +45,9 @@ class TroughWriter {
     vtkNew<vtkPolyData> moved_;
 };
 
-/// Writes the layer's profile over height of one frame: one vertex and a line along them for each slab.
+/// Writes the layer's profile over height of one frame: a point per slab and a line along them; `surface` is
+/// the height of the trough's surface, m.
 void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,
-                   std::vector<float> const& relative_velocity, double trough_z, double time);
+                   std::vector<float> const& relative_velocity, double surface, double time);
 
 }  // namespace vibrotrough::view

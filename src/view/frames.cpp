@@ -82,20 +82,18 @@ std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& tabl
     return positions;
 }
 
-/// LIGGGHTS sums A omega cos(omega t) dt, which is off A sin(omega t) by at most A pi / n for n steps per
-/// cycle (1.3 % of A at n = 500). More than this share of A means that phase or amplitude are others.
+/// The engine moves the trough step by step, off by some A pi / n for n steps per cycle at most (0.6 % of A
+/// at n = 500). More than this share of the drive's excursion means another drive.
 constexpr double motion_tolerance = 0.05;
 
 void check_motion(FrameSource const& source, TroughPosition const& position) {
-    double const sine =
-        std::sin(source.angular_frequency * static_cast<double>(position.step) * source.time_step);
-    double const miss =
-        std::hypot(position.x - source.amplitude_x * sine, position.z - source.amplitude_z * sine);
-    if (miss > motion_tolerance * std::hypot(source.amplitude_x, source.amplitude_z)) {
-        throw InputError(
-            fmt::format("{}: at step {} the trough is {:.3g} m from where A sin(omega t) puts it (the "
-                        "frames belong to another drive); run the case again",
-                        (source.folder / "frames.csv").string(), position.step, miss));
+    TroughState const trough = trough_state(source, static_cast<double>(position.step) * source.time_step);
+    double const miss = std::hypot(position.x - trough.x, position.z - trough.z);
+    if (miss > motion_tolerance * largest_excursion(source.drive)) {
+        throw InputError(fmt::format(
+            "{}: at step {} the trough is {:.3g} m from where the drive puts it (the frames belong to "
+            "another drive); run the case again",
+            (source.folder / "frames.csv").string(), position.step, miss));
     }
 }
 
@@ -114,7 +112,7 @@ class FrameExport {
         grains_.write(target_ / "grains" / name, frame, time);
         trough_.write(target_ / "trough" / name, position, time);
         write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(),
-                      trough_.bounds()[5] + position.z, time);
+                      trough_.bounds()[4] + position.z, time);
         if (point_mass_) {
             auto const block = block_.at(point_mass_->at(time), position.z);
             set_time(*block, source_, time);

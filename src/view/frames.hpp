@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/drive.hpp"
 #include "theory/conveyor.hpp"
 
 #include <filesystem>
@@ -9,16 +10,22 @@
 
 namespace vibrotrough::view {
 
+/// The theory's periodic motion on the same drive, with its pieces, and its units of length.
+struct TheoryMotion {
+    theory::ConveyorMotion motion;
+    double length_x;  ///< m, r cos(beta)
+    double length_z;  ///< m, r sin(beta)
+};
+
 /// Where one run's frames come from and what they need to be understood.
 struct FrameSource {
     std::filesystem::path folder;  ///< holds frames.<step>.dump and frames.csv (step, trough x, trough z)
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
-    double angular_frequency;      ///< omega, rad/s: the trough's displacement is A sin(omega t)
-    double amplitude_x;            ///< m, r cos(beta)
-    double amplitude_z;            ///< m, r sin(beta)
-    std::optional<theory::ConveyorMotion> point_mass =
-        {};               ///< the theory's periodic motion on this trough; with its pieces
+    double angular_frequency;      ///< omega, rad/s
+    DriveMotion drive;  ///< X(t) and Z(t); the trough's displacement at t is X(t) - X(0) and Z(t) - Z(0)
+    double width;       ///< m, of the layer across the trough
+    std::optional<TheoryMotion> point_mass = {};
     std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
 };
 
@@ -42,7 +49,7 @@ struct ExportedFrames {
 /// @param progressed  is told about once a second; may be empty
 /// @throws InputError naming file and line when a dump or frames.csv is damaged, when a frame in between is
 /// missing, or
-///         when the trough is not where A sin(omega t) puts it
+///         when the trough is not where the drive puts it
 /// @throws MissingError when a file cannot be read or the disk refuses
 ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target,
                              std::function<void(int written, int all)> const& progressed = {});

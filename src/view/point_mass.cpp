@@ -1,6 +1,7 @@
 #include "view/point_mass.hpp"
 
 #include "theory/quantities.hpp"
+#include "view/trough_motion.hpp"
 
 #include <cmath>
 #include <string>
@@ -61,18 +62,19 @@ std::string_view in_words(theory::PhaseKind phase) {
     return "";
 }
 
-PointMassMotion::PointMassMotion(FrameSource const& source, theory::ConveyorMotion const& motion)
-    : source_(source), motion_(motion), displacement_at_start_(theory::sample(motion, 0.0).displacement) {}
+PointMassMotion::PointMassMotion(FrameSource const& source, TheoryMotion const& theory)
+    : source_(source),
+      theory_(theory),
+      displacement_at_start_(theory::sample(theory.motion, 0.0).displacement) {}
 
 PointMassState PointMassMotion::at(double time) const {
-    double const angle = source_.angular_frequency * time;
-    theory::TraceSample const s = theory::sample(motion_, angle);
-    double const speed_x = source_.angular_frequency * source_.amplitude_x;
-    double const speed_z = source_.angular_frequency * source_.amplitude_z;
+    theory::TraceSample const s = theory::sample(theory_.motion, source_.angular_frequency * time);
+    double const speed_x = source_.angular_frequency * theory_.length_x;
+    double const speed_z = source_.angular_frequency * theory_.length_z;
     return {
         .phase = s.kind,
-        .x = source_.amplitude_x * (s.displacement - displacement_at_start_ + std::sin(angle)),
-        .gap = source_.amplitude_z * s.gap,
+        .x = theory_.length_x * (s.displacement - displacement_at_start_) + trough_state(source_, time).x,
+        .gap = theory_.length_z * s.gap,
         .velocity = {speed_x * s.mass_vx, 0.0, speed_z * s.mass_vy},
         .relative_velocity = {speed_x * (s.mass_vx - s.trough_vx), 0.0, speed_z * (s.mass_vy - s.trough_vy)}};
 }
@@ -85,7 +87,7 @@ vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, dou
     double const travel = 0.5 * length + state.x;
     double const centre_x = trough_[0] + travel - length * std::floor(travel / length);
     double const front = trough_[2] - 1.8 * edge_;
-    double const floor = trough_[5] + trough_z + state.gap;
+    double const floor = trough_[4] + trough_z + state.gap;
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> cells;
     for (auto const& face : faces) {

@@ -22,15 +22,15 @@ struct PointMassState {
 /// "rests", "slides forwards", "slides backwards" or "flies".
 std::string_view in_words(theory::PhaseKind phase);
 
-/// Evaluates the periodic motion at omega t, in step with the trough's A sin(omega t).
+/// Evaluates the periodic motion at omega t, in step with the trough.
 class PointMassMotion {
   public:
-    PointMassMotion(FrameSource const& source, theory::ConveyorMotion const& motion);
+    PointMassMotion(FrameSource const& source, TheoryMotion const& theory);
     PointMassState at(double time) const;
 
   private:
     FrameSource const& source_;
-    theory::ConveyorMotion const& motion_;
+    TheoryMotion const& theory_;
     double displacement_at_start_;
 };
 

@@ -19,7 +19,7 @@ double volume_below(double u, double r) {
 
 }  // namespace
 
-Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, double surface) {
+Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, double surface, double area) {
     if (frame.grains() == 0) return {};
     double top = 0.0;
     for (std::size_t i = 0; i < frame.grains(); ++i) {
@@ -45,7 +45,6 @@ Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, 
             below = to_here;
         }
     }
-    double const area = (frame.box[1] - frame.box[0]) * (frame.box[3] - frame.box[2]);
     Profile profile;
     for (std::size_t slab = 0; slab < slabs; ++slab) {
         profile.height.push_back((static_cast<double>(slab) + 0.5) * thickness);

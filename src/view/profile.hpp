@@ -14,11 +14,11 @@ struct Profile {
 };
 
 /// Slabs of half a mean diameter; thicker when the layer reaches above 400 of them. A grain counts in each
-/// slab with the volume of its slice, and what is pressed into the trough counts in the lowest. The periodic
-/// box of the frame gives the area.
+/// slab with the volume of its slice, and what is pressed into the trough counts in the lowest.
 /// @param surface   m, height of the trough's surface
+/// @param area      m^2, of the trough under the layer
 /// @param velocity  m/s, x y z of each grain
 /// @returns no slab when there is no grain
-Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, double surface);
+Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, double surface, double area);
 
 }  // namespace vibrotrough::view

@@ -39,9 +39,9 @@ class Seeing(EndToEndTest):
     def engine_that_fails_one(self):
         campaign = self.write_campaign({"measure.packings": 1}, SWEEP)
         script = self.folder / "broken-liggghts"
-        # The first packing that is started fails, whichever it is.
+        # The first packing that is driven fails, whichever it is; settling is shared by the cases.
         script.write_text(
-            f'#!/bin/sh\ncase "$1" in -in) mkdir "{self.folder}/failed-once" 2>/dev/null && exit 7;; esac\n'
+            f'#!/bin/sh\ncase "$1 $2" in "-in in.liggghts") mkdir "{self.folder}/failed-once" 2>/dev/null && exit 7;; esac\n'
             f'exec "{self.engine}" "$@"\n'
         )
         script.chmod(0o755)

@@ -25,9 +25,9 @@ view::FrameSource sample(fs::path const& dumps) {
             .trough = dumps / "trough.stl",
             .time_step = time_step,
             .angular_frequency = 2.0 * std::numbers::pi / (3000 * time_step),
-            .amplitude_x = 0.00536656,
-            .amplitude_z = 0.00268328,
-            .point_mass = theory::solve(conveyor),
+            .drive = {.along = {{1, 0.00536656, 0}}, .normal = {{1, 0.00268328, 0}}},
+            .width = 0.018,
+            .point_mass = view::TheoryMotion{theory::solve(conveyor), 0.00536656, 0.00268328},
             .caption = "throw number 2, vibration angle 26.6\u00b0"};
 }
 

@@ -41,7 +41,7 @@ class Frames : public testing::Test {
         source.trough = source.folder / "trough.stl";
         theory::Conveyor conveyor{};
         conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
-        source.point_mass = theory::solve(conveyor);
+        source.point_mass = TheoryMotion{theory::solve(conveyor), amplitude_x, amplitude_z};
     }
     ~Frames() override { fs::remove_all(folder); }
 
@@ -82,8 +82,8 @@ class Frames : public testing::Test {
                        .trough = {},
                        .time_step = time_step,
                        .angular_frequency = omega,
-                       .amplitude_x = amplitude_x,
-                       .amplitude_z = amplitude_z,
+                       .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
+                       .width = 0.018,
                        .caption = "throw number 2, \"quoted\""};
 };
 
@@ -294,7 +294,7 @@ TEST_F(Frames, AnotherDriveIsNoticed) {
     source.angular_frequency = 1.37 * omega;
     EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
     source.angular_frequency = omega;
-    source.amplitude_x *= 1.2;
+    source.drive.along[0].amplitude *= 1.2;
     EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
 }
 

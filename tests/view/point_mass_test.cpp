@@ -1,6 +1,7 @@
 #include "view/point_mass.hpp"
 
 #include "theory/quantities.hpp"
+#include "view/trough_motion.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -14,23 +15,24 @@
 namespace vibrotrough::view {
 namespace {
 
+constexpr double length_x = 0.00536656, length_z = 0.00268328;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// The demo's trough: Gamma = 2 flies and slides (FN'), Gamma = 0.6 slides and rests.
 class PointMass : public testing::Test {
   protected:
-    static theory::ConveyorMotion motion_at(double throw_number) {
+    static TheoryMotion motion_at(double throw_number) {
         theory::Conveyor conveyor{};
         conveyor.point = {.throw_number = throw_number, .tan_vibration_angle = 0.5, .friction = 0.23};
-        return theory::solve(conveyor);
+        return {theory::solve(conveyor), length_x, length_z};
     }
 
     FrameSource source{.folder = {},
                        .trough = {},
                        .time_step = 1e-5,
                        .angular_frequency = 85.5,
-                       .amplitude_x = 0.00536656,
-                       .amplitude_z = 0.00268328,
+                       .drive = {.along = {{1, length_x, 0}}, .normal = {{1, length_z, 0}}},
+                       .width = 0.018,
                        .caption = {}};
 };
 
@@ -38,13 +40,13 @@ class PointMass : public testing::Test {
 TEST_F(PointMass, IsConveyedByTheVelocityEfficiency) {
     for (double const throw_number : {0.6, 2.0, 3.0}) {
         auto const motion = motion_at(throw_number);
-        ASSERT_TRUE(motion.motion.converged);
+        ASSERT_TRUE(motion.motion.motion.converged);
         PointMassMotion const mass(source, motion);
         double const period = two_pi / source.angular_frequency;
-        int const cycles = 12 * motion.motion.period_cycles;
+        int const cycles = 12 * motion.motion.motion.period_cycles;
         // The trough is back at its place; eta is known to 1e-9 of 12 r cos(beta).
         EXPECT_NEAR(mass.at(cycles * period).x - mass.at(0.0).x,
-                    two_pi * cycles * motion.motion.velocity_efficiency * source.amplitude_x, 1e-9)
+                    two_pi * cycles * motion.motion.motion.velocity_efficiency * length_x, 1e-9)
             << throw_number;
     }
 }
@@ -60,8 +62,8 @@ TEST_F(PointMass, RestsSlidesAndFliesInStep) {
             PointMassState const state = mass.at(time);
             // Relative velocity is velocity minus the trough's, A omega cos(omega t): sums of numbers below 1
             // m/s.
-            EXPECT_NEAR(state.velocity[0] - source.amplitude_x * rate, state.relative_velocity[0], 1e-14);
-            EXPECT_NEAR(state.velocity[2] - source.amplitude_z * rate, state.relative_velocity[2], 1e-14);
+            EXPECT_NEAR(state.velocity[0] - length_x * rate, state.relative_velocity[0], 1e-14);
+            EXPECT_NEAR(state.velocity[2] - length_z * rate, state.relative_velocity[2], 1e-14);
             switch (state.phase) {
                 case theory::PhaseKind::flight:
                     ++flies;
@@ -98,6 +100,33 @@ TEST_F(PointMass, PositionsBelongToVelocities) {
         EXPECT_NEAR((after.gap - before.gap) / (2 * h), mass.at(time).relative_velocity[2], 1e-5) << time;
     }
     EXPECT_GT(compared, 80);
+}
+
+// With an elliptical drive and a harmonic, velocity less relative velocity is still the trough's.
+TEST_F(PointMass, FollowsAnyDrive) {
+    theory::Conveyor conveyor{};
+    conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
+    conveyor.along_phase = 0.4;
+    conveyor.along = conveyor.normal = {{3, 0.2, 0.7}};
+    TheoryMotion const motion{theory::solve(conveyor), length_x, length_z};
+    ASSERT_TRUE(motion.motion.motion.converged);
+    source.drive = {.along = {{1, length_x, 0.4}, {3, 0.2 / 9 * length_x, 0.7}},
+                    .normal = {{1, length_z, 0}, {3, 0.2 / 9 * length_z, 0.7}}};
+    PointMassMotion const mass(source, motion);
+    for (int i = 0; i < 100; ++i) {
+        double const time = 0.0007 * i;
+        PointMassState const state = mass.at(time);
+        TroughState const trough = trough_state(source, time);
+        EXPECT_NEAR(state.velocity[0] - state.relative_velocity[0], trough.vx, 1e-12);
+        EXPECT_NEAR(state.velocity[2] - state.relative_velocity[2], trough.vz, 1e-12);
+        EXPECT_GE(state.gap, 0.0);
+        // The trough's velocity is its displacement's derivative: error h^2 omega^3 A / 6 = 1e-9 m/s and
+        // rounding.
+        double const h = 1e-6;
+        EXPECT_NEAR((trough_state(source, time + h).x - trough_state(source, time - h).x) / (2 * h),
+                    trough.vx, 1e-7);
+    }
+    EXPECT_EQ(trough_state(source, 0).x, 0.0);
 }
 
 TEST_F(PointMass, BlockStandsOnTheTroughBesideTheLayer) {

@@ -10,6 +10,8 @@
 namespace vibrotrough::view {
 namespace {
 
+constexpr double area = 0.03 * 0.02;
+
 GrainFrame frame_of(std::vector<std::array<float, 3>> const& centres, float radius) {
     GrainFrame frame;
     frame.box = {0.0, 0.03, 0.0, 0.02, 0.0, 1.0};
@@ -26,7 +28,7 @@ GrainFrame frame_of(std::vector<std::array<float, 3>> const& centres, float radi
 TEST(Profile, OfOneSphereIsTwoHalves) {
     double const r = 0.0015;
     GrainFrame const frame = frame_of({{0.01F, 0.01F, 0.0015F}}, 0.0015F);
-    Profile const profile = profile_of(frame, {0.25F, 0.0F, 0.0F}, 0.0);
+    Profile const profile = profile_of(frame, {0.25F, 0.0F, 0.0F}, 0.0, area);
     double const half = 2.0 / 3.0 * std::numbers::pi * r * r / (0.03 * 0.02);
     ASSERT_GE(profile.height.size(), 2u);
     // Single precision of the radius, cubed: 2e-7.
@@ -48,7 +50,8 @@ TEST(Profile, LosesNoVolumeAndNoMomentum) {
     }
     GrainFrame frame = frame_of(centres, 0.0015F);
     for (std::size_t i = 0; i < frame.radius.size(); i += 2) frame.radius[i] = 0.0012F;
-    Profile const profile = profile_of(frame, velocity, 0.0004);  // some grains are pressed into the trough
+    Profile const profile =
+        profile_of(frame, velocity, 0.0004, area);  // some grains are pressed into the trough
     double const slab = 0.03 * 0.02 * 2 * profile.height[0];
     double volume = 0, momentum = 0, grains = 0, moved = 0;
     for (std::size_t i = 0; i < profile.height.size(); ++i) {
@@ -65,16 +68,18 @@ TEST(Profile, LosesNoVolumeAndNoMomentum) {
 }
 
 TEST(Profile, BelowALayerInFlightIsNothing) {
-    Profile const profile = profile_of(frame_of({{0.01F, 0.01F, 0.01F}}, 0.001F), {0.1F, 0.0F, 0.0F}, 0.002);
+    Profile const profile =
+        profile_of(frame_of({{0.01F, 0.01F, 0.01F}}, 0.001F), {0.1F, 0.0F, 0.0F}, 0.002, area);
     EXPECT_EQ(profile.solid_fraction[0], 0.0);
     EXPECT_TRUE(std::isnan(profile.velocity[0]));
     EXPECT_GT(profile.solid_fraction.back(), 0.0);
 }
 
 TEST(Profile, OfNoGrainIsEmptyAndOfAFarGrainIsBounded) {
-    EXPECT_TRUE(profile_of(GrainFrame{}, {}, 0.0).height.empty());
-    EXPECT_LE(profile_of(frame_of({{0.01F, 0.01F, 500.0F}}, 0.001F), {0.1F, 0.0F, 0.0F}, 0.0).height.size(),
-              401u);
+    EXPECT_TRUE(profile_of(GrainFrame{}, {}, 0.0, area).height.empty());
+    EXPECT_LE(
+        profile_of(frame_of({{0.01F, 0.01F, 500.0F}}, 0.001F), {0.1F, 0.0F, 0.0F}, 0.0, area).height.size(),
+        401u);
 }
 
 }  // namespace

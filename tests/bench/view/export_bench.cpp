@@ -88,9 +88,9 @@ view::FrameSource make_frames(fs::path const& folder, int count) {
             .trough = folder / "trough.stl",
             .time_step = time_step,
             .angular_frequency = omega,
-            .amplitude_x = amplitude_x,
-            .amplitude_z = amplitude_z,
-            .point_mass = theory::solve(conveyor),
+            .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
+            .width = width,
+            .point_mass = view::TheoryMotion{theory::solve(conveyor), amplitude_x, amplitude_z},
             .caption = ""};
 }
 
