@@ -77,15 +77,6 @@ void print_table(campaign::Plan const& plan) {
     fmt::print("table of all cases: open with: paraview {}\n", shell_word(export_table(plan)));
 }
 
-/// The theory's motion in its units, when there is one.
-std::optional<view::TheoryMotion> point_mass_on(Trough const& trough) {
-    auto motion = point_mass_motion(trough);
-    if (!motion) return {};
-    return view::TheoryMotion{.motion = std::move(*motion),
-                              .length_x = trough.amplitude * std::cos(trough.vibration_angle),
-                              .length_z = trough.amplitude * std::sin(trough.vibration_angle)};
-}
-
 /// Exports the frames that a case's first packing has written so far; nothing when it has none.
 std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
     fs::path const packing = planned.packing_folder(1);
@@ -99,7 +90,7 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .angular_frequency = angular_frequency(trough),
         .drive = drive_motion(trough),
         .width = planned.scenario.layer.width,
-        .point_mass = point_mass_on(trough),
+        .point_mass = point_mass_beside(planned.scenario),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario.campaign, planned.id, throw_number(trough),
                                machine_number(trough), trough.friction)};

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "scenario/scenario.hpp"
-#include "theory/conveyor.hpp"
+#include "view/frames.hpp"
 
 #include <optional>
 
 namespace vibrotrough::app {
 
-/// The plastic point mass's periodic motion on this trough and its drive, with its pieces; lengths are in r
-/// cos(beta) and r sin(beta). None when it has no period, and none for a measured waveform.
-std::optional<theory::ConveyorMotion> point_mass_motion(Trough const& trough);
+/// The theory's periodic motion that a case is compared with, and what its numbers are in. None without a
+/// period.
+std::optional<view::TheoryMotion> point_mass_beside(Scenario const& scenario);
 
 }  // namespace vibrotrough::app

@@ -9,7 +9,6 @@
 #include "theory/quantities.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -22,22 +21,21 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// One period of the point mass; none when its motion has no period.
-std::string point_mass_csv(Trough const& trough) {
-    auto const found = point_mass_motion(trough);
+std::string point_mass_csv(Scenario const& scenario) {
+    auto const found = point_mass_beside(scenario);
     if (!found) return {};
-    theory::ConveyorMotion const& motion = *found;
-    double const omega = angular_frequency(trough);
-    double const along = trough.amplitude * std::cos(trough.vibration_angle);
-    double const normal = trough.amplitude * std::sin(trough.vibration_angle);
+    auto const& [motion, along, normal, phase_at_start] = *found;
+    double const omega = angular_frequency(scenario.trough);
     constexpr int per_cycle = 360;
     std::string text =
         "cycles,phase,gap_m,relative_displacement_m,velocity_x_m_per_s,velocity_z_m_per_s,"
         "relative_velocity_x_m_per_s,relative_velocity_z_m_per_s,normal_force_n_per_kg,tangential_force_n_"
         "per_kg\n";
-    double const start = theory::sample(motion, 0.0).displacement;
+    double const start = theory::sample(motion, phase_at_start).displacement;
     for (int i = 0; i <= per_cycle * motion.motion.period_cycles; ++i) {
         double const cycles = static_cast<double>(i) / per_cycle;
-        theory::TraceSample const s = theory::sample(motion, 2.0 * std::numbers::pi * cycles);
+        theory::TraceSample const s =
+            theory::sample(motion, phase_at_start + 2.0 * std::numbers::pi * cycles);
         text +=
             fmt::format("{:.6g},{},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", cycles,
                         theory::to_string(s.kind), normal * s.gap, along * (s.displacement - start),
@@ -81,7 +79,7 @@ int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
     for (campaign::CaseOverview const& one : cases) {
         rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
         write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
-                              point_mass_csv(one.planned->scenario.trough));
+                              point_mass_csv(one.planned->scenario));
     }
     Json const json{{"campaign", plan.name},          {"program_version", program_version()},
                     {"git_commit", program_commit()}, {"engine_version", plan.engine_version},

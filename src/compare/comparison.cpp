@@ -1,6 +1,7 @@
 #include "compare/comparison.hpp"
 
-#include "theory/inputs.hpp"
+#include "compare/point_mass_motion.hpp"
+#include "theory/point_mass.hpp"
 
 #include <cmath>
 #include <limits>
@@ -20,8 +21,8 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-void add_theory(Row& row, Trough const& trough) {
-    theory::Motion const motion = theory::solve(plastic_point_mass(trough));
+void add_theory(Row& row, Scenario const& scenario) {
+    theory::Motion const motion = point_mass_motion(scenario, scenario.trough.friction);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
@@ -65,15 +66,6 @@ std::string curve(Line const& line, double from, double to) {
 
 }  // namespace
 
-theory::PointMass plastic_point_mass(Trough const& trough) {
-    theory::Inputs inputs;
-    inputs.set(theory::Input::machine_number, machine_number(trough));
-    inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
-    inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
-    inputs.set(theory::Input::friction, trough.friction);
-    return inputs.point();
-}
-
 std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::string text = "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency\n";
     std::set<Line> lines;
@@ -101,7 +93,7 @@ Row compare(std::string const& id, Scenario const& scenario, std::optional<store
     row.amplitude_m = trough.amplitude;
     row.frequency_hz = rounded(trough.frequency);
     row.outcome = record ? record->outcome : outcome;
-    add_theory(row, trough);
+    add_theory(row, scenario);
     if (record) add_measurement(row, *record);
     return row;
 }

@@ -2,7 +2,6 @@
 
 #include "scenario/scenario.hpp"
 #include "store/case_record.hpp"
-#include "theory/point_mass.hpp"
 
 #include <optional>
 #include <string>
@@ -31,10 +30,6 @@ struct Row {
     std::optional<double> wall_s;         ///< of the engine, all packings together
     std::string outcome;
 };
-
-/// The plastic point mass on this trough: what the cases are compared with. Also describes a trough that
-/// shakes along itself.
-theory::PointMass plastic_point_mass(Trough const& trough);
 
 /// Compares one case.
 /// @param record   the case's result, when it has one

@@ -71,17 +71,6 @@ std::string grain_words(Scenario const& s) {
     return is_clump(s.grains) ? fmt::format("clumps of shape {}", s.grains.shape) : "spheres";
 }
 
-std::string rotation_word(Rotation rotation) {
-    switch (rotation) {
-        case Rotation::rolling:
-            return "with rolling friction";
-        case Rotation::blocked:
-            return "blocked";
-        default:
-            return "free";
-    }
-}
-
 void describe_inputs(mustache::data& data, Scenario const& s) {
     data.set("inclination_deg", rounded(s.trough.inclination * degrees));
     data.set("trough_friction", text(s.trough.friction));
@@ -96,7 +85,7 @@ void describe_inputs(mustache::data& data, Scenario const& s) {
     data.set("grain_friction", text(s.grains.friction));
     data.set("grain_restitution", text(s.grains.restitution));
     data.set("rolling_friction", text(s.grains.rolling_friction));
-    data.set("rotation", rotation_word(s.grains.rotation));
+    data.set("rotation", std::string(name_of(s.grains.rotation)));
     data.set("length", text(s.layer.length));
     data.set("width", text(s.layer.width));
     data.set("gravity", text(gravity));

@@ -55,7 +55,7 @@ DeckNumbers make_numbers(Scenario const& s) {
     double const speed = largest_speed(motion, angular_frequency(s.trough));
     double const flight = speed * speed / (2 * gravity * std::cos(s.trough.inclination));
     double const excursion = largest_excursion(motion);
-    n.box_top = in_powers_of_four(4 * (n.fill_top + 5 * n.largest_extent),
+    n.box_top = in_powers_of_four(8 * (n.fill_top + 5 * n.largest_extent),
                                   n.fill_top + 10 * flight + 5 * n.largest_extent);
     n.box_bottom = -in_powers_of_four(4 * n.largest_extent, 2 * (excursion + n.largest_extent));
     n.wall_height = n.box_top - (excursion - n.box_bottom);

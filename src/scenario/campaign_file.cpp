@@ -40,12 +40,12 @@ CaseValues pick(CampaignText const& text, std::size_t index) {
 
 }  // namespace
 
-Campaign parse_campaign(std::string_view text, std::string const& name, std::filesystem::path const& folder) {
+Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source) {
     CampaignText const parsed = read_campaign_text(text, name);
     Campaign campaign{parsed.name, {}};
     std::size_t const count = count_cases(parsed, name);
     for (std::size_t index = 0; index < count; ++index) {
-        campaign.cases.push_back(make_scenario(parsed.name, pick(parsed, index), name, folder));
+        campaign.cases.push_back(make_scenario(parsed.name, pick(parsed, index), name, source));
     }
     return campaign;
 }
@@ -62,7 +62,7 @@ Campaign read_campaign(std::filesystem::path const& path) {
         throw InputError(
             fmt::format("{}: there is no such file; give the path of a campaign file (TOML)", path.string()));
     }
-    return parse_campaign(read_file(path), path.string(), path.parent_path());
+    return parse_campaign(read_file(path), path.string(), {path.parent_path(), {}});
 }
 
 }  // namespace vibrotrough

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/case_values.hpp"
 #include "scenario/scenario.hpp"
 
 #include <filesystem>
@@ -20,8 +21,7 @@ struct Campaign {
 /// @throws MissingError when the file is there but cannot be read
 Campaign read_campaign(std::filesystem::path const& path);
 
-/// The same for a text; `name` stands for the file in errors, `folder` is where files are that it names.
-Campaign parse_campaign(std::string_view text, std::string const& name,
-                        std::filesystem::path const& folder = {});
+/// The same for a text; `name` stands for the file in errors.
+Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source = {});
 
 }  // namespace vibrotrough

@@ -20,8 +20,8 @@ constexpr std::size_t clump_cost = 100'000'000;  // spheres in all
 
 class CaseBuilder {
   public:
-    CaseBuilder(CaseValues const& values, std::string const& file, std::filesystem::path const& folder)
-        : values_(values), file_(file), folder_(folder) {}
+    CaseBuilder(CaseValues const& values, std::string const& file, FileSource const& source)
+        : values_(values), file_(file), source_(source) {}
 
     Scenario build(std::string const& campaign) const {
         Scenario scenario{campaign,
@@ -157,7 +157,10 @@ class CaseBuilder {
 
     NamedFile named_file(std::string_view key) const {
         std::string const name = word(key);
-        std::filesystem::path const path = folder_ / name;
+        for (NamedFile const& given : source_.files) {
+            if (given.name == name) return given;
+        }
+        std::filesystem::path const path = source_.folder / name;
         std::error_code failure;
         if (!std::filesystem::is_regular_file(path, failure)) {
             fail(key, fmt::format("there is no file {}", path.string()),
@@ -369,7 +372,7 @@ class CaseBuilder {
 
     CaseValues const& values_;
     std::string const& file_;
-    std::filesystem::path const& folder_;
+    FileSource const& source_;
 };
 
 }  // namespace
@@ -380,8 +383,8 @@ void throw_at(Place place, std::string_view key, std::string_view wrong, std::st
 }
 
 Scenario make_scenario(std::string const& campaign, CaseValues const& values, std::string const& file,
-                       std::filesystem::path const& folder) {
-    return CaseBuilder(values, file, folder).build(campaign);
+                       FileSource const& source) {
+    return CaseBuilder(values, file, source).build(campaign);
 }
 
 }  // namespace vibrotrough

@@ -45,11 +45,16 @@ using CaseValues = std::map<std::string, Value, std::less<>>;
 [[noreturn]] void throw_at(Place place, std::string_view key, std::string_view wrong,
                            std::string_view instead);
 
+/// Where the files are that a case names: given, or else in a folder.
+struct FileSource {
+    std::filesystem::path folder = {};
+    std::vector<NamedFile> files = {};
+};
+
 /// Puts one case together and checks what only shows when keys are seen together.
-/// @param file    the campaign file, for errors
-/// @param folder  where the files that the case names are
+/// @param file  the campaign file, for errors
 /// @throws InputError
 Scenario make_scenario(std::string const& campaign, CaseValues const& values, std::string const& file,
-                       std::filesystem::path const& folder);
+                       FileSource const& source);
 
 }  // namespace vibrotrough

@@ -131,6 +131,32 @@ std::vector<Sphere> read_spheres(std::string_view text) {
 
 }  // namespace
 
+std::string_view name_of(Rotation rotation) {
+    switch (rotation) {
+        case Rotation::free:
+            return "free";
+        case Rotation::rolling:
+            return "rolling";
+        case Rotation::blocked:
+            return "blocked";
+    }
+    throw std::invalid_argument("no such rotation");
+}
+
+std::string_view name_of(SizeLaw law) {
+    switch (law) {
+        case SizeLaw::three_classes:
+            return "three-classes";
+        case SizeLaw::uniform:
+            return "uniform";
+        case SizeLaw::lognormal:
+            return "lognormal";
+        case SizeLaw::listed:
+            return "listed";
+    }
+    throw std::invalid_argument("no such size law");
+}
+
 std::vector<SizeClass> size_classes(Grains const& grains) {
     if (grains.size_law == SizeLaw::listed) return listed_classes(grains);
     if (grains.diameter_spread == 0) return {{grains.diameter, 1}};

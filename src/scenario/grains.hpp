@@ -45,6 +45,10 @@ struct Grains {
     std::optional<NamedFile> shape_file = {};
 };
 
+/// The word of the campaign file: "free", "three-classes" ("listed" has none and is its own name).
+std::string_view name_of(Rotation rotation);
+std::string_view name_of(SizeLaw law);
+
 struct SizeClass {
     double diameter;         ///< m
     double number_fraction;  ///< all sum to 1

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,11 +40,9 @@ std::string sizes_toml(Grains const& g) {
                            by_number ? "number_fractions" : "mass_fractions",
                            fmt::join(by_number ? g.number_fractions : g.mass_fractions, ", "));
     }
-    std::string text =
+    std::string const text =
         fmt::format("diameter = \"{} m\"\ndiameter_spread = {}\n", g.diameter, g.diameter_spread);
-    if (g.size_law == SizeLaw::uniform) text += "size_law = \"uniform\"\n";
-    if (g.size_law == SizeLaw::lognormal) text += "size_law = \"lognormal\"\n";
-    return text;
+    return text + fmt::format("size_law = \"{}\"\n", name_of(g.size_law));
 }
 
 std::string grains_toml(Grains const& g) {
@@ -53,21 +52,31 @@ std::string grains_toml(Grains const& g) {
             "density = \"{} kg/m3\"\nyoungs_modulus = \"{} Pa\"\npoisson_ratio = {}\n"
             "friction = {}\nrestitution = {}\nrolling_friction = {}\n",
             g.density, g.youngs_modulus, g.poisson_ratio, g.friction, g.restitution, g.rolling_friction);
-    if (g.rotation == Rotation::rolling) text += "rotation = \"rolling\"\n";
-    if (g.rotation == Rotation::blocked) text += "rotation = \"blocked\"\n";
+    text += fmt::format("rotation = \"{}\"\n", name_of(g.rotation));
     if (is_clump(g)) text += fmt::format("shape = \"{}\"\n", g.shape);
     return text + "\n";
 }
 
 std::string layer_toml(Layer const& l) {
-    std::string text = fmt::format("[layer]\nlength = \"{} m\"\nwidth = \"{} m\"\n", l.length, l.width);
-    if (l.block == Block::point) return text + "block = \"point\"\n\n";
-    if (l.block == Block::plate) return text + "block = \"plate\"\n\n";
+    std::string const text = fmt::format("[layer]\nlength = \"{} m\"\nwidth = \"{} m\"\n", l.length, l.width);
+    if (l.block != Block::none) return text + fmt::format("block = \"{}\"\n\n", name_of(l.block));
     if (l.height) return text + fmt::format("height = \"{} m\"\n\n", *l.height);
     return text + fmt::format("grains = {}\n\n", l.grains);
 }
 
 }  // namespace
+
+std::string_view name_of(Block block) {
+    switch (block) {
+        case Block::none:
+            return "none";
+        case Block::point:
+            return "point";
+        case Block::plate:
+            return "plate";
+    }
+    throw std::invalid_argument("no such block");
+}
 
 double angular_frequency(Trough const& trough) {
     return 2 * std::numbers::pi * trough.frequency;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vibrotrough {
@@ -36,6 +37,9 @@ enum class Block {
     point,  ///< one sphere that cannot rotate
     plate,  ///< three by three spheres, one rigid body that can
 };
+
+/// "none", or the word of the campaign file.
+std::string_view name_of(Block block);
 
 /// A piece of an endless layer: periodic along the trough, and across unless there are side walls. One of
 /// `height`, `grains` and `block` was given; `grains` is always set.

@@ -8,6 +8,7 @@
 #include "store/schema.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace vibrotrough::store {
 namespace {
@@ -107,7 +108,7 @@ measure::CaseEstimate read_case_values(ImageReader const& image) {
         if (std::holds_alternative<int (*)(CaseRecord const&)>(value.value)) {
             int const number = image.values<int>(path, Rank::scalar).front();
             if (value.entry.name == "packings") estimate.packings = number;
-        } else {
+        } else if (std::holds_alternative<double (*)(CaseRecord const&)>(value.value)) {
             double const number = image.values<double>(path, Rank::scalar).front();
             if (value.entry.name == "efficiency") estimate.mean = number;
             if (value.entry.name == "efficiency_half_width") estimate.half_width = number;
@@ -143,7 +144,13 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     record.packings.resize(image.length("packings/seed"));
     for (PackingValue const& value : packing_values()) read_column(image, value, record.packings);
     read_series(image, record.packings);
-    record.scenario = parse_campaign(record.scenario_toml, path.string() + ":/scenario").cases.front();
+    FileSource source;
+    auto const files = nlohmann::json::parse(
+        image.values<std::string>(std::string(scenario_files_entry().name), Rank::scalar).front());
+    for (auto const& [name, content] : files.items())
+        source.files.push_back({name, content.get<std::string>()});
+    record.scenario =
+        parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
     return record;
 }
 
@@ -166,6 +173,13 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         };
         Entry const scenario = scenario_entry();
         put(std::string(scenario.name), scenario, std::vector<std::string>{record.scenario_toml},
+            Rank::scalar);
+        nlohmann::json files = nlohmann::json::object();
+        for (NamedFile const& file : named_files(record.scenario)) files[file.name] = file.content;
+        Entry const scenario_files = scenario_files_entry();
+        // Bytes that are no UTF-8 cannot be in JSON; what could be read as numbers has none.
+        put(std::string(scenario_files.name), scenario_files,
+            std::vector<std::string>{files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
             Rank::scalar);
         for (CaseValue const& value : case_values()) {
             put(fmt::format("case/{}", value.entry.name), value.entry, column(value, {record}), Rank::scalar);
@@ -190,6 +204,10 @@ CaseRecord read_result(std::filesystem::path const& path) {
         ImageReader const image(std::move(bytes));
         check_kind(image, path);
         return read_record(image, path);
+    } catch (nlohmann::json::exception const&) {
+        throw InputError(
+            fmt::format("{} is damaged (its scenario_files are no JSON); delete it and run its case again",
+                        path.string()));
     } catch (Hdf5Error const& error) {
         throw InputError(
             fmt::format("{} is damaged ({}); delete it and run its case again", path.string(), error.what()));

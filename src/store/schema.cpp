@@ -50,6 +50,7 @@ namespace {
 
 using Real = double (*)(Case);
 using Integer = int (*)(Case);
+using Text = std::string (*)(Case);
 
 std::vector<CaseValue> drive_and_result_values() {
     return {
@@ -99,9 +100,9 @@ std::vector<CaseValue> drive_and_result_values() {
 
 std::vector<CaseValue> grain_and_layer_values() {
     return {
-        {{"grain_diameter", "m", "Diameter of the middle size class of grains"},
+        {{"grain_diameter", "m", "Diameter of the grains: mean, or median of the log-normal law"},
          Real([](Case c) { return c.scenario.grains.diameter; })},
-        {{"grain_diameter_spread", "1", "Spread s: the three size classes have 1 - s, 1 and 1 + s diameters"},
+        {{"grain_diameter_spread", "1", "Spread s of the size law"},
          Real([](Case c) { return c.scenario.grains.diameter_spread; })},
         {{"grain_density", "kg/m3", "Density of the grains' material"},
          Real([](Case c) { return c.scenario.grains.density; })},
@@ -115,6 +116,20 @@ std::vector<CaseValue> grain_and_layer_values() {
          Real([](Case c) { return c.scenario.grains.restitution; })},
         {{"grain_rolling_friction", "1", "Rolling friction coefficient, 0 when the model is off"},
          Real([](Case c) { return c.scenario.grains.rolling_friction; })},
+        {{"grain_rotation", "1", "free, rolling or blocked"},
+         Text([](Case c) { return std::string(name_of(c.scenario.grains.rotation)); })},
+        {{"grain_shape", "1", "sphere, cube, rod, or the name of the file with the spheres of a clump"},
+         Text([](Case c) { return c.scenario.grains.shape; })},
+        {{"grain_size_law", "1", "three-classes, uniform, lognormal or listed"},
+         Text([](Case c) { return std::string(name_of(c.scenario.grains.size_law)); })},
+        {{"block", "1", "none, or the rigid block in place of the layer: point or plate"},
+         Text([](Case c) { return std::string(name_of(c.scenario.layer.block)); })},
+        {{"side_wall_friction", "1", "Friction coefficient, grain on side walls; NaN without side walls"},
+         Real([](Case c) {
+             return c.scenario.trough.side_wall_friction.value_or(std::numeric_limits<double>::quiet_NaN());
+         })},
+        {{"rayleigh_fraction", "1", "Largest time step in Rayleigh times of the smallest grain"},
+         Real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
         {{"layer_length", "m", "Length of the periodic piece of layer along the trough"},
          Real([](Case c) { return c.scenario.layer.length; })},
         {{"layer_width", "m", "Width of the periodic piece of layer across the trough"},
@@ -204,6 +219,10 @@ std::vector<PackingSeries> const& packing_series() {
 
 Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
+}
+
+Entry scenario_files_entry() {
+    return {"scenario_files", "1", "The files that the scenario names: a JSON object of names and contents"};
 }
 
 std::string verdict_name(measure::Verdict verdict) {

@@ -28,7 +28,9 @@ struct CaseFact {
 /// One number of a case: `case/<name>` of result.h5, a column of campaign.h5.
 struct CaseValue {
     Entry entry;
-    std::variant<int (*)(CaseRecord const&), double (*)(CaseRecord const&)> value;
+    std::variant<int (*)(CaseRecord const&), double (*)(CaseRecord const&),
+                 std::string (*)(CaseRecord const&)>
+        value;
 };
 
 /// One value per packing: `packings/<name>` of result.h5.
@@ -56,6 +58,9 @@ std::vector<PackingSeries> const& packing_series();
 
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();
+
+/// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
+Entry scenario_files_entry();
 
 /// "precise", "not-precise" or "not-steady".
 std::string verdict_name(measure::Verdict verdict);

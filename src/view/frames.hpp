@@ -13,8 +13,9 @@ namespace vibrotrough::view {
 /// The theory's periodic motion on the same drive, with its pieces, and its units of length.
 struct TheoryMotion {
     theory::ConveyorMotion motion;
-    double length_x;  ///< m, r cos(beta)
-    double length_z;  ///< m, r sin(beta)
+    double length_x;            ///< m, its unit of length along the trough, r cos(beta)
+    double length_z;            ///< m, its unit normal to it
+    double phase_at_start = 0;  ///< rad, its time (an angle) at the drive's t = 0
 };
 
 /// Where one run's frames come from and what they need to be understood.

@@ -65,10 +65,11 @@ std::string_view in_words(theory::PhaseKind phase) {
 PointMassMotion::PointMassMotion(FrameSource const& source, TheoryMotion const& theory)
     : source_(source),
       theory_(theory),
-      displacement_at_start_(theory::sample(theory.motion, 0.0).displacement) {}
+      displacement_at_start_(theory::sample(theory.motion, theory.phase_at_start).displacement) {}
 
 PointMassState PointMassMotion::at(double time) const {
-    theory::TraceSample const s = theory::sample(theory_.motion, source_.angular_frequency * time);
+    theory::TraceSample const s =
+        theory::sample(theory_.motion, source_.angular_frequency * time + theory_.phase_at_start);
     double const speed_x = source_.angular_frequency * theory_.length_x;
     double const speed_z = source_.angular_frequency * theory_.length_z;
     return {

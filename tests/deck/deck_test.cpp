@@ -52,7 +52,7 @@ TEST(Deck, FastImpactsShortenTheTimeStep) {
     Scenario fast = scenario();
     fast.trough.amplitude *= 100;
     TimeGrid const time = choose_time_step(fast);
-    EXPECT_NEAR(time.contact_fraction, 0.1, 1e-3);  // the whole number of steps takes less than 1e-3
+    EXPECT_NEAR(time.contact_fraction, 0.1, 2e-3);  // 5,000 steps are made a multiple of 100
     EXPECT_LT(time.rayleigh_fraction, 0.2);
 }
 

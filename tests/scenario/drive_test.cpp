@@ -97,7 +97,7 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
     auto const read = [&](std::string const& drive) {
         std::string const text = with("amplitude = \"6 mm\"\nthrow_number = 2.0", drive,
                                       with("vibration_angle = \"30 deg\"\n", ""));
-        return parse_campaign(text, "c.toml", folder).cases.front();
+        return parse_campaign(text, "c.toml", {folder, {}}).cases.front();
     };
     std::string const file = "frequency = \"10 Hz\"\nwaveform = \"shaker.csv\"\n";
     try {
