@@ -64,23 +64,22 @@ long step_of(deck::Deck const& deck, int cycle) {
     return static_cast<long>(cycle) * deck.time.steps_per_cycle;
 }
 
-/// frames.<step>.dump
-std::optional<long> frame_step(std::string const& name) {
-    constexpr std::string_view start = "frames.", end = ".dump";
-    if (!name.starts_with(start) || !name.ends_with(end)) return {};
-    return leading_number(
-        std::string_view(name).substr(start.size(), name.size() - start.size() - end.size()));
+std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
+    if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + end.size())
+        return {};
+    return leading_number(name.substr(start.size(), name.size() - start.size() - end.size()));
 }
 
-bool is_checkpoint(std::string const& name) {
-    return name.starts_with("checkpoint.") && name.ends_with(".restart");
+/// checkpoint.<cycle>.restart
+std::optional<long> checkpoint_cycle(std::string const& name) {
+    return number_between(name, "checkpoint.", ".restart");
 }
 
 std::vector<fs::path> restart_files(fs::path const& folder) {
     std::vector<fs::path> files;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
-        if (is_checkpoint(entry.path().filename().string())) files.push_back(entry.path());
+        if (checkpoint_cycle(entry.path().filename().string())) files.push_back(entry.path());
     }
     return files;
 }
@@ -106,8 +105,9 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
                     {"wall_time", checkpoint.wall_time}};
     write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
     for (fs::path const& file : restart_files(folder)) {
+        // The engine may be writing the next one.
         std::error_code ignored;
-        if (file.filename() != checkpoint.file) fs::remove(file, ignored);
+        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) fs::remove(file, ignored);
     }
 }
 
@@ -117,7 +117,7 @@ std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck con
         Json const seal = Json::parse(read_file(folder / seal_file));
         Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
                                     seal.at("wall_time")};
-        bool const known = is_checkpoint(checkpoint.file) &&
+        bool const known = checkpoint_cycle(checkpoint.file) &&
                            seal.at("deck_sha256") == sha256_hex(deck.files.at(deck::drive_file)) &&
                            seal.at("restart_sha256") == sha256_hex(read_file(folder / checkpoint.file));
         if (known && has_row(read_file(folder / "cycles.csv"), step_of(deck, checkpoint.cycle)))
@@ -143,7 +143,7 @@ void cut_outputs(fs::path const& folder, deck::Deck const& deck, Checkpoint cons
     if (!fs::is_directory(folder / "dump")) return;
     std::vector<fs::path> later;
     for (auto const& entry : fs::directory_iterator(folder / "dump")) {
-        auto const frame = frame_step(entry.path().filename().string());
+        auto const frame = number_between(entry.path().filename().string(), "frames.", ".dump");
         if (frame && *frame > step) later.push_back(entry.path());
     }
     for (fs::path const& frame : later) fs::remove(frame);
