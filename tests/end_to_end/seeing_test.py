@@ -11,6 +11,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import h5py
 import matplotlib.image
 
 from trough_program import PROGRAM, EndToEndTest
@@ -56,6 +57,10 @@ class Seeing(EndToEndTest):
         finished = [row["case"] for row in self.table() if row["outcome"] != "engine-error"]
         wanted = {f"{name}.{kind}" for name in ("efficiency", "residuals", *(f"cycles-{case}" for case in finished))
                   for kind in ("svg", "png")}  # fmt: skip
+        for case in finished:
+            with h5py.File(self.output / "cases" / case / "result.h5") as file:
+                if len(file.get("phases/1/phase", [])):  # too few cycles have no curves
+                    wanted |= {f"{kind}-{case}.png" for kind in ("portraits", "profiles")}
         self.assertLessEqual(wanted, {path.name for path in drawn})
         for path in drawn:
             self.assertEqual(path.parent, self.output / "report")
