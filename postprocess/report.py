@@ -34,6 +34,9 @@ COLUMNS = [
     ("efficiency_theory", "\u03b7, theory", "", "{:.3f}"),
     ("residual", "residual", "", "{:+.3f}"),
     ("mode_theory", "mode, theory", "", "{}"),
+    ("mode_layer", "mode, layer", "", "{}"),
+    ("friction_layer", "\u03bc, layer", "", "{:.3g}"),
+    ("efficiency_theory_layer", "\u03b7, theory at layer's \u03bc", "", "{:.3f}"),
     ("speed_dem_m_per_s", "speed", "m/s", "{:.3f}"),
     ("cycles_measured", "cycles kept", "", "{}"),
     ("cycles_discarded", "discarded", "", "{}"),
@@ -104,11 +107,12 @@ def cell(row, name, form):
 
 
 def split_columns(cases):
-    """The columns of the table, and a sentence about those that are the same in all cases."""
+    """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
     same = [name for name in MAY_BE_CONSTANT if len(cases) > 1 and len({case[name] for case in cases}) == 1]
     told = [f"{heading} = {form.format(cases[0][name])}{unit if unit == DEGREE else ' ' * bool(unit) + unit}"
             for name, heading, unit, form in COLUMNS if name in same]
-    return [column for column in COLUMNS if column[0] not in same], ", ".join(told)
+    empty = [name for name, *_ in COLUMNS if name != "residual" and all(case.get(name) is None for case in cases)]
+    return [column for column in COLUMNS if column[0] not in same + empty], ", ".join(told)
 
 
 def table(cases, columns):

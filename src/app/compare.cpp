@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
+#include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
-#include "campaign/overview.hpp"
+#include "campaign/plan.hpp"
 #include "compare/comparison.hpp"
 #include "compare/select.hpp"
 
@@ -40,10 +41,7 @@ compare::TableStyle style_for(std::string const& colour) {
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    std::vector<compare::Row> rows;
-    for (campaign::CaseOverview const& one : campaign::look_at(plan)) {
-        rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
-    }
+    std::vector<compare::Row> rows = compared_cases(plan).rows;
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort);
     if (options.json) {

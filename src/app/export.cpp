@@ -1,8 +1,9 @@
 #include "app/commands.hpp"
+#include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
 #include "app/point_mass.hpp"
-#include "campaign/overview.hpp"
-#include "compare/comparison.hpp"
+#include "campaign/plan.hpp"
+#include "compare/select.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
@@ -34,25 +35,25 @@ struct Options {
     bool table = false;
 };
 
-/// The rows of `compare` as columns: what is a text in some row is one, all else are numbers.
+/// The rows of `compare` as columns; what is not known is an empty text or NaN.
 std::vector<view::TableColumn> columns_of(std::vector<compare::Row> const& rows) {
     using Json = nlohmann::ordered_json;
     Json const list = Json::parse(compare::to_json(rows));
     Json const names = Json::parse(compare::to_json({compare::Row{}})).at(0);
     std::vector<view::TableColumn> columns;
-    for (auto const& [name, example] : names.items()) {
+    for (auto const& [name, unused] : names.items()) {
         std::vector<std::string> texts;
         std::vector<double> numbers;
         for (Json const& row : list) {
             Json const& value = row.at(name);
-            if (example.is_string()) {
-                texts.push_back(value.get<std::string>());
+            if (compare::is_text_column(name)) {
+                texts.push_back(value.is_null() ? "" : value.get<std::string>());
             } else {
                 numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                                   : value.get<double>());
             }
         }
-        if (example.is_string()) {
+        if (compare::is_text_column(name)) {
             columns.push_back({name, std::move(texts)});
         } else {
             columns.push_back({name, std::move(numbers)});
@@ -63,13 +64,9 @@ std::vector<view::TableColumn> columns_of(std::vector<compare::Row> const& rows)
 
 /// Writes the campaign's table for ParaView and returns its path.
 fs::path export_table(campaign::Plan const& plan) {
-    std::vector<compare::Row> rows;
-    for (campaign::CaseOverview const& one : campaign::look_at(plan)) {
-        rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
-    }
     fs::path const path = plan.folder / "view" / "campaign.vtt";
     make_folder(path.parent_path());
-    view::write_table(path, columns_of(rows));
+    view::write_table(path, columns_of(compared_cases(plan).rows));
     return fs::absolute(path).lexically_normal();
 }
 

@@ -1,5 +1,6 @@
 #include "app/report_data.hpp"
 
+#include "app/compared_cases.hpp"
 #include "app/point_mass.hpp"
 #include "campaign/overview.hpp"
 #include "compare/comparison.hpp"
@@ -73,11 +74,9 @@ void renew_campaign_file(campaign::Plan const& plan) {
 
 int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
     renew_campaign_file(plan);
-    auto const cases = campaign::look_at(plan);
-    std::vector<compare::Row> rows;
+    auto const [cases, rows] = compared_cases(plan);
     make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
-        rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
         write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
                               point_mass_csv(one.planned->scenario));
     }

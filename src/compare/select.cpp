@@ -20,11 +20,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t longest_shown = 60;
 constexpr std::string_view difference_column = "difference";
 
-/// The columns of text; all others are numbers.
-bool is_text(std::string_view column) {
-    return column == "case" || column == "mode_theory" || column == "outcome";
-}
-
 Json value_of(Row const& row, std::string const& column) {
     if (column == difference_column) {
         auto const value = difference(row);
@@ -96,7 +91,7 @@ Condition parse(std::string_view text) {
     }
     std::string_view const value = trimmed(text.substr(value_at));
     Condition condition{known_column("--filter", trimmed(text.substr(0, at))), *relation, nullptr};
-    if (!is_text(condition.column)) {
+    if (!is_text_column(condition.column)) {
         condition.value = number_in(value, text);
     } else if (*relation == Relation::equal || *relation == Relation::different) {
         condition.value = std::string(value);
@@ -128,6 +123,10 @@ bool holds(Condition const& condition, Row const& row) {
 }
 
 }  // namespace
+
+bool is_text_column(std::string_view column) {
+    return column == "case" || column == "outcome" || column.starts_with("mode_");
+}
 
 std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition) {
     Condition const wanted = parse(condition);

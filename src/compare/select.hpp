@@ -8,6 +8,9 @@
 
 namespace vibrotrough::compare {
 
+/// Whether a column of the JSON holds texts; all others hold numbers.
+bool is_text_column(std::string_view column);
+
 /// Keeps the rows that fulfil a condition such as "throw_number>1.5" or "outcome=finished": a column of the
 /// JSON or `difference` (efficiency_dem - efficiency_theory), one of > >= < <= = == !=, and a value. Columns
 /// of text know only = and !=. A number that is not known fulfils no condition.
