@@ -75,10 +75,15 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
             throw InputError(fmt::format("packing {} of case {} is not finished", packing, planned.id));
         record.packings.push_back(read_packing(planned, packing, *marker));
         estimates.push_back(record.packings.back().estimate);
-        auto& [version, commit, engine, host, started, finished] = record.provenance;
+        auto& [version, commit, engine, certificate, host, started, finished] = record.provenance;
         if (packing == 1) {
-            record.provenance = {marker->program_version, marker->git_commit, engine_version, marker->host,
-                                 marker->started,         marker->finished};
+            record.provenance = {marker->program_version,
+                                 marker->git_commit,
+                                 engine_version,
+                                 marker->engine_certificate,
+                                 marker->host,
+                                 marker->started,
+                                 marker->finished};
         }
         started = std::min(started, marker->started);  // ISO 8601 sorts as text
         finished = std::max(finished, marker->finished);

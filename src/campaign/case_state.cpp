@@ -90,8 +90,13 @@ std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned,
     if (!json || digest.empty()) return {};
     try {
         if (json->at("cycles_sha256") != digest) return {};
-        return FinishedPacking{json->at("wall_time"),       json->at("started"),    json->at("finished"),
-                               json->at("program_version"), json->at("git_commit"), json->at("host")};
+        return FinishedPacking{json->at("wall_time"),
+                               json->at("started"),
+                               json->at("finished"),
+                               json->at("program_version"),
+                               json->at("git_commit"),
+                               json->at("host"),
+                               json->value("engine_certificate", std::string())};
     } catch (Json::exception const&) {
         return {};
     }
@@ -104,6 +109,7 @@ void write_finished_packing(PlannedCase const& planned, int packing, FinishedPac
                     {"program_version", finished.program_version},
                     {"git_commit", finished.git_commit},
                     {"host", finished.host},
+                    {"engine_certificate", finished.engine_certificate},
                     {"cycles_sha256", digest_of_cycles(planned, packing)}};
     write_file_atomically(marker(planned, packing), json.dump(2) + "\n");
 }

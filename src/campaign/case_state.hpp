@@ -42,6 +42,7 @@ struct FinishedPacking {
     double wall_time;                                              ///< s
     std::string started, finished;                                 ///< ISO 8601, UTC
     std::string program_version = "", git_commit = "", host = "";  ///< that ran it
+    std::string engine_certificate = "";                           ///< JSON; empty when it was not probed
 };
 
 /// The packing's marker, if it is there and cycles.csv is still what it was then.

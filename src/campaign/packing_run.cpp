@@ -53,7 +53,10 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       folder_(planned.packing_folder(packing)),
       deck_(deck::make_deck(planned.scenario, packing)),
       start_(std::chrono::steady_clock::now()),
-      started_(utc_now()) {
+      started_(utc_now()),
+      engine_certificate_(std::filesystem::is_regular_file(planned.certificate_file())
+                              ? read_file(planned.certificate_file())
+                              : std::string()) {
     if (auto const checkpoint = read_checkpoint(folder_, deck_)) {
         cut_outputs(folder_, deck_, *checkpoint);
         start_engine(checkpoint);
@@ -166,7 +169,7 @@ PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     remove_checkpoints(folder_);
     write_finished_packing(planned_, packing_,
                            {wall_time(), started_, utc_now(), std::string(program_version()),
-                            std::string(program_commit()), host_name()});
+                            std::string(program_commit()), host_name(), engine_certificate_});
     return {true, {}, {}};
 }
 

@@ -61,6 +61,7 @@ class PackingRun {
     std::chrono::steady_clock::time_point start_;
     double earlier_wall_time_ = 0;  ///< s, of the engine before the checkpoint
     std::string started_;
+    std::string engine_certificate_;
     int cycles_ = 0;
     int sealed_cycle_ = 0;
     bool told_to_end_ = false;

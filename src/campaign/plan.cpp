@@ -69,6 +69,12 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_other_campaign(plan);
     nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
     write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    fs::path const certificate = plan.folder / "certificate.json";
+    if (engine.certificate.empty()) {
+        fs::remove(certificate);  // another engine's
+    } else {
+        write_file_atomically(certificate, engine.certificate);
+    }
     for (PlannedCase const& planned : plan.cases) write_named_files(planned.scenario, plan.folder);
     write_file_atomically(plan.folder / "campaign.toml", read_file(campaign_file));
 }

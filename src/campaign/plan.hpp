@@ -17,6 +17,10 @@ struct PlannedCase {
 
     std::filesystem::path result_file() const { return folder / "result.h5"; }
     std::filesystem::path failure_file() const { return folder / "failure.json"; }
+    /// The certificate of the engine that the campaign was planned with.
+    std::filesystem::path certificate_file() const {
+        return folder.parent_path().parent_path() / "certificate.json";
+    }
     std::filesystem::path packing_folder(int packing) const {
         return folder / ("packing-" + std::to_string(packing));
     }
@@ -43,7 +47,8 @@ void write_named_files(Scenario const& scenario, std::filesystem::path const& fo
 /// @throws MissingError when the disk refuses
 void write_case_files(PlannedCase const& planned);
 
-/// Makes the folder and freezes the campaign there: campaign.toml and the engine's version (engine.json).
+/// Makes the folder and freezes the campaign there: campaign.toml, the engine's version (engine.json)
+/// and its certificate (certificate.json).
 /// @throws MissingError when the disk refuses
 void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);
 

@@ -1,7 +1,7 @@
-# Writes a source file that holds every template as a raw string literal.
+# Writes a source file that holds every template below FOLDER as a raw string literal.
 set(entries "")
 foreach(path IN LISTS TEMPLATES)
-    get_filename_component(name ${path} NAME)
+    file(RELATIVE_PATH name ${FOLDER} ${path})
     string(REPLACE ".mustache" "" name ${name})
     file(READ ${path} content)
     string(APPEND entries "    {\"${name}\", R\"template(${content})template\"},\n")

@@ -16,6 +16,7 @@ struct Engine {
     std::filesystem::path program;
     std::string version;  ///< as it names itself, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32
                           ///< by buildd"
+    std::string certificate = {};  ///< JSON of the binary's Certificate; empty when it was not probed
 };
 
 /// Finds the engine: `asked` when given, else `liggghts` on the PATH, and asks it for its version.

@@ -27,6 +27,7 @@ struct Provenance {
     std::string program_version;
     std::string git_commit;
     std::string engine_version;
+    std::string engine_certificate;  ///< JSON; empty when the engine was not probed
     std::string host;
     std::string started;   ///< ISO 8601, UTC
     std::string finished;  ///< ISO 8601, UTC

@@ -140,6 +140,8 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     }
     record.scenario_toml =
         image.values<std::string>(std::string(scenario_entry().name), Rank::scalar).front();
+    record.provenance.engine_certificate =
+        image.values<std::string>(std::string(certificate_entry().name), Rank::scalar).front();
     record.estimate = read_case_values(image);
     record.packings.resize(image.length("packings/seed"));
     for (PackingValue const& value : packing_values()) read_column(image, value, record.packings);
@@ -174,6 +176,9 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         Entry const scenario = scenario_entry();
         put(std::string(scenario.name), scenario, std::vector<std::string>{record.scenario_toml},
             Rank::scalar);
+        Entry const certificate = certificate_entry();
+        put(std::string(certificate.name), certificate,
+            std::vector<std::string>{record.provenance.engine_certificate}, Rank::scalar);
         nlohmann::json files = nlohmann::json::object();
         for (NamedFile const& file : named_files(record.scenario)) files[file.name] = file.content;
         Entry const scenario_files = scenario_files_entry();

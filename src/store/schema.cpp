@@ -221,6 +221,11 @@ Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
 }
 
+Entry certificate_entry() {
+    return {"engine_certificate", "1",
+            "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};
+}
+
 Entry scenario_files_entry() {
     return {"scenario_files", "1", "The files that the scenario names: a JSON object of names and contents"};
 }

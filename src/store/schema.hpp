@@ -59,6 +59,9 @@ std::vector<PackingSeries> const& packing_series();
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();
 
+/// The certificate of the engine binary as JSON, dataset `engine_certificate` of result.h5.
+Entry certificate_entry();
+
 /// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
 Entry scenario_files_entry();
 

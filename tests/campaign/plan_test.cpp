@@ -93,6 +93,7 @@ TEST(MakePlan, PutsEachCaseBelowTheFolder) {
     EXPECT_EQ(planned.folder, fs::path("runs/x/cases") / planned.id);
     EXPECT_EQ(planned.result_file(), planned.folder / "result.h5");
     EXPECT_EQ(planned.packing_folder(2), planned.folder / "packing-2");
+    EXPECT_EQ(planned.certificate_file(), fs::path("runs/x/certificate.json"));
 }
 
 class OpenPlan : public CampaignFolder {
@@ -125,6 +126,15 @@ TEST_F(OpenPlan, GivesThePlanThatWasFrozen) {
 TEST_F(OpenPlan, FreezesTheFrozenFileItself) {
     freeze(plan, folder / "campaign.toml", {"/opt/liggghts", "LIGGGHTS 3.8.0"});
     EXPECT_EQ(open_plan(folder).cases.at(0).id, planned.id);
+}
+
+TEST_F(OpenPlan, KeepsTheCertificateOfItsEngineOnly) {
+    engine::Engine probed{"/opt/liggghts", "LIGGGHTS 3.8.0"};
+    probed.certificate = "{}\n";
+    freeze(plan, folder / "campaign.toml", probed);
+    EXPECT_EQ(read_file(planned.certificate_file()), "{}\n");
+    freeze(plan, folder / "campaign.toml", {"/opt/other", "LIGGGHTS 3.8.0"});
+    EXPECT_FALSE(fs::exists(planned.certificate_file()));
 }
 
 TEST_F(OpenPlan, RefusesAFolderThatIsNone) {

@@ -14,14 +14,10 @@ class FailingEngine(EndToEndTest):
     def setUp(self):
         super().setUp()
         self.campaign = self.write_campaign({"measure.packings": 1}, SWEEP)
-        self.good_engine = self.engine
 
     def break_engine(self, commands):
-        """From now on the engine, asked to simulate, runs these shell commands; it still tells its version."""
-        script = self.folder / "broken-liggghts"
-        script.write_text(f'#!/bin/sh\ncase "$1" in -in) {commands};; esac\nexec "{self.good_engine}" "$@"\n')
-        script.chmod(0o755)
-        self.engine = script
+        """From now on the engine, asked to simulate a packing, runs these shell commands; its probes go well."""
+        os.environ["VIBROTROUGH_TEST_BREAK"] = commands
 
     def failures(self):
         return [json.loads(path.read_text()) for path in sorted(self.output.glob("cases/*/failure.json"))]
@@ -51,10 +47,10 @@ class FailingEngine(EndToEndTest):
         self.break_engine("kill -SEGV $$")
         self.assert_all_fail("engine-crashed", "signal 11", attempts=4)
         # A run whose last cycles are missing although its end marker is there.
-        self.break_engine(f'"{self.good_engine}" "$@"; sed -i "\\$d" cycles.csv; exit 0')
+        self.break_engine(f'VIBROTROUGH_TEST_BREAK= "{self.engine}" "$@"; sed -i "\\$d" cycles.csv; exit 0')
         self.assert_all_fail("outputs-incomplete", "cycles.csv holds", attempts=5)
 
-        self.engine = self.good_engine
+        self.break_engine("")
         self.run_campaign(self.campaign)
         self.assertEqual(self.failures(), [])
         self.assertEqual([row["outcome"] for row in self.table()], ["finished"] * 2)

@@ -124,11 +124,23 @@ class EndToEndTest(unittest.TestCase):
             os.kill(number, signal.SIGKILL)
 
     def make_counting_engine(self):
-        """The real engine behind a script that notes the folder of each simulation and of each settling it starts."""
+        """The real engine behind a script that notes the folder of each simulation and of each settling it starts, and
+        runs the commands in VIBROTROUGH_TEST_BREAK before. It leaves probes alone, and is the same for all tests: they
+        share one certificate."""
         real = shutil.which("liggghts")
         self.assertIsNotNone(real, "these tests need liggghts on the PATH")
+        os.environ["VIBROTROUGH_TEST_STARTS"] = str(self.starts_file)
+        os.environ["VIBROTROUGH_TEST_BREAK"] = ""
         script = self.folder / "counting-liggghts"
-        script.write_text(f'#!/bin/sh\ncase "$2" in in.liggghts) pwd >> "{self.starts_file}";; settle.liggghts) pwd >> "{self.settles_file}";; esac\nexec "{real}" "$@"\n')
+        os.environ["VIBROTROUGH_TEST_SETTLES"] = str(self.settles_file)
+        script.write_text(
+            "#!/bin/sh\n"
+            'case "$1 $PWD" in -in*/vibrotrough-probe-*) ;;\n'
+            '-in*) case "$2" in in.liggghts) pwd >> "$VIBROTROUGH_TEST_STARTS";;\n'
+            'settle.liggghts) pwd >> "$VIBROTROUGH_TEST_SETTLES";; esac\n'
+            'eval "$VIBROTROUGH_TEST_BREAK";; esac\n'
+            f'exec "{real}" "$@"\n'
+        )
         script.chmod(script.stat().st_mode | stat.S_IXUSR)
         return script
 

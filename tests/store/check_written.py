@@ -84,6 +84,7 @@ def check_result_values(file):
     assert list(packings["correlation_time"]) == [1.5, 2.25]
     assert list(file["series/1/centre_of_mass_x"]) == [0.018, 0.0241, 0.0337, 0.0431]
     assert list(file["series/2/tangential_force"]) == [-0.0012]
+    assert file["engine_certificate"].asstr()[()] == '{"verdict": "passed"}\n'
     assert file["scenario"].asstr()[()].startswith("[campaign]\nname = \"sample\"")
 
 

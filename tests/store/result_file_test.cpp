@@ -81,6 +81,7 @@ void expect_equal(CaseRecord const& read, CaseRecord const& written) {
     EXPECT_EQ(read.provenance.program_version, written.provenance.program_version);
     EXPECT_EQ(read.provenance.git_commit, written.provenance.git_commit);
     EXPECT_EQ(read.provenance.engine_version, written.provenance.engine_version);
+    EXPECT_EQ(read.provenance.engine_certificate, written.provenance.engine_certificate);
     EXPECT_EQ(read.provenance.host, written.provenance.host);
     EXPECT_EQ(read.provenance.started, written.provenance.started);
     EXPECT_EQ(read.provenance.finished, written.provenance.finished);

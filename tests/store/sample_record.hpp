@@ -77,6 +77,7 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
             .provenance = {.program_version = "0.1.0",
                            .git_commit = "abcdef",
                            .engine_version = "LIGGGHTS 3.8.0",
+                           .engine_certificate = "{\"verdict\": \"passed\"}\n",
                            .host = "trough",
                            .started = "2026-11-21T12:00:00Z",
                            .finished = "2026-11-21T12:01:00Z"}};

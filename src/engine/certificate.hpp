@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::engine {
+
+/// What makes one engine binary this one.
+struct EngineIdentity {
+    std::string program;         ///< path
+    std::string program_sha256;  ///< of the file
+    std::string library;         ///< path of the libliggghts that the program links; empty when it links none
+    std::string library_sha256;  ///< empty when there is none
+    std::string version;         ///< as it names itself
+    std::string probes_sha256;   ///< of the probes' decks: other probes need another certificate
+
+    /// SHA-256 over all but the paths: the certificate's name.
+    std::string key() const;
+};
+
+enum class Comparison {
+    near,     ///< |measured - expected| <= tolerance
+    at_most,  ///< measured <= expected + tolerance
+};
+
+/// One question to the engine, and its answer.
+struct ProbeResult {
+    std::string name;      ///< e.g. "restitution-0.5"
+    std::string question;  ///< one sentence
+    std::string source;    ///< formula or reference of `expected`
+    std::string unit;      ///< "1" for pure numbers
+    Comparison comparison;
+    double expected;
+    double measured;  ///< NaN when the engine gave no answer; `problem` says why
+    double tolerance;
+    std::string tolerance_reason;
+    std::string problem;
+
+    bool passed() const;
+};
+
+/// What the probes found out about one engine binary.
+struct Certificate {
+    EngineIdentity engine;
+    std::string program_version, git_commit, host;  ///< that probed
+    std::string probed;                             ///< ISO 8601, UTC
+    double grain_steps_per_cpu_second = 0;          ///< of a packed layer; 0 when a probe failed
+    int speed_grains = 0;                           ///< number of grains in that layer
+    std::vector<ProbeResult> probes;
+
+    bool passed() const;  ///< all probes passed, and there are some
+};
+
+/// The certificate as JSON text, with the SHA-256 of its own content as the last member.
+std::string to_json(Certificate const& certificate);
+
+/// Nothing when the text is no certificate, is damaged or was changed by hand.
+std::optional<Certificate> parse_certificate(std::string_view json);
+
+}  // namespace vibrotrough::engine

@@ -1,0 +1,263 @@
+#include "engine/probe_decks.hpp"
+
+#include "core/hash.hpp"
+#include "deck/drive_formula.hpp"
+#include "deck/render.hpp"
+#include "deck/trough_mesh.hpp"
+#include "scenario/scenario.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::engine {
+namespace {
+
+/// Raise it when probe_verdicts changes: certificates of another number are made again.
+constexpr int judgement = 1;
+
+constexpr double diameter = 0.003;
+constexpr double side = 0.1;  // m, of the square floor under impacts and inclines
+constexpr double grain_friction = 0.5;
+
+using Values = deck::TemplateValues;
+
+std::string text(double number) {
+    return fmt::format("{}", number);
+}
+
+std::string repeated(double value, std::size_t times) {
+    std::string list;
+    for (std::size_t i = 0; i < times; ++i) list += fmt::format("{}{}", i == 0 ? "" : " ", value);
+    return list;
+}
+
+/// A symmetric matrix that differs from `among` in its last row and column: contacts with the floor.
+std::string pair_matrix(double among, std::vector<double> const& with_floor) {
+    std::size_t const n = with_floor.size();
+    std::string list;
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= n; ++j) {
+            double const value = i == j || std::max(i, j) < n ? among : with_floor[std::min(i, j)];
+            list += fmt::format("{}{}", list.empty() ? "" : " ", value);
+        }
+    }
+    return list;
+}
+
+/// One grain type per element of the lists, which are of equal length.
+Values world(std::string const& title, double time_step, std::vector<double> const& restitutions,
+             std::vector<double> const& frictions) {
+    ContactMaterial const material = probe_material(0.5, grain_friction);
+    std::size_t const types = restitutions.size() + 1;
+    return {{"title", "Vibrotrough probes the engine: " + title},
+            {"floor_type", std::to_string(types)},
+            {"length", text(side)},
+            {"width", text(side)},
+            {"bottom", "-0.02"},
+            {"top", "0.06"},
+            {"skin", text(0.3 * diameter)},
+            {"time_step", text(time_step)},
+            {"moduli", repeated(material.youngs_modulus, types)},
+            {"poisson_ratios", repeated(material.poisson_ratio, types)},
+            {"restitutions", pair_matrix(0.5, restitutions)},
+            {"frictions", pair_matrix(grain_friction, frictions)},
+            {"diameter", text(diameter)},
+            {"density", text(material.density)},
+            {"gravity", text(gravity)}};
+}
+
+std::vector<Impact> impacts(std::vector<std::array<double, 2>> const& speeds,
+                            std::vector<double> const& gaps) {
+    std::vector<Impact> list;
+    for (auto const& [normal, tangential] : speeds) {
+        for (double const gap : gaps) {
+            for (int type = 1; type <= static_cast<int>(probed_restitutions.size()); ++type) {
+                list.push_back({type, normal, tangential, gap});
+            }
+        }
+    }
+    return list;
+}
+
+double rayleigh_time(ContactMaterial const& m) {
+    double const shear_modulus = m.youngs_modulus / (2 * (1 + m.poisson_ratio));
+    return std::numbers::pi * m.radius * std::sqrt(m.density / shear_modulus) /
+           (0.1631 * m.poisson_ratio + 0.8766);
+}
+
+ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, double time_step,
+                      double duration) {
+    std::vector<double> const restitutions(probed_restitutions.begin(), probed_restitutions.end());
+    Values values = world("impacts, " + name, time_step, restitutions,
+                          std::vector<double>(restitutions.size(), impact_friction));
+    values["steps"] = std::to_string(std::lround(duration / time_step));
+    std::vector<Values> grains;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        // Off the mesh's nodes and edges, 3 diameters apart: no grain meets another.
+        double const x = 0.0071 + 0.009 * static_cast<double>(i % 10),
+                     y = 0.0053 + 0.009 * static_cast<double>(i / 10);
+        grains.push_back({{"id", std::to_string(i + 1)},
+                          {"type", std::to_string(list[i].type)},
+                          {"x", text(x)},
+                          {"y", text(y)},
+                          {"z", text(diameter / 2 + list[i].gap)},
+                          {"vx", text(list[i].tangential_speed)},
+                          {"vz", text(-list[i].normal_speed)}});
+    }
+    return {name,
+            {{"in.liggghts", deck::render_template("probes/impact", values, {{"grains", grains}})},
+             {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
+}
+
+/// The values and lists that the campaigns' own templates `trough` and `drive` want.
+void add_campaign_values(Values& values, std::map<std::string, std::vector<Values>>& lists,
+                         MovingTrough const& motion) {
+    Trough trough{};
+    trough.amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
+    trough.vibration_angle = std::atan2(motion.amplitude_z, motion.amplitude_x);
+    trough.frequency = 1 / motion.period;
+    DriveMotion const drive = drive_motion(trough);
+    for (auto const& [axis, terms] : {std::pair{"x", &drive.along}, std::pair{"z", &drive.normal}}) {
+        deck::DriveFormula const formula = deck::drive_formula(*terms, axis);
+        for (deck::Formula const& term : formula.terms)
+            lists["drive_terms"].push_back({{"name", term.name}, {"expression", term.expression}});
+        values[fmt::format("speed_{}", axis)] = formula.speed;
+    }
+    values["steps_per_cycle"] = std::to_string(motion.steps);
+    values["wall_model"] = "hertz tangential history";
+    values["contact_options"] = "limitForce on tangential_damping off";
+}
+
+ProbeDeck motion_deck(std::string const& name, MovingTrough const& motion,
+                      std::vector<Values> const& grains) {
+    constexpr double length = 0.036, width = 0.018;
+    Values values = world(name, motion.period / motion.steps, {0.5}, {grain_friction});
+    std::map<std::string, std::vector<Values>> lists{{"grains", grains}};
+    add_campaign_values(values, lists, motion);
+    values["length"] = text(length);
+    values["width"] = text(width);
+    values["steps"] = std::to_string(motion.steps);
+    return {name,
+            {{"in.liggghts", deck::render_template("probes/trough", values, lists)},
+             {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
+}
+
+}  // namespace
+
+ContactMaterial probe_material(double restitution, double friction) {
+    return {diameter / 2, 1400, 5e6, 0.35, restitution, friction};
+}
+
+std::vector<Impact> const& fine_impacts() {
+    // Straight; so flat that the contact slides all the time; so steep that it grips.
+    static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1e-5});
+    return list;
+}
+
+std::vector<Impact> const& coarse_impacts() {
+    // The start decides where in a step the contact begins.
+    static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1.0e-5, 1.3e-5, 1.6e-5, 2.3e-5});
+    return list;
+}
+
+double resting_overlap(double inclination) {
+    ContactMaterial const material = probe_material(0.5, grain_friction);
+    return hertz_overlap(material, sphere_mass(material) * gravity * std::cos(inclination));
+}
+
+MovingTrough sliding_trough() {
+    return {.amplitude_x = 0.0052, .amplitude_z = 0, .grains = 28};
+}
+
+MovingTrough flying_trough() {
+    return {.amplitude_x = 0.0052, .amplitude_z = 0.003, .grains = 1};
+}
+
+ProbeDeck fine_impact_deck() {
+    return impact_deck("impact", fine_impacts(), 5e-7, 1e-3);
+}
+
+ProbeDeck coarse_impact_deck() {
+    return impact_deck("impact-coarse", coarse_impacts(), 0.2 * rayleigh_time(probe_material(0.5, 0.5)),
+                       2e-3);
+}
+
+ProbeDeck incline_deck() {
+    Incline const incline;
+    Values values =
+        world("incline", incline.time_step, {0.5, 0.5}, {incline.holding_friction, incline.sliding_friction});
+    values["inclination_deg"] = fmt::format("{:.6g}", incline.angle * 180 / std::numbers::pi);
+    values["gravity_x"] = text(std::sin(incline.angle));
+    values["gravity_z"] = text(-std::cos(incline.angle));
+    values["steps"] = std::to_string(incline.steps);
+    values["sample_steps"] = std::to_string(incline.sample_steps);
+    std::vector<Values> grains;
+    for (int const id : {1, 2, 3}) {
+        grains.push_back({{"type", id == 2 ? "2" : "1"},
+                          {"x", "0.0071"},
+                          {"y", text(0.0053 + 0.012 * id)},
+                          {"z", text(diameter / 2 - resting_overlap(incline.angle))}});
+    }
+    return {"incline",
+            {{"in.liggghts", deck::render_template("probes/incline", values, {{"grains", grains}})},
+             {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
+}
+
+ProbeDeck contact_deck() {
+    std::vector<Values> grains;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 7; ++column) {
+            // Seven to the length and four to the width are not the mesh's numbers: the moving mesh passes
+            // under the grains with its edges, diagonals and seams at the periodic faces.
+            grains.push_back({{"type", "1"},
+                              {"x", text(0.00017 + 0.0051 * column + 0.0003 * row)},
+                              {"y", text(0.00013 + 0.0045 * row)},
+                              {"z", text(diameter / 2 - resting_overlap(0))}});
+        }
+    }
+    return motion_deck("contact", sliding_trough(), grains);
+}
+
+ProbeDeck drive_deck() {
+    // One grain, out of the trough's way: without any, the engine does not run.
+    return motion_deck("drive", flying_trough(),
+                       {{{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}}});
+}
+
+ProbeDeck speed_deck(int steps) {
+    constexpr double length = 12 * diameter, width = 6 * diameter;
+    double const time_step = 0.2 * rayleigh_time(probe_material(0.5, 0.5));
+    Values values = world("speed", time_step, {0.5}, {0.23});
+    std::map<std::string, std::vector<Values>> lists;
+    add_campaign_values(values, lists,
+                        {.amplitude_x = 0.0052,
+                         .amplitude_z = 0.003,
+                         .period = 3000 * time_step,
+                         .steps = 3000,
+                         .grains = 0});
+    values["length"] = text(length);
+    values["width"] = text(width);
+    values["top"] = "0.2";
+    values["spacing"] = text(diameter);
+    values["layer_top"] = text(14 * diameter - 1e-6);
+    values["jitter"] = text(0.1 * diameter);  // so that columns of grains do not stand
+    values["lift"] = text(0.51 * diameter);
+    values["fall_speed"] = "-0.1";
+    values["steps"] = std::to_string(steps);
+    return {fmt::format("speed-{}", steps),
+            {{"in.liggghts", deck::render_template("probes/speed", values, lists)},
+             {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
+}
+
+std::string digest_of_probes() {
+    std::string all = std::to_string(judgement);
+    for (ProbeDeck const& deck : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
+                                  drive_deck(), speed_deck(1)}) {
+        for (auto const& [name, content] : deck.files) all += name + content;
+    }
+    return sha256_hex(all);
+}
+
+}  // namespace vibrotrough::engine

@@ -1,0 +1,72 @@
+#include "engine/probe_output.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "deck/deck.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::engine {
+namespace {
+
+InputError unreadable(std::filesystem::path const& path) {
+    return InputError(fmt::format("{} is missing or cut; is the disk full?", path.filename().string()));
+}
+
+}  // namespace
+
+std::vector<std::vector<GrainSample>> read_samples(std::filesystem::path const& path, std::size_t grains) {
+    std::ifstream file(path);
+    std::vector<std::vector<GrainSample>> times;
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with("ITEM: ATOMS")) continue;
+        std::vector<GrainSample>& samples = times.emplace_back();
+        for (std::size_t i = 0; i < grains; ++i) {
+            std::size_t id = 0;
+            GrainSample one{};
+            if (!(file >> id >> one.x >> one.z >> one.vx >> one.vz >> one.spin) || id != i + 1)
+                throw unreadable(path);
+            samples.push_back(one);
+        }
+    }
+    if (times.size() < 2) throw unreadable(path);
+    return times;
+}
+
+std::vector<TroughSample> read_trough_samples(std::filesystem::path const& path) {
+    std::ifstream file(path);
+    std::vector<TroughSample> samples;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with('#')) continue;
+        TroughSample one{};
+        if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &one.step, &one.x, &one.z, &one.force_z,
+                        &one.grains) != 5)
+            throw unreadable(path);
+        samples.push_back(one);
+    }
+    if (samples.empty()) throw unreadable(path);
+    return samples;
+}
+
+std::string problem_of_run(std::filesystem::path const& folder, ExitStatus status) {
+    std::ifstream file(folder / output_file);
+    bool ended = false;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("ERROR")) return printable(line, 300);
+        if (line.starts_with(deck::end_marker)) ended = true;
+    }
+    if (status.signal != 0)
+        return fmt::format("the engine was killed by signal {} ({})", status.signal,
+                           strsignal(status.signal));
+    if (status.code != 0)
+        return fmt::format("the engine ended with exit code {} and no message", status.code);
+    if (!ended) return "the engine ended with exit code 0 but without its end marker; is the disk full?";
+    return {};
+}
+
+}  // namespace vibrotrough::engine

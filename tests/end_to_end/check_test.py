@@ -1,0 +1,107 @@
+"""What `check` says before a campaign is run, held against the run."""
+
+import csv
+import json
+import unittest
+
+from trough_program import EndToEndTest
+
+# A box wide and long enough that nothing is to be said against it.
+SOUND = {"layer.length": "27 mm", "layer.width": "18 mm", "layer.grains": 150, "measure.packings": 1}
+
+
+class Check(EndToEndTest):
+    def findings(self, campaign):
+        done = self.call("check", campaign, "--json")
+        report = json.loads(done.stdout)
+        return {one["item"]: one for one in report["cases"][0]["findings"]}, report, done.returncode
+
+    def read_frame(self, path):
+        """Lists of z and radius of all grains."""
+        lines = path.read_text().splitlines()
+        start = next(number for number, line in enumerate(lines) if line.startswith("ITEM: ATOMS"))
+        names = lines[start].split()[2:]
+        rows = [dict(zip(names, map(float, line.split()))) for line in lines[start + 1 :]]
+        return [row["z"] for row in rows], [row["radius"] for row in rows]
+
+    def overlaps(self, packing):
+        """Largest overlap of a grain with the trough in each frame, m, and how many grains touch it in the first."""
+        with open(packing / "dump" / "frames.csv") as file:
+            trough = {int(row[0]): float(row[2]) for row in csv.reader(file) if row[0].isdigit()}
+        found = {}
+        for step, floor in trough.items():
+            heights, radii = self.read_frame(packing / "dump" / f"frames.{step}.dump")
+            found[step] = [radius - (z - floor) for z, radius in zip(heights, radii)]
+        return found
+
+    def test_overlaps_are_those_of_a_run(self):
+        """A grain's mean load and one grain's impact are what the formulas know. In a packing few grains carry most
+        of the load and columns hit together, so that the largest overlaps are within a factor of 3 only; the mean
+        over the floor's grains at rest is within 1.5."""
+        changes = SOUND | {"output.frames_per_cycle": 60, "measure.max_cycles": 20, "measure.half_width": 0.5}
+        campaign = self.write_campaign(changes)
+        findings, _, _ = self.findings(campaign)
+        self.call(*self.run_arguments(campaign))
+        (packing,) = self.output.glob("cases/*/packing-1")
+        overlaps = self.overlaps(packing)
+        diameter = 0.003
+        resting = [one / diameter for one in overlaps[0] if one > 0]
+        expected = findings["overlap under the layer's own weight / diameter"]["measured"]
+        self.assertGreater(len(resting), 20)
+        mean = sum(resting) / len(resting)
+        print(f"resting overlap / d: mean {mean:.3g}, largest {max(resting):.3g}, expected {expected:.3g}")
+        self.assertLess(max(mean / expected, expected / mean), 1.5)
+        self.assertLess(max(resting) / expected, 3)
+        expected = findings["overlap of a grain at impact at twice the trough's speed / diameter"]["measured"]
+        largest = max(max(frame) for frame in overlaps.values()) / diameter
+        print(f"overlap at impact / d: largest {largest:.3g}, expected {expected:.3g}")
+        self.assertLess(max(largest / expected, expected / largest), 3)
+
+    def test_the_cost_is_that_of_a_run(self):
+        """Grain-steps of the cycles that were really run: expected within a factor of 3."""
+        campaign = self.write_campaign(SOUND | {"measure.half_width": 0.02})
+        _, report, code = self.findings(campaign)
+        self.assertEqual((code, report["warnings"], report["errors"]), (0, 0, 0))
+        done = self.run_campaign(campaign)
+        self.assertNotIn("check:", done.stderr)
+        (row,) = self.table()
+        cycles = row["cycles_measured"] + row["cycles_discarded"]
+        expected = report["cases"][0]["expected_cycles_per_packing"]
+        print(f"cycles: {cycles}, expected {expected}")
+        self.assertLess(max(cycles / expected, expected / cycles), 3)
+        seconds = report["expected_core_hours"] * 3600
+        self.assertAlmostEqual(seconds, report["cases"][0]["expected_grain_steps"] / report["grain_steps_per_cpu_second"])
+
+    def test_the_table_ends_with_the_cost(self):
+        campaign = self.write_campaign(SOUND, sweep={"trough.throw_number": [0.8, 2.0]})
+        done = self.call("check", campaign)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout.splitlines()[-1], r"^expected cost: [0-9.e-]+ core-hours, at [0-9.e+]+ grain-steps per CPU second")
+        self.assertNotIn("warning", done.stdout)
+
+    def test_warnings_are_shown_and_errors_refused(self):
+        warned = self.write_campaign({"measure.packings": 1})
+        done = self.run_campaign(warned)
+        self.assertRegex(done.stderr, r"(?m)^check: \d findings? .*\n  warning: layer.length: periodic length / diameter is 5, at least 8; lengthen")
+
+        # Grains like jelly under a violent trough: 30 % of overlap and more.
+        jelly = {"grains.youngs_modulus": "0.1 MPa", "trough.throw_number": 20.0, "trough.amplitude": "30 mm"}
+        wrong = self.write_campaign({"measure.packings": 1, "measure.max_cycles": 20} | jelly)
+        self.take_starts()
+        checked = self.call("check", wrong)
+        self.assertEqual(checked.returncode, 2)
+        self.assertRegex(checked.stdout, r"(?m)^error: grains.youngs_modulus: overlap of a grain at impact .*; raise it")
+        refused = self.call("run", wrong, "--output", self.folder / "wrong", "--liggghts", self.engine)
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("--accept-findings", refused.stderr.splitlines()[-1])
+        self.assertEqual(self.take_starts(), [])
+        self.call("run", wrong, "--output", self.folder / "wrong", "--liggghts", self.engine, "--accept-findings")
+        self.assertGreater(len(self.take_starts()), 0)
+
+    def test_errors_of_the_file(self):
+        self.assert_one_line_error(self.call("check", self.folder / "gone.toml"), 2, "there is no such file")
+        self.assert_one_line_error(self.call("check", self.write_campaign(), "--liggghts", "/nonexistent"), 3, "there is no file")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,155 @@
+#include "engine/certificate.hpp"
+
+#include "engine/certificate_cache.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+ProbeResult probe(Comparison comparison, double expected, double measured, double tolerance) {
+    return {"name", "question?", "source", "m", comparison, expected, measured, tolerance, "because", ""};
+}
+
+Certificate sample() {
+    return {{"/opt/liggghts", "aa", "/opt/lib.so", "bb", "LIGGGHTS 3.8.0", "cc"},
+            "0.1.0",
+            "abcdef",
+            "trough",
+            "2026-11-21T12:00:00Z",
+            6.1e6,
+            1008,
+            {probe(Comparison::near, 0.5, 0.1 + 0.2, 0.3), probe(Comparison::at_most, 1, -3, 0)}};
+}
+
+TEST(ProbeResult, PassesWithinItsTolerance) {
+    EXPECT_TRUE(probe(Comparison::near, 1, 1.1, 0.2).passed());
+    EXPECT_FALSE(probe(Comparison::near, 1, 1.3, 0.2).passed());
+    EXPECT_FALSE(probe(Comparison::near, 1, 0.7, 0.2).passed());
+    EXPECT_TRUE(probe(Comparison::at_most, 1, -5, 0).passed());
+    EXPECT_FALSE(probe(Comparison::at_most, 1, 1.1, 0).passed());
+    EXPECT_FALSE(probe(Comparison::near, 1, NAN, 9).passed());
+    EXPECT_FALSE(probe(Comparison::at_most, 1, NAN, 9).passed());
+    ProbeResult broken = probe(Comparison::near, 1, 1, 1);
+    broken.problem = "the engine was killed";
+    EXPECT_FALSE(broken.passed());
+}
+
+TEST(Certificate, WithoutAProbeProvesNothing) {
+    Certificate certificate = sample();
+    EXPECT_TRUE(certificate.passed());
+    certificate.probes.clear();
+    EXPECT_FALSE(certificate.passed());
+}
+
+TEST(Certificate, RoundTrip) {
+    Certificate certificate = sample();
+    certificate.probes[1].measured = NAN;
+    certificate.probes[1].problem = "ERROR: no \"such\" thing";
+    auto const read = parse_certificate(to_json(certificate));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(to_json(*read), to_json(certificate));
+    EXPECT_EQ(read->engine.key(), certificate.engine.key());
+    EXPECT_EQ(read->probes[0].measured, 0.1 + 0.2);
+    EXPECT_TRUE(std::isnan(read->probes[1].measured));
+}
+
+TEST(Certificate, DamageIsNoticed) {
+    std::string const whole = to_json(sample());
+    for (std::size_t length = 0; length + 2 < whole.size(); length += 7)
+        EXPECT_FALSE(parse_certificate(whole.substr(0, length))) << length;
+    std::string changed = whole;
+    changed.replace(changed.find("6100000"), 7, "9100000");
+    EXPECT_FALSE(parse_certificate(changed));
+    for (char const* text : {"", "[]", "{}", "no JSON", "{\"content_sha256\": 3}"})
+        EXPECT_FALSE(parse_certificate(text)) << text;
+}
+
+TEST(EngineIdentity, IsThatOfTheBinaryNotOfItsPath) {
+    EngineIdentity const one = sample().engine;
+    EngineIdentity other = one;
+    other.program = "/elsewhere/liggghts";
+    EXPECT_EQ(other.key(), one.key());
+    for (auto const member : {&EngineIdentity::program_sha256, &EngineIdentity::library_sha256,
+                              &EngineIdentity::version, &EngineIdentity::probes_sha256}) {
+        EngineIdentity different = one;
+        different.*member += "x";
+        EXPECT_NE(different.key(), one.key());
+    }
+}
+
+// Debian's program is a stub of 18 kB: the code is in the library that it links.
+TEST(EngineIdentity, NamesTheLinkedLibrary) {
+    EngineIdentity const identity = identify(find_engine({}));
+    EXPECT_EQ(identity.program_sha256.size(), 64u);
+    EXPECT_NE(identity.library.find("libliggghts"), std::string::npos);
+    EXPECT_EQ(identity.library_sha256.size(), 64u);
+    EXPECT_TRUE(identify({"/bin/sh", "any"}).library.empty());
+}
+
+class CertificateCache : public testing::Test {
+  protected:
+    CertificateCache() { ::setenv("XDG_CACHE_HOME", folder.c_str(), 1); }
+    ~CertificateCache() override {
+        ::unsetenv("XDG_CACHE_HOME");
+        fs::remove_all(folder);
+    }
+    fs::path file() const { return *certificate_folder() / (sample().engine.key() + ".json"); }
+    std::string folder = testing::TempDir() + "cache_" + std::to_string(::getpid());
+};
+
+TEST_F(CertificateCache, KeepsWhatPassed) {
+    EXPECT_FALSE(find_certificate(sample().engine));
+    EXPECT_EQ(keep_certificate(sample()), "");
+    ASSERT_TRUE(find_certificate(sample().engine));
+    EXPECT_EQ(to_json(*find_certificate(sample().engine)), to_json(sample()));
+    EngineIdentity other = sample().engine;
+    other.program_sha256 = "another binary";
+    EXPECT_FALSE(find_certificate(other));
+
+    Certificate failed = sample();
+    failed.engine = other;
+    failed.probes[0].measured = 7;
+    EXPECT_NE(keep_certificate(failed), "");
+    EXPECT_FALSE(find_certificate(other));
+}
+
+TEST_F(CertificateCache, DamagedOrForeignCertificatesCountAsNone) {
+    ASSERT_EQ(keep_certificate(sample()), "");
+    fs::resize_file(file(), fs::file_size(file()) / 2);
+    EXPECT_FALSE(find_certificate(sample().engine));
+    Certificate other = sample();
+    other.engine.version = "another engine's, under this one's name";
+    std::ofstream(file()) << to_json(other);
+    EXPECT_FALSE(find_certificate(sample().engine));
+}
+
+TEST_F(CertificateCache, SaysWhyItCannotKeepOne) {
+    std::ofstream{folder} << "a file where the folder should be";
+    EXPECT_NE(keep_certificate(sample()).find("cannot make the folder"), std::string::npos);
+    EXPECT_FALSE(find_certificate(sample().engine));
+}
+
+TEST_F(CertificateCache, FollowsTheCacheFolderOfTheDesktop) {
+    EXPECT_EQ(certificate_folder(), fs::path(folder) / "vibrotrough" / "engines");
+    ::setenv("XDG_CACHE_HOME", "relative", 1);
+    std::string const home = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
+    ::setenv("HOME", "/home/someone", 1);
+    EXPECT_EQ(certificate_folder(), "/home/someone/.cache/vibrotrough/engines");
+    ::unsetenv("HOME");
+    EXPECT_FALSE(certificate_folder());
+    EXPECT_NE(keep_certificate(sample()), "");
+    ::setenv("HOME", home.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace vibrotrough::engine
