@@ -39,14 +39,9 @@ class Seeing(EndToEndTest):
 
     def engine_that_fails_one(self):
         campaign = self.write_campaign({"measure.packings": 1}, SWEEP)
-        script = self.folder / "broken-liggghts"
         # The first packing that is driven fails, whichever it is; settling is shared by the cases.
-        script.write_text(
-            f'#!/bin/sh\ncase "$1 $2" in "-in in.liggghts") mkdir "{self.folder}/failed-once" 2>/dev/null && exit 7;; esac\n'
-            f'exec "{self.engine}" "$@"\n'
-        )
-        script.chmod(0o755)
-        self.engine = script
+        once = f'mkdir "{self.folder}/failed-once" 2>/dev/null'
+        os.environ["VIBROTROUGH_TEST_BREAK"] = f'[ "$2" = in.liggghts ] && {once} && exit 7'
         self.run_campaign(campaign, wanted=1)
         self.assertEqual(sorted(row["outcome"] for row in self.table()).count("engine-error"), 1)
 
@@ -131,10 +126,7 @@ class Seeing(EndToEndTest):
 
     def test_report_without_a_finished_case(self):
         campaign = self.write_campaign({"measure.packings": 1})
-        script = self.folder / "broken-liggghts"
-        script.write_text(f'#!/bin/sh\ncase "$1" in -in) exit 7;; esac\nexec "{self.engine}" "$@"\n')
-        script.chmod(0o755)
-        self.engine = script
+        os.environ["VIBROTROUGH_TEST_BREAK"] = "exit 7"
         self.run_campaign(campaign, wanted=1)
         self.assert_one_line_error(self.call("plot", self.output), 2, "no finished case yet")
         done = self.call("report", self.output)
