@@ -13,6 +13,7 @@ void add_keys(CLI::App& program, int& exit_code);
 void add_deck(CLI::App& program, int& exit_code);
 void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
+void add_friction_test(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);  // in plot.cpp: the report is drawn with the figures

@@ -91,7 +91,10 @@ void add_compare(CLI::App& program, int& exit_code) {
     command->footer(
         "eta is the mean velocity of the layer relative to the trough over omega r cos(beta), +- the "
         "half-width of its\n"
-        "confidence interval over all packings. In colour: yellow where the layer is faster than the theory, "
+        "confidence interval over all packings. After 'vibrotrough friction-test' the theory stands there "
+        "twice: at "
+        "the grain's\nfriction and at the layer's. In colour: yellow where the layer is faster than the "
+        "theory, "
         "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n"
         "Exit codes: 0 all well; 2 the input is wrong.\n"
         "Examples: vibrotrough compare runs/demo --csv > demo.csv\n"

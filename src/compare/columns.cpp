@@ -5,8 +5,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Number>
-Json json(std::optional<Number> const& value) {
+template <class Value>
+Json json(std::optional<Value> const& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
@@ -31,6 +31,12 @@ Json to_object(Row const& row) {
             {"speed_dem_m_per_s", json(row.speed_dem_m_per_s)},
             {"efficiency_theory", json(row.efficiency_theory)},
             {"mode_theory", row.mode_theory},
+            {"mode_layer", json(row.mode_layer)},
+            {"friction_layer", json(row.friction_layer)},
+            {"friction_layer_low", json(row.friction_layer_low)},
+            {"friction_layer_high", json(row.friction_layer_high)},
+            {"efficiency_theory_layer", json(row.efficiency_theory_layer)},
+            {"mode_theory_layer", json(row.mode_theory_layer)},
             {"packings", json(row.packings)},
             {"cycles_measured", json(row.cycles_measured)},
             {"cycles_discarded", json(row.cycles_discarded)},

@@ -19,14 +19,24 @@ struct Column {
 };
 
 /// In the order of `cells`. Nine is never dropped.
-constexpr Column columns[] = {
-    {"case", "", 9, true},        {"Gamma", "", 8, false},      {"beta", "deg", 5, false},
-    {"alpha", "deg", 3, false},   {"mu", "", 4, false},         {"f", "Hz", 1, false},
-    {"eta DEM", "", 9, false},    {"eta theory", "", 7, false}, {"difference", "", 9, false},
-    {"mode", "theory", 5, false}, {"speed", "m/s", 4, false},   {"cycles", "cut+kept", 2, false},
-    {"outcome", "", 6, true}};
+constexpr Column columns[] = {{"case", "", 9, true},
+                              {"Gamma", "", 8, false},
+                              {"beta", "deg", 5, false},
+                              {"alpha", "deg", 3, false},
+                              {"mu", "", 4, false},
+                              {"f", "Hz", 1, false},
+                              {"eta DEM", "", 9, false},
+                              {"eta theory", "at mu", 7, false},
+                              {"mu layer", "", 4, false},
+                              {"eta theory", "at mu layer", 6, false},
+                              {"difference", "", 9, false},
+                              {"mode", "theory", 5, false},
+                              {"mode", "layer", 5, false},
+                              {"speed", "m/s", 4, false},
+                              {"cycles", "cut+kept", 2, false},
+                              {"outcome", "", 6, true}};
 constexpr std::size_t column_count = std::size(columns);
-constexpr std::size_t difference_at = 8, outcome_at = 12;
+constexpr std::size_t difference_at = 10, outcome_at = 15;
 constexpr int never_dropped = 9;
 constexpr std::size_t gap = 2;
 
@@ -43,8 +53,11 @@ Cells cells(Row const& row) {
             fmt::format("{:.2f}", row.frequency_hz),
             shown(row.efficiency_dem, "{:.3f}") + " +- " + shown(row.efficiency_dem_half_width, "{:.3f}"),
             shown(row.efficiency_theory, "{:.3f}"),
+            shown(row.friction_layer, "{:.3f}"),
+            shown(row.efficiency_theory_layer, "{:.3f}"),
             shown(difference(row), "{:+.3f}"),
             row.mode_theory.empty() ? "-" : row.mode_theory,
+            row.mode_layer.value_or("-"),
             shown(row.speed_dem_m_per_s, "{:.3f}"),
             row.cycles_measured ? fmt::format("{}+{}", *row.cycles_discarded, *row.cycles_measured) : "-",
             row.outcome};
@@ -75,15 +88,27 @@ std::vector<bool> constant(std::vector<Cells> const& lines) {
     return same;
 }
 
+/// What only some campaigns know: the layer's friction and mode. Not shown when it is known of no case.
+bool is_optional(std::size_t column) {
+    std::string const unit = columns[column].unit;
+    return unit == "at mu layer" || unit == "layer" || std::string(columns[column].name) == "mu layer";
+}
+
+bool is_unknown(std::vector<Cells> const& lines, std::size_t column) {
+    return std::all_of(lines.begin() + headings, lines.end(),
+                       [&](Cells const& line) { return line[column] == "-"; });
+}
+
 /// Which columns are shown in `width` characters: the least important are dropped, and first of all those
 /// that are the same in all rows.
-std::vector<bool> chosen(std::vector<bool> const& same, std::vector<std::size_t> const& widths,
-                         std::size_t width) {
+std::vector<bool> chosen(std::vector<Cells> const& lines, std::vector<bool> const& same,
+                         std::vector<std::size_t> const& widths, std::size_t width) {
     std::vector<int> importance(column_count);
     for (std::size_t i = 0; i < column_count; ++i) {
         importance[i] = columns[i].importance - (same[i] && columns[i].importance < never_dropped ? 10 : 0);
     }
     std::vector<bool> keep(column_count, true);
+    for (std::size_t i = 0; i < column_count; ++i) keep[i] = !(is_optional(i) && is_unknown(lines, i));
     auto const needed = [&] {
         std::size_t sum = 0;
         for (std::size_t i = 0; i < column_count; ++i) sum += keep[i] ? widths[i] + gap : 0;
@@ -105,7 +130,7 @@ std::string dropped_note(std::vector<bool> const& keep, std::vector<bool> const&
     std::string values, names;
     for (std::size_t i = 0; i < column_count; ++i) {
         std::string const name = columns[i].name, unit = columns[i].unit;
-        if (keep[i]) continue;
+        if (keep[i] || (is_optional(i) && first[i] == "-")) continue;
         if (same[i]) {
             bool const quantity = unit == "deg" || unit == "Hz" || unit == "m/s";
             values += fmt::format("{}{} {}{}", values.empty() ? "" : ", ", name, first[i],
@@ -141,7 +166,7 @@ std::string to_table(std::vector<Row> const& rows, TableStyle const& style) {
     for (Cells const& line : lines) {
         for (std::size_t i = 0; i < column_count; ++i) widths[i] = std::max(widths[i], line[i].size());
     }
-    std::vector<bool> const same = constant(lines), keep = chosen(same, widths, style.width);
+    std::vector<bool> const same = constant(lines), keep = chosen(lines, same, widths, style.width);
     std::string text;
     for (std::size_t n = 0; n < lines.size(); ++n) {
         std::string line;
