@@ -19,20 +19,12 @@ import sys
 from collections import defaultdict
 
 import h5py
-import matplotlib
 import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
-
-# Okabe and Ito's colours, told apart by the colour-blind; markers and dashes say the same in black and white.
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
-MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
-DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (3, 1)), (0, (1, 1))]
+from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, plain_axes, save
 
 
-class Problem(Exception):
-    """Something the user can mend; the text is one line."""
+UNCERTAIN = "not steady or not precise"
 
 
 def read_campaign(path):
@@ -73,15 +65,8 @@ def same_angle(degrees):
 
 def series_of(columns):
     """What the cases differ in besides throw number and vibration angle, for the legend: rows -> label."""
-    shown = {
-        "inclination": ("\u03b1 = {:.3g}\u00b0", math.degrees(1.0)),
-        "friction": ("\u03bc = {:.3g}", 1.0),
-        "amplitude": ("r = {:.3g} mm", 1e3),
-        "grain_diameter": ("d = {:.3g} mm", 1e3),
-        "grain_friction": ("grain \u03bc = {:.3g}", 1.0),
-        "layer_grains": ("{:.0f} grains", 1.0),
-    }
-    varied = [name for name in shown if len(np.unique(columns[name])) > 1]
+    shown = {name: (form, factor) for name, (_, form, _, factor) in INPUTS.items() if name != "vibration_angle"}
+    varied = [name for name in shown if len(np.unique(columns[name][np.isfinite(columns[name])])) > 1]
     groups = defaultdict(list)
     for row in range(len(columns["case"])):
         groups[tuple(columns[name][row] for name in varied)].append(row)
@@ -120,9 +105,6 @@ def draw(axes, columns, theory, style):
 def mark_uncertain(axes, columns):
     """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
     drawn = np.isfinite(columns["efficiency"])
-    if not drawn.all():
-        text = f"{np.count_nonzero(~drawn)} of {len(drawn)} cases have no mean (not steady)"
-        axes.figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color="#666666")
     rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
     if rows:
         axes.scatter(
@@ -131,7 +113,7 @@ def mark_uncertain(axes, columns):
             s=160,
             facecolors="none",
             edgecolors="#777777",
-            label="not steady or not precise",
+            label=UNCERTAIN,
             zorder=1,
         )
 
@@ -139,15 +121,33 @@ def mark_uncertain(axes, columns):
 def label(axes, columns, attributes, theory):
     confidence = np.unique(columns["confidence"])
     bars = f"{100 * confidence[0]:.3g} % interval" if len(confidence) == 1 else "confidence interval"
-    axes.set_xlabel("throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)  [-]")
-    axes.set_ylabel("velocity efficiency \u03b7 = v / (\u03c9 r cos \u03b2)  [-]")
+    axes.set_xlabel(THROW_NUMBER)
+    axes.set_ylabel(EFFICIENCY)
     axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
-    axes.grid(True, color="#e5e5e5", linewidth=0.6)
-    axes.set_axisbelow(True)
-    title = f"points: DEM with {bars}" + ("\nlines: point-mass theory" if theory else "")
-    axes.legend(frameon=False, fontsize=9, title=title, title_fontsize=9, loc="best")
-    corner = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
-    axes.figure.text(0.99, 0.01, corner, ha="right", va="bottom", fontsize=7, color="#666666")
+    plain_axes(axes)
+    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "")
+    # Above the axes, where no point can be mistaken for a part of it; the series first, then the ring.
+    handles, names = axes.get_legend_handles_labels()
+    order = sorted(range(len(names)), key=lambda index: names[index] == UNCERTAIN)
+    axes.legend([handles[index] for index in order], [names[index] for index in order], frameon=False, fontsize=9, title=title,
+                title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3), columnspacing=1.2,
+                handletextpad=0.4)
+    without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
+    corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady)" if without else "")
+
+
+def plot_efficiency(directory, theory_file, output):
+    """Draws the figure; returns the files."""
+    columns, attributes = read_campaign(directory / "campaign.h5")
+    if len(columns.get("case", [])) == 0:
+        raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
+    theory, style = read_theory(theory_file) if theory_file else ({}, {})
+    figure, axes = new_figure()
+    draw(axes, columns, theory, style)
+    mark_uncertain(axes, columns)
+    label(axes, columns, attributes, theory)
+    figure.tight_layout(rect=(0, 0.02, 1, 1))
+    return save(figure, output)
 
 
 def main():
@@ -157,24 +157,8 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, metavar="NAME", help="path of the figures without .svg and .png")
     options = parser.parse_args()
 
-    columns, attributes = read_campaign(options.directory / "campaign.h5")
-    if len(columns.get("case", [])) == 0:
-        raise Problem(f"{options.directory / 'campaign.h5'} holds no finished case; run the campaign first")
-    theory, style = read_theory(options.theory) if options.theory else ({}, {})
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10})
-    figure, axes = plt.subplots(figsize=(7.2, 4.8))
-    draw(axes, columns, theory, style)
-    mark_uncertain(axes, columns)
-    label(axes, columns, attributes, theory)
-    figure.tight_layout(rect=(0, 0.02, 1, 1))
     output = options.output or options.directory / "report" / "efficiency"
-    for kind in ("svg", "png"):
-        path = output.with_name(f"{output.name}.{kind}")
-        try:
-            output.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
-        except OSError as error:
-            raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
+    for path in plot_efficiency(options.directory, options.theory, output):
         print(path)
 
 

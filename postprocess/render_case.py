@@ -1,6 +1,6 @@
 """Renders an exported case to PNG with ParaView, without a window.
 
-    pvbatch --force-offscreen-rendering render_case.py FOLDER FILE.png [--time SECONDS] [--size WIDTH HEIGHT]
+    pvbatch --force-offscreen-rendering render_case.py FOLDER FILE.png [--time SECONDS] [--size WIDTH HEIGHT] [--with-profile]
 
 FOLDER is what `vibrotrough export` left (with view_case.py); the frame nearest to the time is drawn, by default the last.
 Debian's pvbatch renders through X: put xvfb-run -a -s "-screen 0 1600x1000x24 +extension GLX -noreset" before it on a
@@ -10,7 +10,7 @@ machine without a screen. Ends with an error when a frame holds nothing.
 import argparse
 import os
 
-from paraview.simple import FindSource, GetActiveView, GetAnimationScene, Render, SaveScreenshot
+from paraview.simple import FindSource, GetActiveView, GetAnimationScene, GetLayout, Render, SaveScreenshot
 
 
 def open_scene(folder):
@@ -45,15 +45,20 @@ def main():
     parser.add_argument("picture")
     parser.add_argument("--time", type=float)
     parser.add_argument("--size", type=int, nargs=2, default=[1600, 1000], metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--with-profile", action="store_true", help="draw the charts beside the layer, too")
     options = parser.parse_args()
 
     open_scene(options.folder)
     view = GetActiveView()
-    view.ViewSize = options.size
+    if options.with_profile:
+        drawn = GetLayout(view)
+        drawn.SetSize(options.size)
+    else:
+        drawn, view.ViewSize = view, options.size
     time = go_to(options.time)
     grains, nodes = count("grains", time), count("trough", time)
     Render(view)
-    SaveScreenshot(options.picture, view, ImageResolution=options.size)
+    SaveScreenshot(options.picture, drawn, ImageResolution=options.size)
     print(f"{options.picture}: {grains} grains and {nodes} nodes of the trough at {time} s")
 
 

@@ -1,10 +1,11 @@
 """Opens an exported case in ParaView: the grains as spheres of true size, coloured by their velocity along the trough
-relative to the trough, and the moving trough.
+relative to the trough, the moving trough, the point mass of the theory as a block on its own lane in front, the phase of
+the vibration, and beside them the layer's velocity and solid fraction over height.
 
     paraview --state=FOLDER/view_case.py
 
-works from any folder. `vibrotrough export` writes this file beside grains.pvd and trough.pvd, with the three values
-below filled in; postprocess/view_case.py is its template.
+works from any folder. `vibrotrough export` writes this file beside the .pvd files, with the three values below filled in;
+postprocess/view_case.py is its template.
 """
 
 import os
@@ -12,18 +13,25 @@ import os
 import paraview
 from paraview.simple import (
     AnnotateTimeFilter,
+    AssignViewToLayout,
     ColorBy,
+    CreateLayout,
+    CreateView,
     GetActiveViewOrCreate,
     GetAnimationScene,
     GetColorTransferFunction,
+    GetLayout,
     GetScalarBar,
     Glyph,
     Hide,
     PVDReader,
+    PythonAnnotation,
     Render,
     SetActiveSource,
+    SetActiveView,
     Show,
     Text,
+    Transform,
 )
 
 CAPTION = "@CAPTION@"
@@ -108,22 +116,84 @@ def show_text(view, source, where):
     return shown
 
 
-def annotate(view, grains):
+def show_point_mass(view, trough):
+    """The theory's block on a lane that is the trough once more, narrower and in front of it."""
+    block = open_collection("point_mass")
+    lane = Transform(registrationName="lane of the point mass", Input=trough)
+    _, _, front, back, _, _ = trough.GetDataInformation().GetBounds()
+    left_of_block, right_of_block = block.GetDataInformation().GetBounds()[2:4]
+    edge = right_of_block - left_of_block
+    low, high = left_of_block - 0.3 * edge, right_of_block + 0.3 * edge
+    lane.Transform.Scale = [1.0, (high - low) / (back - front), 1.0]
+    lane.Transform.Translate = [0.0, low - front * (high - low) / (back - front), 0.0]
+    show_trough(view, lane)
+    shown = Show(block, view)
+    shown.SetRepresentationType("Surface With Edges")
+    shown.EdgeColor = INK
+    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
+    return block, lane
+
+
+def annotate(view, grains, block):
     time = AnnotateTimeFilter(registrationName="time", Input=grains)
     time.Format = "t = {time:.4f} s"
     show_text(view, time, "Upper Left Corner")
-    cycle = AnnotateTimeFilter(registrationName="cycle", Input=grains)
-    cycle.Format = "t / T = {time:.2f}"
-    cycle.Scale = FREQUENCY
+    cycle = PythonAnnotation(registrationName="cycle and phase", Input=grains)
+    cycle.ArrayAssociation = "Field Data"
+    cycle.Expression = "'cycle %d, phase %3.0f deg' % (cycle[0] + 1, vibration_phase[0])"
     show_text(view, cycle, "Upper Right Corner")
+    if block:
+        motion = PythonAnnotation(registrationName="motion of the point mass", Input=block)
+        motion.ArrayAssociation = "Field Data"
+        motion.Expression = "'theory: the point mass ' + motion.GetValue(0)"
+        show_text(view, motion, "Lower Left Corner")
 
 
-def look_along_the_width(view, trough, grains):
+def show_chart(layout, location, share, profile, what, axis_title, reach, height):
+    """The layer's height upwards over one of its values, with axes that stay still."""
+    layout_location = layout.SplitHorizontal(location, share) if location == 0 else layout.SplitVertical(location, share)
+    chart = CreateView("XYChartView")
+    AssignViewToLayout(view=chart, layout=layout, hint=layout_location + 1)
+    shown = Show(profile, chart, "XYChartRepresentation")
+    shown.AttributeType = "Point Data"
+    shown.UseIndexForXAxis = 0
+    shown.XArrayName = what
+    shown.SeriesVisibility = ["height"]
+    shown.SeriesLabel = ["height", "layer"]
+    shown.SeriesColor = ["height", "0", "0.447", "0.698"]
+    shown.SeriesLineThickness = ["height", "2"]
+    shown.SeriesMarkerStyle = ["height", "4"]
+    chart.ShowLegend = 0
+    chart.BottomAxisTitleFontSize = chart.LeftAxisTitleFontSize = 14
+    chart.BottomAxisTitleBold = chart.LeftAxisTitleBold = 0
+    chart.BottomAxisTitle = axis_title
+    chart.LeftAxisTitle = "height above the trough, m"
+    chart.BottomAxisUseCustomRange = chart.LeftAxisUseCustomRange = 1
+    chart.BottomAxisRangeMinimum, chart.BottomAxisRangeMaximum = reach
+    chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 0.0, height
+    return layout_location
+
+
+def show_profile(view, height):
+    profile = open_collection("profile")
+    layout = GetLayout(view)
+    if layout is None:
+        layout = CreateLayout(name="layout")
+        AssignViewToLayout(view=view, layout=layout, hint=0)
+    right = show_chart(layout, 0, 0.7, profile, "velocity_relative_to_trough_x", "velocity relative to the trough, m/s",
+                       (-1.5 * SPEED, 2.0 * SPEED), height)
+    show_chart(layout, right + 1, 0.5, profile, "solid_fraction", "solid fraction, 1", (0.0, 0.8), height)
+    SetActiveView(view)
+
+
+def look_along_the_width(view, trough, lane, grains):
     """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
     left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
+    if lane:
+        front = lane.GetDataInformation().GetBounds()[2]
     length, width = right - left, back - front
     height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
-    focus = [(left + right) / 2, (front + back) / 2, floor + 0.6 * height]
+    focus = [(left + right) / 2, (front + back) / 2, floor + 0.52 * height]
     away = 3.0 * max(length, width, height)
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = focus
@@ -131,7 +201,8 @@ def look_along_the_width(view, trough, grains):
     view.CameraViewUp = [0.0, 0.0, 1.0]
     # The box as seen from there: turned by 17 degrees, tilted by 19; half its larger side plus margins.
     seen_length, seen_depth = 0.96 * length + 0.29 * width, 0.96 * width + 0.29 * length
-    view.CameraParallelScale = max(0.37 * seen_length, 0.85 * height + 0.17 * seen_depth)
+    view.CameraParallelScale = max(0.4 * seen_length, 0.78 * height + 0.25 * seen_depth)
+    return height
 
 
 def main():
@@ -151,9 +222,11 @@ def main():
     trough = open_collection("trough")
     GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     show_trough(view, trough)
+    block, lane = show_point_mass(view, trough) if has_frames("point_mass.pvd") else (None, None)
     show_grains(view, grains)
-    annotate(view, grains)
-    look_along_the_width(view, trough, grains)
+    annotate(view, grains, block)
+    height = look_along_the_width(view, trough, lane, grains)
+    show_profile(view, 1.8 * height)
     Render(view)
 
 

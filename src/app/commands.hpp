@@ -17,6 +17,8 @@ void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 void add_friction_test(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
+void add_plot(CLI::App& program, int& exit_code);
+void add_report(CLI::App& program, int& exit_code);  // in plot.cpp: the report is drawn with the figures
 void add_probe_engine(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_theory_point(CLI::App& theory, int& exit_code);

@@ -25,6 +25,8 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_friction_test(program, exit_code);
     add_compare(program, exit_code);
     add_export(program, exit_code);
+    add_plot(program, exit_code);
+    add_report(program, exit_code);
     add_check(program, exit_code);
     add_probe_engine(program, exit_code);
     CLI::App* const theory =

@@ -60,7 +60,13 @@ std::string to_json(std::vector<Row> const& rows);
 /// The rows as CSV with a header; unknown numbers are empty. The columns are those of the JSON.
 std::string to_csv(std::vector<Row> const& rows);
 
-/// The rows as an aligned table for people.
-std::string to_table(std::vector<Row> const& rows);
+struct TableStyle {
+    std::size_t width = 0;  ///< characters of a line; 0: as wide as need be
+    bool colour = false;    ///< ANSI colours for sign and size of the difference, and for failed cases
+};
+
+/// The rows as an aligned table for people. Columns that do not fit are left out, the least telling first,
+/// and named in a line below.
+std::string to_table(std::vector<Row> const& rows, TableStyle const& style = {});
 
 }  // namespace vibrotrough::compare

@@ -99,12 +99,27 @@ Weights weights(Conveyor const& conveyor) {
     return {1 / (1 + b * b), b * b / (1 + b * b)};
 }
 
+TraceSample sample_of(ConveyorModel const& model, Piece const& piece, double t, double before) {
+    PieceMotion const m(model, piece);
+    return {t,
+            piece.kind,
+            model.trough_vx(t),
+            model.trough_vy(t),
+            m.vx(t),
+            m.vy(t),
+            model.trough_ax(t),
+            model.trough_ay(t),
+            before + m.moved(t),
+            std::max(m.gap(t), 0.0),
+            m.normal_force(t),
+            m.tangential_force(t)};
+}
+
 }  // namespace
 
 std::vector<TraceSample> trace(ConveyorMotion const& motion, int count) {
     require_pieces(motion);
     detail::require_range(count >= 2 && count <= 10'000'000, "samples", count, "[2, 1e7]");
-    ConveyorModel const& model = *motion.model;
     std::vector<TraceSample> samples;
     double const start = motion.pieces.front().start, step = duration(motion) / (count - 1);
     double before = 0;
@@ -113,13 +128,28 @@ std::vector<TraceSample> trace(ConveyorMotion const& motion, int count) {
         double const t = start + i * step;
         while (p + 1 < motion.pieces.size() && t >= motion.pieces[p].end)
             before += motion.pieces[p++].displacement;
-        Piece const& piece = motion.pieces[p];
-        PieceMotion const m(model, piece);
-        samples.push_back({t, piece.kind, model.trough_vx(t), model.trough_vy(t), m.vx(t), m.vy(t),
-                           model.trough_ax(t), model.trough_ay(t), before + m.moved(t),
-                           std::max(m.gap(t), 0.0), m.normal_force(t), m.tangential_force(t)});
+        samples.push_back(sample_of(*motion.model, motion.pieces[p], t, before));
     }
     return samples;
+}
+
+TraceSample sample(ConveyorMotion const& motion, double t) {
+    require_pieces(motion);
+    double const start = motion.pieces.front().start;
+    double const periods = std::floor((t - start) / duration(motion));
+    double const within = std::clamp(t - periods * duration(motion), start, motion.pieces.back().end);
+    double travel = 0, before = 0;
+    Piece const* current = nullptr;
+    for (Piece const& piece : motion.pieces) {
+        if (current == nullptr && (within < piece.end || &piece == &motion.pieces.back())) {
+            current = &piece;
+            before = travel;
+        }
+        travel += piece.displacement;
+    }
+    TraceSample found = sample_of(*motion.model, *current, within, periods * travel + before);
+    found.t = t;
+    return found;
 }
 
 EnergyBalance energy_balance(ConveyorMotion const& motion) {

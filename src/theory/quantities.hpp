@@ -22,6 +22,11 @@ struct TraceSample {
 /// @throws std::invalid_argument when the motion has no pieces
 std::vector<TraceSample> trace(ConveyorMotion const& motion, int count);
 
+/// The motion at any time t (rad, finite), repeated before and after the pieces; the displacement grows from
+/// period to period.
+/// @throws std::invalid_argument when the motion has no pieces
+TraceSample sample(ConveyorMotion const& motion, double t);
+
 /// Energies per unit mass and cycle in (omega r)^2; `beta` weighs the two directions.
 struct EnergyBalance {
     double trough_work;    ///< by normal force, friction and impacts on the mass

@@ -98,7 +98,11 @@ void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
     auto const grains = cursor.number<std::size_t>();
     cursor.end_line();
     expect(cursor, "ITEM: BOX BOUNDS");
-    for (int i = 0; i < 3; ++i) cursor.line();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        frame.box[2 * axis] = cursor.number<double>();
+        frame.box[2 * axis + 1] = cursor.number<double>();
+        cursor.end_line();
+    }
     TextCursor const before = cursor;
     std::string_view constexpr item = "ITEM: ATOMS ";
     std::string_view const header = cursor.line();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@ namespace vibrotrough::view {
 /// All grains at one step, in the order of the dump. The engine writes six digits, so floats lose nothing.
 struct GrainFrame {
     long step = 0;
+    std::array<double, 6> box{};  ///< m, low and high of x, y and z
     std::vector<int> id;
     std::vector<float> position;  ///< m, x y z of each grain
     std::vector<float> velocity;  ///< m/s, x y z of each grain, in the frame of the ground

@@ -3,26 +3,22 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "view/dump_reader.hpp"
+#include "view/frame_writers.hpp"
+#include "view/point_mass.hpp"
 #include "view/scene.hpp"
 #include "view/trough_motion.hpp"
 #include "view/vtk_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkIntArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkTypeInt32Array.h>
 
 namespace vibrotrough::view {
 namespace {
@@ -86,129 +82,83 @@ std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& tabl
     return positions;
 }
 
-/// LIGGGHTS sums A omega cos(omega t) dt, which is off A sin(omega t) by at most A pi / n for n steps per
-/// cycle (1.3 % of A at n = 500). More than this share of A means that phase or amplitude are others.
+/// The engine moves the trough step by step, off by some A pi / n for n steps per cycle at most (0.6 % of A
+/// at n = 500). More than this share of the drive's excursion means another drive.
 constexpr double motion_tolerance = 0.05;
 
 void check_motion(FrameSource const& source, TroughPosition const& position) {
-    double const sine =
-        std::sin(source.angular_frequency * static_cast<double>(position.step) * source.time_step);
-    double const miss =
-        std::hypot(position.x - source.amplitude_x * sine, position.z - source.amplitude_z * sine);
-    if (miss > motion_tolerance * std::hypot(source.amplitude_x, source.amplitude_z)) {
-        throw InputError(
-            fmt::format("{}: at step {} the trough is {:.3g} m from where A sin(omega t) puts it (the "
-                        "frames belong to another drive); run the case again",
-                        (source.folder / "frames.csv").string(), position.step, miss));
+    TroughState const trough = trough_state(source, static_cast<double>(position.step) * source.time_step);
+    double const miss = std::hypot(position.x - trough.x, position.z - trough.z);
+    if (miss > motion_tolerance * largest_excursion(source.drive)) {
+        throw InputError(fmt::format(
+            "{}: at step {} the trough is {:.3g} m from where the drive puts it (the frames belong to "
+            "another drive); run the case again",
+            (source.folder / "frames.csv").string(), position.step, miss));
     }
 }
 
-void set_time(vtkPolyData& data, double time) {
-    vtkNew<vtkDoubleArray> value;
-    value->SetName("TimeValue");
-    value->InsertNextValue(time);
-    data.GetFieldData()->AddArray(value);
-}
-
-/// A VTK array that shows the values without owning them.
-template <typename Array, typename Value>
-vtkSmartPointer<Array> view_of(std::vector<Value>& values, char const* name, int components) {
-    auto array = vtkSmartPointer<Array>::New();
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetArray(values.data(), static_cast<vtkIdType>(values.size()), 1);
-    return array;
-}
-
-/// One vertex cell per grain: points without cells are not shown by ParaView.
-void set_vertices(vtkPolyData& data, std::size_t grains) {
-    if (data.GetNumberOfVerts() == static_cast<vtkIdType>(grains)) return;
-    vtkNew<vtkTypeInt32Array> offsets;
-    vtkNew<vtkTypeInt32Array> points;
-    for (int i = 0; i <= static_cast<int>(grains); ++i) offsets->InsertNextValue(i);
-    for (int i = 0; i < static_cast<int>(grains); ++i) points->InsertNextValue(i);
-    vtkNew<vtkCellArray> vertices;
-    vertices->SetData(offsets, points);
-    data.SetVerts(vertices);
-}
-
-/// Writes the grains of one frame after another.
-class GrainWriter {
+/// Writes all objects of one frame after another, and their collections.
+class FrameExport {
   public:
-    explicit GrainWriter(FrameSource const& source) : source_(source) {}
-
-    void write(fs::path const& path, GrainFrame& frame, double time) {
-        // Velocity of the trough: d/dt of A sin(omega t).
-        double const rate = source_.angular_frequency * std::cos(source_.angular_frequency * time);
-        auto const trough_x = static_cast<float>(source_.amplitude_x * rate);
-        auto const trough_z = static_cast<float>(source_.amplitude_z * rate);
-        relative_ = frame.velocity;
-        for (std::size_t i = 0; i < relative_.size(); i += 3) {
-            relative_[i] -= trough_x;
-            relative_[i + 2] -= trough_z;
-        }
-
-        vtkNew<vtkPoints> points;
-        points->SetData(view_of<vtkFloatArray>(frame.position, "Points", 3));
-        data_->SetPoints(points);
-        set_vertices(*data_, frame.grains());
-        vtkPointData& values = *data_->GetPointData();
-        values.AddArray(view_of<vtkFloatArray>(frame.radius, "radius", 1));
-        values.AddArray(view_of<vtkFloatArray>(frame.velocity, "velocity", 3));
-        values.AddArray(view_of<vtkFloatArray>(relative_, "velocity_relative_to_trough", 3));
-        values.AddArray(view_of<vtkIntArray>(frame.id, "id", 1));
-        set_time(*data_, time);
-        write_vtp(path, *data_);
+    FrameExport(FrameSource const& source, fs::path const& target)
+        : source_(source), target_(target), trough_(source), grains_(source), block_(trough_.bounds()) {
+        if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
+        for (char const* const object : objects) make_folder(target / object);
     }
+
+    void write(GrainFrame& frame, TroughPosition const& position) {
+        double const time = static_cast<double>(frame.step) * source_.time_step;
+        std::string const name = fmt::format("{:06}.vtp", files_.size());
+        grains_.write(target_ / "grains" / name, frame, time);
+        trough_.write(target_ / "trough" / name, position, time);
+        write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(),
+                      trough_.bounds()[4] + position.z, time);
+        if (point_mass_) {
+            auto const block = block_.at(point_mass_->at(time), position.z);
+            set_time(*block, source_, time);
+            write_vtp(target_ / "point_mass" / name, *block);
+        }
+        files_.emplace_back(time, name);
+    }
+
+    void write_collections() const {
+        for (std::string const object : objects) {
+            std::vector<CollectionEntry> entries;
+            if (object != "point_mass" || point_mass_) {
+                for (auto const& [time, name] : files_) entries.push_back({time, object + "/" + name});
+            }
+            write_collection(target_ / (object + ".pvd"), entries);
+        }
+    }
+
+    int frames() const { return static_cast<int>(files_.size()); }
 
   private:
+    static constexpr std::array objects{"grains", "trough", "profile", "point_mass"};
+
     FrameSource const& source_;
-    std::vector<float> relative_;
-    vtkNew<vtkPolyData> data_;
-};
-
-/// Writes the trough, moved, of one frame after another.
-class TroughWriter {
-  public:
-    explicit TroughWriter(fs::path const& stl) : rest_(read_stl(stl)) { moved_->ShallowCopy(rest_); }
-
-    void write(fs::path const& path, TroughPosition const& position, double time) {
-        vtkNew<vtkPoints> points;
-        points->SetNumberOfPoints(rest_->GetNumberOfPoints());
-        for (vtkIdType i = 0; i < rest_->GetNumberOfPoints(); ++i) {
-            double const* const node = rest_->GetPoint(i);
-            points->SetPoint(i, node[0] + position.x, node[1], node[2] + position.z);
-        }
-        moved_->SetPoints(points);
-        set_time(*moved_, time);
-        write_vtp(path, *moved_);
-    }
-
-  private:
-    vtkSmartPointer<vtkPolyData> rest_;
-    vtkNew<vtkPolyData> moved_;
+    fs::path target_;
+    TroughWriter trough_;
+    GrainWriter grains_;
+    PointMassBlock block_;
+    std::optional<PointMassMotion> point_mass_;
+    std::vector<std::pair<double, std::string>> files_;
 };
 
 }  // namespace
 
-ExportedFrames export_frames(FrameSource const& source, fs::path const& target) {
+ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
+                             std::function<void(int, int)> const& progressed) {
     std::vector<Dump> dumps = find_dumps(source.folder);
     std::vector<TroughPosition> const positions = match(dumps, source.folder / "frames.csv");
     for (TroughPosition const& position : positions) check_motion(source, position);
-    TroughWriter trough(source.trough);
-    GrainWriter grains(source);
-
-    ExportedFrames exported{0, target / "grains.pvd", target / "trough.pvd", {}};
-    make_folder(target / "grains");
-    make_folder(target / "trough");
-    exported.scene = write_scene(source, target);
-    std::vector<CollectionEntry> grain_files;
-    std::vector<CollectionEntry> trough_files;
-    auto const write_collections = [&] {
-        write_collection(exported.trough, trough_files);
-        write_collection(exported.grains, grain_files);
-    };
-    write_collections();
+    FrameExport frames(source, target);
+    ExportedFrames exported{.grains = target / "grains.pvd",
+                            .trough = target / "trough.pvd",
+                            .point_mass = target / "point_mass.pvd",
+                            .profile = target / "profile.pvd",
+                            .scene = write_scene(source, target)};
+    frames.write_collections();
 
     DumpReader reader;
     GrainFrame frame;
@@ -226,19 +176,15 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target) 
                 fmt::format("{}:2: holds step {}, which its name contradicts; run its case again",
                             dumps[i].path.string(), frame.step));
         }
-        double const time = static_cast<double>(frame.step) * source.time_step;
-        std::string const name = fmt::format("{:06}.vtp", i);
-        grains.write(target / "grains" / name, frame, time);
-        trough.write(target / "trough" / name, positions[i], time);
-        grain_files.push_back({time, "grains/" + name});
-        trough_files.push_back({time, "trough/" + name});
-        ++exported.frames;
+        frames.write(frame, positions[i]);
         if (auto const now = std::chrono::steady_clock::now(); now - written > std::chrono::seconds(1)) {
-            write_collections();
+            frames.write_collections();
+            if (progressed) progressed(frames.frames(), static_cast<int>(dumps.size()));
             written = now;
         }
     }
-    write_collections();
+    frames.write_collections();
+    exported.frames = frames.frames();
     return exported;
 }
 

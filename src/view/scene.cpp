@@ -35,7 +35,8 @@ std::string python_literal(std::string_view text) {
 std::filesystem::path write_scene(FrameSource const& source, std::filesystem::path const& target) {
     std::string script(scene_template);
     // The trough's own largest speed sets the colours, so that they mean the same in every frame and case.
-    double const speed = source.angular_frequency * std::max(source.amplitude_x, source.amplitude_z);
+    double speed = largest_speed({source.drive.along, {}}, source.angular_frequency);
+    if (!(speed > 0.0)) speed = largest_speed(source.drive, source.angular_frequency);
     std::pair<std::string_view, std::string> const values[] = {
         {"\"@CAPTION@\"", python_literal(source.caption)},
         {"\"@FREQUENCY@\"", fmt::format("{}", source.angular_frequency / (2.0 * std::numbers::pi))},

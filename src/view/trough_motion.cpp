@@ -3,7 +3,24 @@
 #include "core/atomic_file.hpp"
 #include "view/text_cursor.hpp"
 
+#include <cmath>
+
 namespace vibrotrough::view {
+
+TroughState trough_state(FrameSource const& source, double time) {
+    double const angle = source.angular_frequency * time;
+    TroughState state{};
+    auto const add = [&](std::vector<DriveTerm> const& terms, double& place, double& speed) {
+        for (DriveTerm const& term : terms) {
+            place += term.amplitude * (std::sin(term.order * angle + term.phase) - std::sin(term.phase));
+            speed += term.amplitude * term.order * source.angular_frequency *
+                     std::cos(term.order * angle + term.phase);
+        }
+    };
+    add(source.drive.along, state.x, state.vx);
+    add(source.drive.normal, state.z, state.vz);
+    return state;
+}
 
 std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path) {
     std::string const text = read_file(path);

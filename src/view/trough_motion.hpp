@@ -1,5 +1,7 @@
 #pragma once
 
+#include "view/frames.hpp"
+
 #include <filesystem>
 #include <vector>
 
@@ -11,6 +13,15 @@ struct TroughPosition {
     double x;  ///< m, displacement from rest
     double z;  ///< m, displacement from rest
 };
+
+/// Where the trough is meant to be, and how fast.
+struct TroughState {
+    double x, z;    ///< m, displacement from t = 0
+    double vx, vz;  ///< m/s
+};
+
+/// @param time  s, since the drive's start
+TroughState trough_state(FrameSource const& source, double time);
 
 /// Reads frames.csv, steps rising. A last line without its end is left out: the engine may be writing it.
 /// @throws InputError naming file and line; MissingError when there is no such file

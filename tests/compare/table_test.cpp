@@ -193,6 +193,45 @@ TEST(Table, ShowsTheMeasurementBesideTheTheory) {
     EXPECT_NE(line.find(difference), std::string::npos) << line;
 }
 
+TEST(Table, LeavesOutTheLeastTellingColumnsAndSaysSo) {
+    auto rows = some_rows();
+    rows[1].throw_number = 1.25;
+    for (std::size_t const width : {140, 100, 80, 60}) {
+        auto const lines = lines_of(to_table(rows, {.width = width}));
+        ASSERT_GE(lines.size(), 2u + 4u + (width < 140 ? 1u : 0u)) << width;
+        for (std::size_t i = 0; i < 6; ++i) EXPECT_LE(lines[i].size(), width) << lines[i];
+        for (char const* kept : {"case", "eta DEM", "difference"})
+            EXPECT_NE(lines[0].find(kept), std::string::npos) << kept;
+        if (width < 100) {
+            EXPECT_NE(lines.back().find("no room for"), std::string::npos) << lines.back();
+        }
+    }
+    EXPECT_NE(to_table(rows, {.width = 80}).find("\nthe same in all: alpha -2.86 deg"), std::string::npos);
+    // Of the columns that go first, those that are the same in all rows go before all others.
+    auto const lines = lines_of(to_table(rows, {.width = 110}));
+    EXPECT_EQ(lines[0].find("alpha"), std::string::npos);
+    EXPECT_NE(lines[0].find("Gamma"), std::string::npos);
+    EXPECT_EQ(to_table(rows, {.width = 0}), to_table(rows));
+}
+
+TEST(Table, ColoursSignAndSizeOfTheDifference) {
+    Row row = some_rows()[0];
+    row.efficiency_dem_half_width = 0.02;
+    row.efficiency_theory = 0.5;
+    auto const line = [&](double dem) {
+        row.efficiency_dem = dem;
+        return lines_of(to_table({row}, {.colour = true}))[2];
+    };
+    EXPECT_NE(line(0.7).find("\x1b[1;33m+0.200\x1b[0m"), std::string::npos) << line(0.7);
+    EXPECT_NE(line(0.55).find("\x1b[33m+0.050\x1b[0m"), std::string::npos);
+    EXPECT_NE(line(0.45).find("\x1b[36m-0.050\x1b[0m"), std::string::npos);
+    EXPECT_NE(line(0.3).find("\x1b[1;36m-0.200\x1b[0m"), std::string::npos);
+    EXPECT_EQ(line(0.51).find("\x1b["), std::string::npos) << "within the interval";
+    EXPECT_NE(to_table({some_rows()[2]}, {.colour = true}).find("\x1b[31minsertion-incomplete\x1b[0m"),
+              std::string::npos);
+    EXPECT_EQ(to_table(some_rows()).find('\x1b'), std::string::npos);
+}
+
 TEST(Table, ShowsADashForWhatIsNotKnown) {
     auto const lines = lines_of(to_table(some_rows()));
     EXPECT_NE(lines[3].find("- +- -"), std::string::npos) << lines[3];

@@ -50,12 +50,14 @@ class Frames(EndToEndTest):
     def export(self):
         done = self.call("export", self.output)
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = re.fullmatch(r"case (\w{12}): (\d+) frames; open with: sh (.*)\n", done.stdout)
+        pattern = r"case (\w{12}): (\d+) frames; open with: sh (.*)\ntable of all cases: open with: paraview (.*)\n"
+        told = re.fullmatch(pattern, done.stdout)
         self.assertTrue(told, done.stdout)
-        case, count, script = told.groups()
+        case, count, script, table = told.groups()
+        self.assertEqual(table, shlex.quote(str(self.output.resolve() / "view" / "campaign.vtt")))
         folder = self.output.resolve() / "cases" / case / "frames"
         self.assertEqual(script, shlex.quote(str(folder / "view.sh")))
-        for name in ("view.sh", "view_case.py"):
+        for name in ("view.sh", "view_case.py", "profile.pvd", "point_mass.pvd"):
             self.assertTrue((folder / name).is_file(), name)
         return folder, int(count)
 
@@ -104,6 +106,8 @@ class Frames(EndToEndTest):
         for file in (grains[0], grains[-1]):
             self.check_grains(file)
         self.check_motion(grains, trough)
+        self.check_point_mass(folder, count, period, trough)
+        self.check_table(row)
         self.assertFalse((folder.parent / "packing-2" / "dump" / "frames.csv").exists(), "frames show one packing")
 
     def check_motion(self, grains, trough):
@@ -121,6 +125,43 @@ class Frames(EndToEndTest):
         start = read_array(grains[4], "velocity") - read_array(grains[4], "velocity_relative_to_trough")
         omega = np.sqrt(2 * 9.81 / amplitude[2])  # throw number 2
         np.testing.assert_allclose(start, np.tile(omega * amplitude, (GRAINS, 1)), rtol=0, atol=1e-6)
+
+    def check_point_mass(self, folder, count, period, trough):
+        """The theory's block is conveyed by its efficiency, and never below the trough."""
+        self.check_collection(folder, "profile", count, period)
+        blocks = self.check_collection(folder, "point_mass", count, period)
+        for block, floor in zip(blocks[-4:], trough[-4:]):
+            # The engine's wiggle and the theory's sine differ by 0.2 % of 3 mm.
+            lowest = read_array(block, "Points")[:, 2].min()
+            self.assertGreater(lowest, read_array(floor, "Points")[:, 2].max() - 1e-5)
+        moved = read_array(blocks[-1], "displacement") - read_array(blocks[0], "displacement")
+        theory = self.table()[0]["efficiency_theory"] * 2 * np.pi * 0.003 * 2 / np.sqrt(5)  # m per cycle
+        np.testing.assert_allclose(moved, theory * (count - 1) / FRAMES_PER_CYCLE, rtol=1e-6)
+
+    def check_table(self, row):
+        path = self.output / "view" / "campaign.vtt"
+        before = path.read_bytes()
+        self.assertEqual(float(read_array(path, "throw_number")[0]), row["throw_number"])
+        self.assertEqual(float(read_array(path, "efficiency_dem")[0]), row["efficiency_dem"])
+        done = self.call("export", self.output, "--table")
+        self.assertEqual((done.returncode, path.read_bytes()), (0, before), done.stderr)
+        self.assertEqual(done.stdout.count("\n"), 1)
+
+    def test_export_of_another_drive(self):
+        """An ellipse with a harmonic, between side walls: the block moves in step with this trough, too."""
+        changes = {"output.frames_per_cycle": FRAMES_PER_CYCLE, "measure.packings": 1, "trough.along_phase": "20 deg",
+                   "trough.harmonics": ["3, 0.2, 40 deg"], "trough.side_wall_friction": 0.3}  # fmt: skip
+        self.run_campaign(self.write_campaign(changes))
+        folder, count = self.export()
+        period = 1 / self.table()[0]["frequency_hz"]
+        trough = self.check_collection(folder, "trough", count, period)
+        blocks = self.check_collection(folder, "point_mass", count, period)
+        for block, floor in list(zip(blocks, trough))[:8]:
+            gap = read_array(block, "Points")[:, 2].min() - read_array(floor, "Points")[:, 2].max()
+            # The engine's steps and the drive's formula differ by less than 0.5 % of 3 mm.
+            np.testing.assert_allclose(gap, read_array(block, "gap")[0], rtol=0, atol=1.5e-5)
+        solid = read_array(folder / "profile" / "000000.vtp", "solid_fraction")
+        self.assertTrue(0.4 < solid[1] < 0.75, solid)
 
     def test_export_without_frames(self):
         campaign = self.write_campaign({"measure.packings": 1})

@@ -73,6 +73,26 @@ TEST(Trace, IntegratesToTheEfficiency) {
     }
 }
 
+// Any time is the same time of the first period, further by what a period conveys.
+TEST(Trace, RepeatsItselfFromPeriodToPeriod) {
+    Conveyor conveyor{};
+    conveyor.point = {.throw_number = 2.5, .tan_vibration_angle = 0.5, .friction = 0.23};
+    ConveyorMotion const motion = solve(conveyor);
+    auto const samples = trace(motion, 500);
+    double const period = samples.back().t - samples.front().t, travel = samples.back().displacement;
+    for (int const periods : {-3, 0, 1, 40}) {
+        for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+            TraceSample const again = sample(motion, samples[i].t + periods * period);
+            // Rounding of t, 40 periods: 250 * 2e-16, times velocities of order 1 to 10.
+            EXPECT_NEAR(again.displacement, samples[i].displacement + periods * travel, 1e-11);
+            EXPECT_NEAR(again.gap, samples[i].gap, 1e-11);
+            if (again.kind != samples[i].kind) continue;  // at the very end of a phase
+            EXPECT_NEAR(again.mass_vx, samples[i].mass_vx, 1e-11);
+        }
+    }
+    EXPECT_THROW(sample(ConveyorMotion{}, 0.0), std::invalid_argument);
+}
+
 // omega^2 = Gamma g cos(alpha) / (r sin(beta)); v = eta omega r cos(beta); mass flow = density H W v. The
 // mean normal force is the weight: mean over the cycle of N plus impulses = g cos(alpha). Tolerance:
 // rounding; trapezoid.

@@ -7,7 +7,8 @@ import math
 import os
 import sys
 
-from paraview.simple import FindSource, GetActiveView, GetAnimationScene, Render, SaveScreenshot
+from paraview import servermanager
+from paraview.simple import FindSource, GetActiveView, GetAnimationScene, GetViews, Render, SaveScreenshot
 from paraview.vtk.vtkIOImage import vtkPNGReader
 
 STEPS = [60000, 60300, 60600]
@@ -56,10 +57,48 @@ def check_frame(step, dumps):
     near(low, min(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, least")
     near(high, max(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, largest")
 
+    assert FindSource("grains").FieldData["cycle"].GetRange(0) == (20.0, 20.0)
+    phase = 360 * (step - 60000) / 3000
+    near(FindSource("grains").FieldData["vibration_phase"].GetRange(0)[0], phase, 1e-6, "phase")
+    text = annotation("cycle and phase")
+    assert text == f"cycle 21, phase {phase:3.0f} deg", text
+
+    # The theory's block stands on the trough, or flies above it, in front of the layer.
+    block = FindSource("point_mass").GetDataInformation()
+    assert block.GetNumberOfPoints() == 24 and block.GetNumberOfCells() == 6
+    text = annotation("motion of the point mass")
+    assert text.removeprefix("theory: the point mass ") in ("rests", "flies", "slides forwards", "slides backwards"), text
+    gap = FindSource("point_mass").FieldData["gap"].GetRange(0)[0]
+    assert (gap > 0) == (text == "theory: the point mass flies"), f"{text} at a gap of {gap} m"
+    near(block.GetBounds()[4], AMPLITUDE_Z * math.sin(OMEGA * time) + gap, 1e-5, "block's floor")  # the engine's wiggle
+    assert block.GetBounds()[3] < 0, "the block is beside the layer"
+    lane = FindSource("lane of the point mass").GetDataInformation().GetBounds()
+    assert lane[2] < block.GetBounds()[2] and block.GetBounds()[3] < lane[3] < 0, f"the lane is {lane}"
+
+    # All grains are in the profile: solid fraction summed over slabs of half a mean diameter.
+    profile = FindSource("profile").PointData
+    assert profile["solid_fraction"].GetRange()[1] < 0.75 and profile["height"].GetRange()[1] < 0.1
+
     # The table has six digits of 5 mm, the trough single precision of 4 cm: 5e-9 m together.
     trough = FindSource("trough").GetDataInformation().GetBounds()
     near(trough[0], AMPLITUDE_X * math.sin(OMEGA * time), 1e-8, "trough, x")
     near(trough[4], AMPLITUDE_Z * math.sin(OMEGA * time), 1e-8, "trough, z")
+
+
+def annotation(name):
+    """What a text of the scene says."""
+    table = servermanager.Fetch(FindSource(name))
+    return table.GetColumn(0).GetValue(0)
+
+
+def check_charts():
+    """Two charts beside the layer, with the layer's height over velocity and over solid fraction."""
+    charts = [view for view in GetViews() if view.GetXMLName() == "XYChartView"]
+    assert len(charts) == 2, f"{len(charts)} charts"
+    for chart in charts:
+        assert chart.LeftAxisTitle == "height above the trough, m" and chart.BottomAxisTitle
+        (shown,) = chart.Representations
+        assert shown.Input == FindSource("profile") and "height" in list(shown.SeriesVisibility)
 
 
 def check_picture(path):
@@ -84,6 +123,7 @@ def main(folder, dumps, picture):
     assert times == [step * TIME_STEP for step in STEPS], f"times {times}"
     for step in STEPS:
         check_frame(step, dumps)
+    check_charts()
     check_picture(picture)
 
 

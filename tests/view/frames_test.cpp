@@ -39,6 +39,9 @@ class Frames : public testing::Test {
         fs::create_directories(folder);
         fs::copy(VIEW_TEST_DATA, source.folder);
         source.trough = source.folder / "trough.stl";
+        theory::Conveyor conveyor{};
+        conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
+        source.point_mass = TheoryMotion{theory::solve(conveyor), amplitude_x, amplitude_z};
     }
     ~Frames() override { fs::remove_all(folder); }
 
@@ -79,8 +82,8 @@ class Frames : public testing::Test {
                        .trough = {},
                        .time_step = time_step,
                        .angular_frequency = omega,
-                       .amplitude_x = amplitude_x,
-                       .amplitude_z = amplitude_z,
+                       .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
+                       .width = 0.018,
                        .caption = "throw number 2, \"quoted\""};
 };
 
@@ -93,7 +96,9 @@ TEST_F(Frames, CollectionsHaveTrueTimes) {
     EXPECT_EQ(exported.frames, 3);
     EXPECT_EQ(exported.grains, target / "grains.pvd");
     EXPECT_EQ(exported.trough, target / "trough.pvd");
-    for (std::string const name : {"grains", "trough"}) {
+    EXPECT_EQ(exported.point_mass, target / "point_mass.pvd");
+    EXPECT_EQ(exported.profile, target / "profile.pvd");
+    for (std::string const name : {"grains", "trough", "point_mass", "profile"}) {
         auto const entries = collection(name + ".pvd");
         ASSERT_EQ(entries.size(), 3u);
         for (int i = 0; i < 3; ++i) {
@@ -175,7 +180,42 @@ TEST_F(Frames, NoFileHasAppendedData) {
         EXPECT_THAT(text, testing::Not(HasSubstr("<AppendedData"))) << entry.path();
         EXPECT_THAT(text, AllOf(HasSubstr("format=\"binary\""), HasSubstr("vtkZLibDataCompressor")));
     }
-    EXPECT_EQ(files, 6);
+    EXPECT_EQ(files, 4 * 3);
+}
+
+// Frames are a tenth of a cycle apart, from the start of cycle 20 on.
+TEST_F(Frames, KnowCycleAndPhase) {
+    export_frames(source, target);
+    for (std::string const object : {"grains", "trough", "point_mass", "profile"}) {
+        for (int i = 0; i < 3; ++i) {
+            auto const data = read(fmt::format("{}/{:06}.vtp", object, i));
+            vtkFieldData& facts = *data->GetFieldData();
+            EXPECT_EQ(facts.GetArray("cycle")->GetComponent(0, 0), 20.0);
+            // 60000 steps of 2.4e-5 s: 126 rad, known to 1e-14 rad.
+            EXPECT_NEAR(facts.GetArray("vibration_phase")->GetComponent(0, 0), 36.0 * i, 1e-9);
+        }
+    }
+}
+
+TEST_F(Frames, ProfileHoldsAllGrains) {
+    export_frames(source, target);
+    auto const grains = read("grains/000001.vtp"), profile = read("profile/000001.vtp");
+    double volume = 0;
+    for (vtkIdType i = 0; i < grains->GetNumberOfPoints(); ++i)
+        volume += 4.0 / 3.0 * std::numbers::pi * std::pow(component(*grains, "radius", i, 0), 3);
+    double const thickness = 2 * component(*profile, "height", 0, 0);
+    double slabs = 0;
+    for (vtkIdType i = 0; i < profile->GetNumberOfPoints(); ++i)
+        slabs += component(*profile, "solid_fraction", i, 0) * thickness * 0.036 * 0.018;
+    EXPECT_NEAR(slabs, volume, 1e-9 * volume);
+    EXPECT_EQ(profile->GetNumberOfLines(), 1);
+}
+
+TEST_F(Frames, WithoutAPeriodicMotionThereIsNoPointMass) {
+    source.point_mass.reset();
+    export_frames(source, target);
+    EXPECT_TRUE(collection("point_mass.pvd").empty());
+    EXPECT_EQ(collection("profile.pvd").size(), 3u);
 }
 
 TEST_F(Frames, SceneKnowsItsCase) {
@@ -254,7 +294,7 @@ TEST_F(Frames, AnotherDriveIsNoticed) {
     source.angular_frequency = 1.37 * omega;
     EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
     source.angular_frequency = omega;
-    source.amplitude_x *= 1.2;
+    source.drive.along[0].amplitude *= 1.2;
     EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.csv"), HasSubstr("another drive")));
 }
 
@@ -272,6 +312,8 @@ TEST_F(Frames, NoFramesAndNoGrainsStillOpen) {
           "ITEM: ATOMS id type x y z vx vy vz radius \n");
     EXPECT_EQ(export_frames(source, target).frames, 1);
     EXPECT_EQ(read("grains/000000.vtp")->GetNumberOfPoints(), 0);
+    EXPECT_EQ(read("profile/000000.vtp")->GetNumberOfPoints(), 0);
+    EXPECT_GT(read("point_mass/000000.vtp")->GetNumberOfPoints(), 0);
     EXPECT_GT(read("trough/000000.vtp")->GetNumberOfPoints(), 0);
 }
 

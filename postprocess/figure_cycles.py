@@ -1,0 +1,51 @@
+"""The velocity efficiency of every cycle of a case, packing by packing, with what was discarded as start-up shaded."""
+
+import numpy as np
+
+from figure_style import COLOURS, DASHES, GREY, corner, new_figure, plain_axes, save
+
+MOST_PACKINGS = 6  # drawn; more would be too small to read
+
+
+def plot_cycles(source, case, result, output):
+    packings = len(result["packings/seed"])
+    shown = min(packings, MOST_PACKINGS)
+    height = 1.2 + 1.35 * shown
+    figure, columns = new_figure(shown, 1, size=(7.2, height), sharex=True, sharey=True, squeeze=False)
+    row = source.row_of(case)
+    for number, axes in enumerate(columns[:, 0]):
+        draw_packing(axes, result, number, row)
+    last = columns[-1, 0]
+    last.set_xlabel("cycle  [-]")
+    figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=10)
+    handles, labels = columns[0, 0].get_legend_handles_labels()
+    title = f"case {case}: throw number {row['throw_number']:.3g}, \u03b2 = {row['vibration_angle_deg']:.3g}\u00b0"
+    figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1 - 0.22 / height))
+    figure.suptitle(title, fontsize=10, y=1 - 0.08 / height)
+    note = f"{shown} of {packings} packings" if shown < packings else ""
+    corner(figure, source.attributes, note)
+    figure.tight_layout(rect=(0, 0.02, 1, 1 - 0.4 / height))
+    return save(figure, output)
+
+
+def draw_packing(axes, result, number, row):
+    efficiency = np.asarray(result[f"series/{number + 1}/efficiency"])
+    discarded = int(result["packings/cycles_discarded"][number])
+    mean, half_width = result["packings/efficiency"][number], result["packings/efficiency_half_width"][number]
+    cycles = np.arange(1, len(efficiency) + 1)
+    plain_axes(axes)
+    if discarded:
+        axes.axvspan(0.5, discarded + 0.5, facecolor="#dddddd", edgecolor="#999999", hatch="///", linewidth=0,
+                     alpha=0.6, label="discarded start", zorder=0)
+    axes.plot(cycles, efficiency, color=COLOURS[0], marker=".", markersize=3, linewidth=0.9, label="cycle")
+    if np.isfinite(mean):
+        kept = [discarded + 0.5, len(efficiency) + 0.5]
+        axes.plot(kept, [mean, mean], color=COLOURS[1], linestyle=DASHES[1], linewidth=1.6, label="mean and interval")
+        if np.isfinite(half_width):
+            axes.fill_between(kept, mean - half_width, mean + half_width, color=COLOURS[1], alpha=0.2, linewidth=0)
+    if row["efficiency_theory"] is not None:
+        axes.axhline(row["efficiency_theory"], color=COLOURS[2], linestyle=DASHES[2], linewidth=1.4, label="theory")
+    verdict = result["packings/verdict"][number]
+    axes.annotate(f"packing {number + 1}: {verdict}", (0.995, 0.05), xycoords="axes fraction", ha="right", va="bottom",
+                  fontsize=8, color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})
+    axes.margins(x=0.01)

@@ -1,0 +1,68 @@
+"""What all figures share: colours, fonts, the corner's text, saving."""
+
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
+
+# Okabe and Ito's colours, told apart by the colour-blind; markers and dashes say the same in black and white.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (3, 1)), (0, (1, 1))]
+GREY = "#666666"
+
+THROW_NUMBER = "throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)  [-]"
+EFFICIENCY = "velocity efficiency \u03b7 = v / (\u03c9 r cos \u03b2)  [-]"
+
+# Inputs that a sweep may vary besides the throw number: column of campaign.h5, how it is written, factor from SI.
+INPUTS = {
+    "vibration_angle": ("vibration angle \u03b2", "\u03b2 = {:.3g}\u00b0", "\u00b0", math.degrees(1.0)),
+    "inclination": ("inclination \u03b1", "\u03b1 = {:.3g}\u00b0", "\u00b0", math.degrees(1.0)),
+    "friction": ("friction \u03bc", "\u03bc = {:.3g}", "-", 1.0),
+    "amplitude": ("amplitude r", "r = {:.3g} mm", "mm", 1e3),
+    "grain_diameter": ("grain diameter d", "d = {:.3g} mm", "mm", 1e3),
+    "grain_friction": ("friction between grains", "grain \u03bc = {:.3g}", "-", 1.0),
+    "restitution": ("restitution e", "e = {:.3g}", "-", 1.0),
+    "layer_height": ("layer height", "h = {:.3g} mm", "mm", 1e3),
+    "layer_grains": ("number of grains", "{:.0f} grains", "-", 1.0),
+}
+
+
+class Problem(Exception):
+    """Something the user can mend; the text is one line."""
+
+
+def new_figure(*layout, size=(7.2, 4.8), **settings):
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10, "axes.axisbelow": True})
+    return plt.subplots(*layout, figsize=size, **settings)
+
+
+def plain_axes(axes):
+    axes.grid(True, color="#e5e5e5", linewidth=0.6)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def corner(figure, attributes, text=""):
+    """The campaign's name and the program's version, small, at the lower right; a remark at the lower left."""
+    name = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
+    figure.text(0.99, 0.01, name, ha="right", va="bottom", fontsize=7, color=GREY)
+    if text:
+        figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color=GREY)
+
+
+def save(figure, output):
+    """Writes output.svg and output.png (the same bytes every time) and returns their paths."""
+    paths = []
+    for kind in ("svg", "png"):
+        path = output.with_name(f"{output.name}.{kind}")
+        try:
+            output.parent.mkdir(parents=True, exist_ok=True)
+            figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+        except OSError as error:
+            raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
+        paths.append(path)
+    plt.close(figure)
+    return paths

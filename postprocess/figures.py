@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""Draws a campaign's figures, each as SVG and PNG; `vibrotrough plot DIR` calls it.
+
+    figures.py DIR [--output OUT] [--only KIND] [--case ID]
+
+DIR holds campaign.h5 and cases/, OUT (by default DIR/report) the folder `data` with what the program computed of the
+theory. Prints the path of every file it wrote. Nothing of the theory is computed here.
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+
+import figure_cycles
+import figure_portraits
+import figure_residuals
+import vibrotrough
+from figure_style import Problem
+from plot_campaign import plot_efficiency
+
+KINDS = ("efficiency", "residuals", "cycles", "portraits", "profiles")
+
+
+class Source:
+    """What the figures are drawn from."""
+
+    def __init__(self, directory, output):
+        self.directory, self.output, self.data = directory, output, output / "data"
+        try:
+            with open(self.data / "campaign.json", encoding="utf-8") as file:
+                self.overview = json.load(file)
+            self.campaign = vibrotrough.open_campaign(directory)
+        except (OSError, ValueError) as error:
+            raise Problem(f"cannot read the campaign ({error}); give a campaign's folder, by 'vibrotrough plot DIR'") from error
+        self.attributes = self.campaign.attributes
+        if self.campaign.cases == 0:
+            raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
+
+    def row_of(self, case):
+        """The case's row of `vibrotrough compare`."""
+        return next(row for row in self.overview["cases"] if row["case"] == case)
+
+
+def draw(source, only, cases):
+    """Draws one figure after another and gives the paths of each."""
+    if "efficiency" in only:
+        yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency")
+    if "residuals" in only:
+        yield figure_residuals.plot_residuals(source, source.output / "residuals")
+    for case in source.campaign["case"]:
+        if not cases or case in cases:
+            yield from draw_case(source, only, case)
+
+
+def draw_case(source, only, case):
+    """The figures of one case, when its result.h5 is there and whole."""
+    drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
+               "profiles": figure_portraits.plot_profiles}
+    wanted = [kind for kind in drawers if kind in only]
+    if not wanted:
+        return
+    try:
+        result = source.campaign.case(case)
+    except (OSError, ValueError) as error:
+        print(f"figures.py: case {case} is left out: {error}", file=sys.stderr)
+        return
+    for kind in wanted:
+        yield drawers[kind](source, case, result, source.output / f"{kind}-{case}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
+    parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures")
+    parser.add_argument("--only", action="append", choices=KINDS, help="draw this kind only")
+    parser.add_argument("--case", action="append", default=[], metavar="ID", help="single cases' figures of this one only")
+    options = parser.parse_args()
+    source = Source(options.directory, options.output or options.directory / "report")
+    for paths in draw(source, options.only or KINDS, options.case):
+        for path in paths:
+            print(path, flush=True)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Problem as problem:
+        sys.exit(f"figures.py: {problem}")

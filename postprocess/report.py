@@ -1,0 +1,196 @@
+#!/usr/bin/python3
+"""Writes a campaign's report, one HTML file that needs no network and no other file; `vibrotrough report DIR` calls it.
+
+    report.py DIR [--output OUT]
+
+OUT (by default DIR/report) holds what figures.py left: the figures as SVG and data/campaign.json. Writes OUT/report.html
+and prints its path. What users wrote is escaped by the template (report.html).
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import sys
+
+import jinja2
+import markupsafe
+
+from figure_style import Problem
+
+DEGREE = "\u00b0"
+
+# Columns of the table: name in campaign.json, heading, unit, format.
+COLUMNS = [
+    ("case", "case", "", "{}"),
+    ("throw_number", "throw number \u0393", "", "{:.3f}"),
+    ("vibration_angle_deg", "\u03b2", "\u00b0", "{:.2f}"),
+    ("inclination_deg", "\u03b1", "\u00b0", "{:.2f}"),
+    ("friction", "\u03bc", "", "{:.3g}"),
+    ("frequency_hz", "frequency", "Hz", "{:.2f}"),
+    ("efficiency_dem", "\u03b7, DEM", "", "{:.3f}"),
+    ("efficiency_dem_half_width", "\u00b1", "", "{:.3f}"),
+    ("efficiency_theory", "\u03b7, theory", "", "{:.3f}"),
+    ("residual", "residual", "", "{:+.3f}"),
+    ("mode_theory", "mode, theory", "", "{}"),
+    ("mode_layer", "mode, layer", "", "{}"),
+    ("friction_layer", "\u03bc, layer", "", "{:.3g}"),
+    ("efficiency_theory_layer", "\u03b7, theory at layer's \u03bc", "", "{:.3f}"),
+    ("speed_dem_m_per_s", "speed", "m/s", "{:.3f}"),
+    ("cycles_measured", "cycles kept", "", "{}"),
+    ("cycles_discarded", "discarded", "", "{}"),
+    ("wall_s", "wall time", "s", "{:.0f}"),
+    ("outcome", "outcome", "", "{}"),
+]
+# Told in a sentence instead when they are the same in all of several cases.
+MAY_BE_CONSTANT = ("throw_number", "vibration_angle_deg", "inclination_deg", "friction", "frequency_hz")
+WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
+FIGURES = [
+    ("efficiency", "Velocity efficiency against throw number"),
+    ("residuals", "What the theory misses"),
+]
+CASE_FIGURES = [
+    ("cycles", "Every cycle, the discarded start shaded"),
+    ("portraits", "Layer and point mass over a cycle"),
+    ("profiles", "Velocity over height"),
+]
+
+
+MOST_CASES = 60  # whose own figures are in the report: 140 kB each
+
+
+def read_json(path, needed=True):
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        if not needed:
+            return None
+        raise Problem(f"there is no {path}; call it by 'vibrotrough report DIR'") from None
+    except (OSError, ValueError) as error:
+        raise Problem(f"cannot read {path} ({error}); remove it or write it anew") from error
+
+
+def inline_svg(path, number, title):
+    """The figure as an element of the page: no prolog, ids of its own, a name for screen readers."""
+    text = path.read_text(encoding="utf-8")
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>figure{number}-", text)
+    opening = f'<svg role="img" aria-label="{markupsafe.escape(title)}"'
+    return markupsafe.Markup(text.replace("<svg", opening, 1))
+
+
+class Figures:
+    """Finds the figures that are there and numbers them."""
+
+    def __init__(self, folder):
+        self.folder, self.number = folder, 0
+
+    def get(self, name, title):
+        path = self.folder / f"{name}.svg"
+        if not path.is_file():
+            return None
+        self.number += 1
+        return {"number": self.number, "title": title, "svg": inline_svg(path, self.number, title)}
+
+    def all(self, names):
+        return [figure for figure in (self.get(*one) for one in names) if figure]
+
+
+def cell(row, name, form):
+    """What is shown of a value, and what it is sorted by; unknown values are empty."""
+    value = row.get(name)
+    if value is None or value == "":
+        return {"shown": "", "key": ""}
+    return {"shown": form.format(value), "key": value if isinstance(value, (int, float)) else str(value)}
+
+
+def split_columns(cases):
+    """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
+    same = [name for name in MAY_BE_CONSTANT if len(cases) > 1 and len({case[name] for case in cases}) == 1]
+    told = [f"{heading} = {form.format(cases[0][name])}{unit if unit == DEGREE else ' ' * bool(unit) + unit}"
+            for name, heading, unit, form in COLUMNS if name in same]
+    empty = [name for name, *_ in COLUMNS if name != "residual" and all(case.get(name) is None for case in cases)]
+    return [column for column in COLUMNS if column[0] not in same + empty], ", ".join(told)
+
+
+def table(cases, columns):
+    lines = []
+    for case in cases:
+        row = dict(case, residual=None)
+        if row["efficiency_dem"] is not None and row["efficiency_theory"] is not None:
+            row["residual"] = row["efficiency_dem"] - row["efficiency_theory"]
+        cells = [dict(cell(row, name, form), name=name) for name, _, _, form in columns]
+        lines.append({"id": row["case"], "cells": cells, "finished": row["outcome"] == "finished"})
+    return lines
+
+
+def counts(cases):
+    found = {}
+    for case in cases:
+        found[case["outcome"]] = found.get(case["outcome"], 0) + 1
+    return found
+
+
+def split_certificate(certificate):
+    """Its facts, and its lists of objects (the probes), which are tables of their own."""
+    if not isinstance(certificate, dict):
+        return certificate, {}
+    lists = {name: one for name, one in certificate.items() if isinstance(one, list) and one and isinstance(one[0], dict)}
+    return {name: one for name, one in certificate.items() if name not in lists}, lists
+
+
+def render(directory, output):
+    overview = read_json(output / "data" / "campaign.json")
+    cases = overview["cases"]
+    figures = Figures(output)
+    general = figures.all(FIGURES)
+    certificate, lists = split_certificate(read_json(directory / "certificate.json", needed=False))
+    columns, told = split_columns(cases)
+    single = [
+        {"case": case, "figures": found}
+        for case in cases
+        if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES]))
+    ] if len(cases) <= MOST_CASES else []
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True, trim_blocks=True,
+        lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    return environment.get_template("report.html").render(
+        overview=overview,
+        counts=counts(cases),
+        columns=[{"name": name, "heading": heading, "unit": unit} for name, heading, unit, _ in columns],
+        same_in_all=told,
+        lines=table(cases, columns),
+        failures=[case for case in cases if case["outcome"] not in WITHOUT_FAILURE],
+        waiting=[case for case in cases if case["outcome"] in WITHOUT_FAILURE[1:]],
+        figures=general,
+        case_figures=single,
+        outside=len(cases) > MOST_CASES,
+        certificate=certificate,
+        certificate_lists=lists,
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder")
+    parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures and the report")
+    options = parser.parse_args()
+    output = options.output or options.directory / "report"
+    page = render(options.directory, output)
+    path = output / "report.html"
+    part = path.with_name("report.html.part")
+    try:
+        part.write_text(page, encoding="utf-8")
+        os.replace(part, path)
+    except OSError as error:
+        raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
+    print(path)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Problem as problem:
+        sys.exit(f"report.py: {problem}")

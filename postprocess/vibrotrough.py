@@ -1,0 +1,119 @@
+"""Opens what Vibrotrough wrote: arrays that know their units.
+
+    import vibrotrough
+
+    campaign = vibrotrough.open_campaign("runs/demo")           # a campaign's folder, or its campaign.h5
+    eta, gamma = campaign["efficiency"], campaign["throw_number"]
+    print(eta, eta.units, eta.description)
+    case = campaign.case(campaign["case"][0])                   # the case's own result.h5
+    print(case["series/1/efficiency"][case["packings/cycles_discarded"][0]:])
+
+Everything is read at once, so files may be renewed meanwhile. The tables of names are in src/store/README.md.
+Needs h5py and numpy.
+"""
+
+import pathlib
+
+import h5py
+import numpy as np
+
+
+class Array(np.ndarray):
+    """A numpy array with `units` (udunits2's spelling, "1" for pure numbers) and `description`.
+
+    Slices keep both. What is computed from it is a plain array: its units are yours to know.
+    """
+
+    def __new__(cls, values, units="1", description=""):
+        array = np.asarray(values).view(cls)
+        array.units, array.description = units, description
+        return array
+
+    def __array_finalize__(self, parent):
+        self.units = getattr(parent, "units", "1")
+        self.description = getattr(parent, "description", "")
+
+    def __array_ufunc__(self, ufunc, method, *inputs, out=None, **settings):
+        plain = [np.asarray(one) if isinstance(one, Array) else one for one in inputs]
+        if out is not None:
+            settings["out"] = tuple(np.asarray(one) if isinstance(one, Array) else one for one in out)
+        return getattr(ufunc, method)(*plain, **settings)
+
+    def __repr__(self):
+        return f"{np.asarray(self)!r} [{self.units}]"
+
+
+def _read(dataset):
+    values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
+    return Array(values, str(dataset.attrs.get("units", "1")), str(dataset.attrs.get("description", "")))
+
+
+class File:
+    """All datasets of a file by their path, e.g. file["case/throw_number"], and its root attributes in `attributes`."""
+
+    def __init__(self, path, wanted_format):
+        self.path = pathlib.Path(path)
+        self._arrays = {}
+        with h5py.File(self.path) as file:
+            self.attributes = dict(file.attrs)
+            found = self.attributes.get("format")
+            if found != wanted_format:
+                raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_format}'")
+            file.visititems(lambda name, item: self._keep(name, item))
+
+    def _keep(self, name, item):
+        if isinstance(item, h5py.Dataset):
+            self._arrays[name] = _read(item)
+
+    def __getitem__(self, name):
+        if name not in self._arrays:
+            raise KeyError(f"{self.path} has no '{name}'; it has {', '.join(self._arrays)}")
+        return self._arrays[name]
+
+    def __contains__(self, name):
+        return name in self._arrays
+
+    def __iter__(self):
+        return iter(self._arrays)
+
+    def __len__(self):
+        return len(self._arrays)
+
+    def names(self):
+        return list(self._arrays)
+
+
+class Campaign(File):
+    """campaign.h5: one array per column, one element per finished case."""
+
+    def __init__(self, path):
+        super().__init__(path, "vibrotrough campaign")
+
+    @property
+    def cases(self):
+        """Number of cases in the table."""
+        return len(self["case"]) if "case" in self else 0
+
+    def case(self, case_id):
+        """The case's result.h5, with series of cycles for each packing."""
+        return File(self.path.parent / "cases" / str(case_id) / "result.h5", "vibrotrough result")
+
+    def rows(self, **conditions):
+        """Row numbers where every named column has the value (floats to 1e-9), e.g. rows(outcome="finished")."""
+        keep = np.ones(self.cases, dtype=bool)
+        for name, value in conditions.items():
+            column = np.asarray(self[name])
+            keep &= column == value if column.dtype.kind in "OU" else np.isclose(column, value, rtol=1e-9, atol=0)
+        return np.flatnonzero(keep)
+
+
+def open_campaign(path):
+    """A campaign from its folder or its campaign.h5."""
+    path = pathlib.Path(path)
+    return Campaign(path / "campaign.h5" if path.is_dir() else path)
+
+
+def open_result(path):
+    """One case's result.h5, from the file or the case's folder."""
+    path = pathlib.Path(path)
+    return File(path / "result.h5" if path.is_dir() else path, "vibrotrough result")

@@ -1,0 +1,92 @@
+#include "app/python.hpp"
+
+#include "app/script_folder.hpp"
+#include "core/error.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Starts a program of the PATH, waits for it and gives its exit code; 127 when it cannot be started, 128 + n
+/// when signal n ended it.
+int run_program(std::vector<std::string> words, bool silent) {
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    if (silent) {
+        for (int const stream : {STDOUT_FILENO, STDERR_FILENO})
+            posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+    }
+    std::fflush(stdout);
+    pid_t child = 0;
+    int const failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failure != 0) return 127;
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) return 127;
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string find_python(std::string const& asked_for, std::vector<std::string> const& modules) {
+    std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
+    std::vector<std::string> const candidates =
+        asked_for.empty() ? std::vector<std::string>{"/usr/bin/python3", "python3"} : std::vector{asked_for};
+    for (std::string const& candidate : candidates) {
+        if (run_program({candidate, "-c", imports}, true) == 0) return candidate;
+    }
+    std::string packages;
+    for (std::string const& module : modules) packages += " python3-" + module;
+    throw MissingError(
+        fmt::format("{} has not all of the modules {}; install them (Debian: apt-get install python3{}) or "
+                    "name a Python that has "
+                    "them with --python",
+                    fmt::join(candidates, " or "), fmt::join(modules, ", "), packages));
+}
+
+}  // namespace
+
+fs::path script_folder() {
+    std::error_code failure;
+    fs::path const program = fs::read_symlink("/proc/self/exe", failure);
+    // An installed program has its scripts in ../share; one that was built, where its sources are.
+    for (fs::path const& folder :
+         {program.parent_path().parent_path() / installed_scripts, fs::path(source_scripts)}) {
+        if (fs::exists(folder / "figures.py", failure)) return folder;
+    }
+    throw MissingError(
+        fmt::format("the scripts that draw figures are neither in {} nor in {}; install Vibrotrough again",
+                    (program.parent_path().parent_path() / installed_scripts).string(), source_scripts));
+}
+
+void run_script(std::string const& script, std::vector<std::string> const& arguments,
+                std::string const& python, std::vector<std::string> const& modules) {
+    fs::path const path = script_folder() / script;
+    // -B: an installed folder need not be writable, and the sources stay clean.
+    std::vector<std::string> words{find_python(python, modules), "-B", path.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    int const code = run_program(words, false);
+    if (code == 130 || code == 128 + 2)
+        throw MissingError(fmt::format("{} was interrupted; start it again", script));
+    if (code != 0) {
+        throw MissingError(
+            fmt::format("{} ended with exit code {}; what it said above tells why", script, code));
+    }
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,130 @@
+#include "view/frame_writers.hpp"
+
+#include "view/profile.hpp"
+#include "view/vtk_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+
+namespace vibrotrough::view {
+namespace {
+
+void set_number(vtkPolyData& data, char const* name, double number) {
+    vtkNew<vtkDoubleArray> value;
+    value->SetName(name);
+    value->InsertNextValue(number);
+    data.GetFieldData()->AddArray(value);
+}
+
+/// A VTK array that shows the values without owning them.
+template <typename Array, typename Value>
+vtkSmartPointer<Array> view_of(std::vector<Value>& values, char const* name, int components) {
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetArray(values.data(), static_cast<vtkIdType>(values.size()), 1);
+    return array;
+}
+
+/// One vertex cell per grain: points without cells are not shown by ParaView.
+void set_vertices(vtkPolyData& data, std::size_t grains) {
+    if (data.GetNumberOfVerts() == static_cast<vtkIdType>(grains)) return;
+    vtkNew<vtkTypeInt32Array> offsets;
+    vtkNew<vtkTypeInt32Array> points;
+    for (int i = 0; i <= static_cast<int>(grains); ++i) offsets->InsertNextValue(i);
+    for (int i = 0; i < static_cast<int>(grains); ++i) points->InsertNextValue(i);
+    vtkNew<vtkCellArray> vertices;
+    vertices->SetData(offsets, points);
+    data.SetVerts(vertices);
+}
+
+}  // namespace
+
+void set_time(vtkPolyData& data, FrameSource const& source, double time) {
+    // Frames lie on whole steps: what rounding leaves of a cycle belongs to the next one.
+    double const turns = source.angular_frequency * time / (2.0 * std::numbers::pi);
+    double const cycle = std::floor(turns + 1e-9);
+    set_number(data, "TimeValue", time);
+    set_number(data, "cycle", cycle);
+    set_number(data, "vibration_phase", 360.0 * std::max(0.0, turns - cycle));
+}
+
+void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, double time) {
+    TroughState const trough = trough_state(source_, time);
+    auto const trough_x = static_cast<float>(trough.vx);
+    auto const trough_z = static_cast<float>(trough.vz);
+    relative_ = frame.velocity;
+    for (std::size_t i = 0; i < relative_.size(); i += 3) {
+        relative_[i] -= trough_x;
+        relative_[i + 2] -= trough_z;
+    }
+
+    vtkNew<vtkPoints> points;
+    points->SetData(view_of<vtkFloatArray>(frame.position, "Points", 3));
+    data_->SetPoints(points);
+    set_vertices(*data_, frame.grains());
+    vtkPointData& values = *data_->GetPointData();
+    values.AddArray(view_of<vtkFloatArray>(frame.radius, "radius", 1));
+    values.AddArray(view_of<vtkFloatArray>(frame.velocity, "velocity", 3));
+    values.AddArray(view_of<vtkFloatArray>(relative_, "velocity_relative_to_trough", 3));
+    values.AddArray(view_of<vtkIntArray>(frame.id, "id", 1));
+    set_time(*data_, source_, time);
+    write_vtp(path, *data_);
+}
+
+TroughWriter::TroughWriter(FrameSource const& source) : source_(source), rest_(read_stl(source.trough)) {
+    moved_->ShallowCopy(rest_);
+}
+
+std::array<double, 6> TroughWriter::bounds() const {
+    std::array<double, 6> bounds{};
+    rest_->GetBounds(bounds.data());
+    return bounds;
+}
+
+void TroughWriter::write(std::filesystem::path const& path, TroughPosition const& position, double time) {
+    vtkNew<vtkPoints> points;
+    points->SetNumberOfPoints(rest_->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < rest_->GetNumberOfPoints(); ++i) {
+        double const* const node = rest_->GetPoint(i);
+        points->SetPoint(i, node[0] + position.x, node[1], node[2] + position.z);
+    }
+    moved_->SetPoints(points);
+    set_time(*moved_, source_, time);
+    write_vtp(path, *moved_);
+}
+
+void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,
+                   std::vector<float> const& relative_velocity, double surface, double time) {
+    double const area = (frame.box[1] - frame.box[0]) * source.width;
+    Profile profile = profile_of(frame, relative_velocity, surface, area);
+    vtkNew<vtkPolyData> data;
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> line;
+    auto const slabs = static_cast<vtkIdType>(profile.height.size());
+    if (slabs > 0) line->InsertNextCell(static_cast<int>(slabs));
+    for (vtkIdType i = 0; i < slabs; ++i) {
+        double const height = profile.height[static_cast<std::size_t>(i)] + surface;
+        line->InsertCellPoint(points->InsertNextPoint(frame.box[0], frame.box[3], height));
+    }
+    data->SetPoints(points);
+    data->SetLines(line);
+    vtkPointData& values = *data->GetPointData();
+    values.AddArray(view_of<vtkDoubleArray>(profile.height, "height", 1));
+    values.AddArray(view_of<vtkDoubleArray>(profile.solid_fraction, "solid_fraction", 1));
+    values.AddArray(view_of<vtkDoubleArray>(profile.velocity, "velocity_relative_to_trough_x", 1));
+    set_time(*data, source, time);
+    write_vtp(path, *data);
+}
+
+}  // namespace vibrotrough::view

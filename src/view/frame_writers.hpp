@@ -1,0 +1,53 @@
+#pragma once
+
+#include "view/dump_reader.hpp"
+#include "view/frames.hpp"
+#include "view/trough_motion.hpp"
+
+#include <array>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+/// The objects of a frame as .vtp files.
+namespace vibrotrough::view {
+
+/// Adds TimeValue (s), cycle (t / T, whole cycles) and vibration_phase (deg, 0 to 360) as field data.
+void set_time(vtkPolyData& data, FrameSource const& source, double time);
+
+/// Writes the grains of one frame after another, keeping its memory.
+class GrainWriter {
+  public:
+    explicit GrainWriter(FrameSource const& source) : source_(source) {}
+    void write(std::filesystem::path const& path, GrainFrame& frame, double time);
+
+    /// Of the frame written last: m/s, x y z of each grain, relative to the trough.
+    std::vector<float> const& relative_velocity() const { return relative_; }
+
+  private:
+    FrameSource const& source_;
+    std::vector<float> relative_;
+    vtkNew<vtkPolyData> data_;
+};
+
+/// Writes the trough, moved, of one frame after another.
+class TroughWriter {
+  public:
+    explicit TroughWriter(FrameSource const& source);
+    void write(std::filesystem::path const& path, TroughPosition const& position, double time);
+
+    /// m, low and high of x, y and z at rest.
+    std::array<double, 6> bounds() const;
+
+  private:
+    FrameSource const& source_;
+    vtkSmartPointer<vtkPolyData> rest_;
+    vtkNew<vtkPolyData> moved_;
+};
+
+/// Writes the layer's profile over height of one frame: a point per slab and a line along them; `surface` is
+/// the height of the trough's surface, m.
+void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,
+                   std::vector<float> const& relative_velocity, double surface, double time);
+
+}  // namespace vibrotrough::view

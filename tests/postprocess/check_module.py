@@ -1,0 +1,71 @@
+"""Opens the sample's campaign.h5 and result.h5 with postprocess/vibrotrough.py and holds it to h5py itself.
+
+usage: check_module.py SCRIPTS SAMPLE WORK
+"""
+
+import pathlib
+import shutil
+import sys
+
+import h5py
+import numpy as np
+
+
+def raises(error, call, *parts):
+    try:
+        call()
+    except error as raised:
+        for part in parts:
+            assert part in str(raised), f"'{part}' is not in '{raised}'"
+        return
+    raise AssertionError(f"no {error.__name__}")
+
+
+def main(scripts, sample, work):
+    sys.path.insert(0, scripts)
+    sys.dont_write_bytecode = True
+    import vibrotrough
+
+    folder = pathlib.Path(work) / "module"
+    (folder / "cases" / "0123456789abcdef").mkdir(parents=True, exist_ok=True)
+    shutil.copy(pathlib.Path(sample) / "campaign.h5", folder)
+    shutil.copy(pathlib.Path(sample) / "result.h5", folder / "cases" / "0123456789abcdef")
+
+    campaign = vibrotrough.open_campaign(folder)
+    with h5py.File(folder / "campaign.h5") as file:
+        assert set(campaign.names()) == set(file) and len(file) > 30
+        for name, dataset in file.items():
+            wanted = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
+            np.testing.assert_array_equal(np.asarray(campaign[name]), wanted, err_msg=name)
+            assert campaign[name].units == dataset.attrs["units"], name
+            assert campaign[name].description == dataset.attrs["description"], name
+        assert campaign.attributes["campaign"] == "sample"
+    assert campaign.cases == 2 and list(vibrotrough.open_campaign(folder / "campaign.h5")["case"]) == list(campaign["case"])
+
+    # Units stay with slices and do not pass to what is computed.
+    angle = campaign["vibration_angle"]
+    assert angle.units == angle[:1].units == "rad" and "[rad]" in repr(angle)
+    for computed in (np.degrees(angle), angle * campaign["amplitude"], angle.mean(axis=0), angle > 0):
+        assert not isinstance(computed, vibrotrough.Array), type(computed)
+    np.testing.assert_allclose(np.degrees(angle), 28.64788975654116, rtol=1e-15)
+
+    assert list(campaign.rows(frequency=27.0)) == [1]
+    assert list(campaign.rows(outcome="not-precise", friction=0.23)) == [0, 1]
+    assert list(campaign.rows(outcome="finished")) == []
+
+    case = campaign.case(campaign["case"][0])
+    assert case["series/1/efficiency"].units == "1" and len(case["series/1/efficiency"]) == 3
+    assert case["case/frequency"].units == "Hz" and float(case["case/frequency"]) == 13.5
+    assert vibrotrough.open_result(folder / "cases" / "0123456789abcdef").attributes["case"] == "0123456789abcdef"
+    assert "case/speed" in case and "speed" not in case
+
+    raises(KeyError, lambda: campaign["eta"], "has no 'eta'", "efficiency")
+    raises(ValueError, lambda: vibrotrough.open_campaign(folder / "cases/0123456789abcdef/result.h5"), "vibrotrough result")
+    raises(OSError, lambda: vibrotrough.open_campaign(folder / "none.h5"))
+    raises(OSError, lambda: campaign.case("none"))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -1,0 +1,150 @@
+"""Draws all figures of the sample and writes its report with hostile texts; then headless Chromium opens it: it renders,
+sorts on a click, says no error on the console and asks the network for nothing.
+
+usage: check_report.py SCRIPTS SAMPLE WORK; exits with 77 when Chromium is not installed
+"""
+
+import html
+import html.parser
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+HOSTILE = "</pre><script>document.title = 'broken'</script> & \"quoted\" \u03b2"
+CASES = {"0123456789abcdef": 0.55, "fedcba9876543210": None}
+
+# Clicks on headings, and writes the order of the rows into the page after each.
+PROBE = """<script>
+  const order = () => Array.from(document.querySelectorAll("#cases tbody tr")).map((row) => row.cells[0].textContent).join(" ");
+  const seen = [order()];
+  for (const name of ["throw_number", "throw_number", "efficiency_theory", "efficiency_theory", "outcome"]) {
+    document.querySelector(`th[data-column=${name}] button`).click();
+    seen.push(order());
+  }
+  const probe = document.createElement("output");
+  probe.id = "probe";
+  probe.textContent = JSON.stringify({seen, title: document.title, drawn: document.querySelectorAll("figure svg path").length,
+    width: document.querySelector("figure svg").getBoundingClientRect().width,
+    sorted: document.querySelector("th[data-column=outcome]").getAttribute("aria-sort")});
+  document.body.append(probe);
+</script>"""
+
+
+def make_campaign(sample, work):
+    """The sample as a campaign's folder, with what the program writes for the figures."""
+    folder = work / "campaign"
+    shutil.rmtree(folder, ignore_errors=True)
+    for case in CASES:
+        (folder / "cases" / case).mkdir(parents=True)
+        shutil.copy(sample / "result.h5", folder / "cases" / case)
+    shutil.copy(sample / "campaign.h5", folder)
+    data = folder / "report" / "data"
+    (data / "point_mass").mkdir(parents=True)
+    row = {"throw_number": 2.1, "machine_number": 4.4, "vibration_angle_deg": 28.6479, "inclination_deg": -2.86, "friction": 0.23,
+           "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency_dem": 0.82, "efficiency_dem_half_width": 0.127,
+           "speed_dem_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
+           "wall_s": 23.75, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
+    cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory)
+             for number, (case, theory) in enumerate(CASES.items())]
+    failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency_dem=None,
+                  efficiency_dem_half_width=None, efficiency_theory=0.1)
+    (data / "campaign.json").write_text(json.dumps({
+        "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
+        "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "cases": [*cases, failed]}), encoding="utf-8")
+    (data / "theory_curves.csv").write_text(
+        "throw_number,vibration_angle_deg,velocity_efficiency\n2.0,28.6479,0.5\n3.5,28.6479,0.7\n", encoding="utf-8")
+    (folder / "certificate.json").write_text(json.dumps({"engine": HOSTILE, "passed": True, "checks": [
+        {"name": "restitution", "deviation": 0.01}, {"name": "friction", "deviation": 0.0}]}), encoding="utf-8")
+    return folder
+
+
+def run_script(scripts, name, *arguments):
+    done = subprocess.run([sys.executable, "-B", scripts / name, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return [pathlib.Path(line) for line in done.stdout.splitlines()]
+
+
+class Words(html.parser.HTMLParser):
+    """What a reader sees, and every address that the page asks for."""
+
+    def __init__(self):
+        super().__init__()
+        self.text, self.addresses = "", []
+
+    def handle_data(self, data):
+        self.text += data
+
+    def handle_starttag(self, tag, attributes):
+        self.addresses += [value for name, value in attributes if name in ("src", "href", "xlink:href", "action", "data")]
+
+
+def check_page(page):
+    words = Words()
+    words.feed(page)
+    assert HOSTILE in words.text, "what users wrote is shown as it is"
+    assert "<script>document.title" not in page, "and is not part of the page"
+    outside = [one for one in words.addresses if not one.startswith(("#", "data:"))]
+    assert not outside, f"asks for {outside}"
+    assert page.count("<svg") == len(re.findall(r"<figcaption", page)) >= 4
+    assert "lost-grains" in words.text and "restitution" in words.text
+    names = re.findall(r'\bid="(figure\d+-[^"]+)"', page)
+    assert len(names) > 50 and not re.search(r'url\(#(?!figure\d)', page)
+
+
+def check_in_browser(browser, report, work):
+    probed = work / "probed.html"
+    probed.write_text(report.read_text(encoding="utf-8").replace("</body>", PROBE + "</body>"), encoding="utf-8")
+    common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+              f"--user-data-dir={work / 'browser'}", "--enable-logging=stderr", "--v=0"]
+    done = subprocess.run([*common, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=120)
+    found = re.search(r'<output id="probe">(.*?)</output>', done.stdout, re.DOTALL)
+    assert found, f"the page did not render: {done.stderr[-2000:]}"
+    seen = json.loads(html.unescape(found.group(1)))
+    a, b, c = "0123456789abcdef", "fedcba9876543210", "aaaaaaaaaaaa"
+    assert seen["seen"] == [f"{a} {b} {c}", f"{c} {a} {b}", f"{b} {a} {c}", f"{c} {a} {b}", f"{a} {c} {b}", f"{c} {a} {b}"], seen
+    assert seen["title"] == "sample \u00b7 Vibrotrough" and seen["drawn"] > 100 and seen["width"] > 300, seen
+    assert seen["sorted"] == "ascending", seen
+    said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    assert not said, said
+    picture = work / "report.png"
+    subprocess.run([*common, "--window-size=1200,1600", f"--screenshot={picture}", report.as_uri()], capture_output=True,
+                   timeout=120, check=True)
+    assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 20000
+
+
+def main(scripts, sample, work):
+    scripts, sample, work = pathlib.Path(scripts), pathlib.Path(sample), pathlib.Path(work).resolve()
+    folder = make_campaign(sample, work)
+    drawn = run_script(scripts, "figures.py", folder)
+    assert {path.name for path in drawn} >= {
+        f"{name}.{kind}" for kind in ("svg", "png")
+        for name in ("efficiency", "residuals", *(f"cycles-{case}" for case in CASES))}, drawn
+    for path in drawn:
+        assert path.stat().st_size > 2000, path
+        if path.suffix == ".svg":
+            text = path.read_text(encoding="utf-8")
+            assert "sample  \u00b7  Vibrotrough" in text, f"{path} does not name campaign and program"
+    only = run_script(scripts, "figures.py", folder, "--only", "cycles", "--case", "0123456789abcdef")
+    assert [path.name for path in only] == ["cycles-0123456789abcdef.svg", "cycles-0123456789abcdef.png"], only
+    (report,) = run_script(scripts, "report.py", folder)
+    check_page(report.read_text(encoding="utf-8"))
+
+    (folder / "report" / "data" / "campaign.json").write_text("{", encoding="utf-8")
+    for script in ("figures.py", "report.py"):
+        failed = subprocess.run([sys.executable, "-B", scripts / script, folder], capture_output=True, text=True)
+        assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "campaign" in failed.stderr, failed.stderr
+
+    browser = shutil.which("chromium")
+    if not browser:
+        print("SKIPPED: chromium is not installed")
+        sys.exit(77)
+    check_in_browser(browser, report, work)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

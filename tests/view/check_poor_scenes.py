@@ -1,0 +1,42 @@
+"""Run by pvbatch: cases with no frame, with one, with frames without grains, and without a periodic point mass all open.
+
+usage: check_poor_scenes.py FOLDER: the subfolders none, one, no_grains and no_point_mass are exports
+"""
+
+import os
+import sys
+
+from paraview.simple import FindSource, GetActiveView, GetAnimationScene, Render, ResetSession, SaveScreenshot
+
+
+def open_scene(folder):
+    path = os.path.join(folder, "view_case.py")
+    with open(path, encoding="utf-8") as file:
+        exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__"})
+
+
+def points(name):
+    return FindSource(name).GetDataInformation().GetNumberOfPoints()
+
+
+def main(folder):
+    # name: times, grains, points of the block (None: there is no such object)
+    wanted = {"none": (0, None, None), "one": (1, 500, 24), "no_grains": (1, 0, 24), "no_point_mass": (3, 500, None)}
+    for name, (times, grains, block) in wanted.items():
+        ResetSession()
+        open_scene(os.path.join(folder, name))
+        found = list(GetAnimationScene().TimeKeeper.TimestepValues or [])
+        assert len(found) == times, f"{name}: times {found}"
+        for source, count in (("grains", grains), ("point_mass", block)):
+            if count is None:
+                assert FindSource(source) is None, f"{name} has {source}"
+            else:
+                assert points(source) == count, f"{name}: {points(source)} points of {source}"
+        Render()
+        picture = os.path.join(folder, name + ".png")
+        SaveScreenshot(picture, GetActiveView(), ImageResolution=[400, 250])
+        assert os.path.getsize(picture) > 1000
+        print(f"{name} opens")
+
+
+main(*sys.argv[1:])
