@@ -15,6 +15,7 @@ void add_keys(CLI::App& program, int& exit_code);
 void add_deck(CLI::App& program, int& exit_code);
 void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
+void add_friction_test(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
 void add_probe_engine(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);

@@ -1,7 +1,9 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "campaign/friction_test.hpp"
 #include "campaign/overview.hpp"
 #include "compare/comparison.hpp"
+#include "scenario/shake_test.hpp"
 
 #include <memory>
 
@@ -20,9 +22,14 @@ struct Options {
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
+    auto const tests = campaign::read_friction(options.folder);
     std::vector<compare::Row> rows;
     for (campaign::CaseOverview const& one : campaign::look_at(plan)) {
-        rows.push_back(compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome));
+        std::optional<compare::MeasuredFriction> friction;
+        if (auto const test = tests.find(layer_key(one.planned->scenario)); test != tests.end())
+            friction = {*test->second.friction, *test->second.low, *test->second.high};
+        rows.push_back(
+            compare::compare(one.planned->id, one.planned->scenario, one.record, one.outcome, friction));
     }
     if (options.json) {
         fmt::print("{}", compare::to_json(rows));
@@ -55,7 +62,9 @@ void add_compare(CLI::App& program, int& exit_code) {
     command->footer(
         "eta is the mean velocity of the layer relative to the trough over omega r cos(beta), +- the "
         "half-width of its\n"
-        "confidence interval over all packings. Example: vibrotrough compare runs/demo --csv > demo.csv");
+        "confidence interval over all packings. After 'vibrotrough friction-test' the theory stands there "
+        "twice: at "
+        "the grain's\nfriction and at the layer's. Example: vibrotrough compare runs/demo --csv > demo.csv");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

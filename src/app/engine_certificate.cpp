@@ -1,5 +1,6 @@
 #include "app/engine_certificate.hpp"
 
+#include "core/error.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe.hpp"
 
@@ -53,6 +54,19 @@ std::string verdict_of(engine::Certificate const& certificate) {
     return text + fmt::format("measured {:.6g}, {} {:.6g})", worst.measured,
                               worst.comparison == engine::Comparison::near ? "expected" : "at most",
                               worst.expected);
+}
+
+bool certify(engine::Engine& engine, bool accept_failed_probes) {
+    auto const certificate = certificate_of(engine);
+    if (!certificate) return false;
+    if (!certificate->passed() && !accept_failed_probes) {
+        throw MissingError(fmt::format(
+            "{} is not to be trusted: {}; give another engine with --liggghts PATH, look closer with "
+            "'vibrotrough probe-engine', or go on with --accept-failed-probes",
+            engine.program.string(), verdict_of(*certificate)));
+    }
+    engine.certificate = engine::to_json(*certificate);
+    return true;
 }
 
 }  // namespace vibrotrough::app

@@ -22,6 +22,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_keys(program, exit_code);
     add_deck(program, exit_code);
     add_status(program, exit_code);
+    add_friction_test(program, exit_code);
     add_compare(program, exit_code);
     add_export(program, exit_code);
     add_check(program, exit_code);

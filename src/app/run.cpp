@@ -88,20 +88,6 @@ int submit(campaign::Plan const& plan, Campaign const& campaign, Options const& 
     return done.unsure > 0 && done.submitted + done.in_queue == 0 ? some_cases_failed : all_well;
 }
 
-/// False when interrupted. An engine whose probes failed is refused unless the user accepts that.
-bool certify(engine::Engine& engine, bool accept_failed_probes) {
-    auto const certificate = certificate_of(engine);
-    if (!certificate) return false;
-    if (!certificate->passed() && !accept_failed_probes) {
-        throw MissingError(fmt::format(
-            "{} is not to be trusted: {}; give another engine with --liggghts PATH, look closer with "
-            "'vibrotrough probe-engine', or go on with --accept-failed-probes",
-            engine.program.string(), verdict_of(*certificate)));
-    }
-    engine.certificate = engine::to_json(*certificate);
-    return true;
-}
-
 /// Shows what the check warns of. Errors refuse the campaign unless the user accepts them.
 void check(Options const& options, Campaign const& campaign) {
     CheckReport const report = check_campaign(campaign);

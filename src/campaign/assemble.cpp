@@ -1,6 +1,7 @@
 #include "campaign/assemble.hpp"
 
 #include "campaign/case_state.hpp"
+#include "campaign/layer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
@@ -50,6 +51,7 @@ store::PackingRecord read_packing(PlannedCase const& planned, int packing, Finis
     record.efficiency = efficiency_of(planned.scenario, record.series);
     record.estimate = answer.estimate;
     record.deck = read_file(folder / "in.liggghts");
+    measure_layer(record, planned.scenario, deck, folder);
     return record;
 }
 
@@ -90,6 +92,7 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
     }
     record.estimate = measure::combine(estimates, planned.scenario.measure.confidence);
     record.outcome = outcome_of(estimates);
+    record.layer_mode = common_mode(record.packings);
     if (record.outcome == "not-steady") {
         // The mean of what is no steady state is no number; the cycles stay in the record.
         record.estimate.mean = record.estimate.half_width = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,6 @@
 #include "campaign/case_state.hpp"
 
+#include "campaign/layer.hpp"
 #include "campaign/outcome_names.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -31,6 +32,10 @@ fs::path marker(PlannedCase const& planned, int packing) {
 std::string digest_of_cycles(PlannedCase const& planned, int packing) {
     fs::path const cycles = planned.packing_folder(packing) / "cycles.csv";
     return fs::is_regular_file(cycles) ? sha256_hex(read_file(cycles)) : std::string();
+}
+
+std::string digest_of_layer(PlannedCase const& planned, int packing) {
+    return sha256_hex(layer_outputs(planned.packing_folder(packing)));
 }
 
 }  // namespace
@@ -91,6 +96,7 @@ std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned,
     if (!json || digest.empty()) return {};
     try {
         if (json->at("cycles_sha256") != digest) return {};
+        if (json->at("layer_sha256") != digest_of_layer(planned, packing)) return {};
         return FinishedPacking{json->at("wall_time"),
                                json->at("started"),
                                json->at("finished"),
@@ -111,7 +117,8 @@ void write_finished_packing(PlannedCase const& planned, int packing, FinishedPac
                     {"git_commit", finished.git_commit},
                     {"host", finished.host},
                     {"engine_certificate", finished.engine_certificate},
-                    {"cycles_sha256", digest_of_cycles(planned, packing)}};
+                    {"cycles_sha256", digest_of_cycles(planned, packing)},
+                    {"layer_sha256", digest_of_layer(planned, packing)}};
     write_file_atomically(marker(planned, packing), json.dump(2) + "\n");
 }
 

@@ -8,6 +8,8 @@
 #include "core/version.hpp"
 #include "engine/outcome.hpp"
 #include "measure/cycle_series.hpp"
+#include "measure/layer_profiles.hpp"
+#include "measure/phase_series.hpp"
 
 #include <cmath>
 
@@ -158,6 +160,15 @@ PackingOutcome PackingRun::judge(engine::ExitStatus status) {
             return {false, "outputs-incomplete",
                     fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
                                 report.last_step)};
+        }
+        // What the case's result needs must be there now; later it would be too late to run again.
+        auto const phases = measure::read_phases(folder_ / "phases.csv", deck_.time.steps_per_cycle);
+        measure::read_snapshots(folder_, "profiles");
+        measure::read_snapshots(folder_, "surface");
+        if (phases.cycles() != series.cycles()) {
+            return {
+                false, "outputs-incomplete",
+                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
         }
         double const carried =
             measure::weight_by_momentum(series, deck_.mass, 1 / planned_.scenario.trough.frequency);

@@ -27,8 +27,20 @@ void add_theory(Row& row, Scenario const& scenario) {
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
+void add_layer_theory(Row& row, Scenario const& scenario, MeasuredFriction const& measured) {
+    row.friction_layer = measured.friction;
+    row.friction_layer_low = measured.low;
+    row.friction_layer_high = measured.high;
+    Scenario without_walls = scenario;  // what they do is in the measured friction
+    without_walls.trough.side_wall_friction.reset();
+    theory::Motion const motion = point_mass_motion(without_walls, measured.friction);
+    row.mode_theory_layer = motion.mode;
+    if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
+}
+
 void add_measurement(Row& row, store::CaseRecord const& record) {
     row.packings = record.estimate.packings;
+    if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
     row.cycles_measured = row.cycles_discarded = 0;
     row.wall_s = 0;
     for (store::PackingRecord const& packing : record.packings) {
@@ -81,7 +93,7 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
 }
 
 Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
-            std::string const& outcome) {
+            std::string const& outcome, std::optional<MeasuredFriction> const& friction) {
     Trough const& trough = scenario.trough;
     Row row{};
     row.id = id;
@@ -94,6 +106,7 @@ Row compare(std::string const& id, Scenario const& scenario, std::optional<store
     row.frequency_hz = rounded(trough.frequency);
     row.outcome = record ? record->outcome : outcome;
     add_theory(row, scenario);
+    if (friction) add_layer_theory(row, scenario, *friction);
     if (record) add_measurement(row, *record);
     return row;
 }

@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Number>
-Json json(std::optional<Number> const& value) {
+template <class Value>
+Json json(std::optional<Value> const& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
@@ -32,6 +32,12 @@ Json to_object(Row const& row) {
             {"speed_dem_m_per_s", json(row.speed_dem_m_per_s)},
             {"efficiency_theory", json(row.efficiency_theory)},
             {"mode_theory", row.mode_theory},
+            {"mode_layer", json(row.mode_layer)},
+            {"friction_layer", json(row.friction_layer)},
+            {"friction_layer_low", json(row.friction_layer_low)},
+            {"friction_layer_high", json(row.friction_layer_high)},
+            {"efficiency_theory_layer", json(row.efficiency_theory_layer)},
+            {"mode_theory_layer", json(row.mode_theory_layer)},
             {"packings", json(row.packings)},
             {"cycles_measured", json(row.cycles_measured)},
             {"cycles_discarded", json(row.cycles_discarded)},
@@ -63,8 +69,11 @@ Cells cells(Row const& row) {
             fmt::format("{:.2f}", row.frequency_hz),
             shown(row.efficiency_dem, "{:.3f}") + " +- " + shown(row.efficiency_dem_half_width, "{:.3f}"),
             shown(row.efficiency_theory, "{:.3f}"),
+            shown(row.friction_layer, "{:.3f}"),
+            shown(row.efficiency_theory_layer, "{:.3f}"),
             shown(difference, "{:+.3f}"),
             row.mode_theory.empty() ? "-" : row.mode_theory,
+            row.mode_layer.value_or("-"),
             shown(row.speed_dem_m_per_s, "{:.3f}"),
             row.cycles_measured ? fmt::format("{}+{}", *row.cycles_discarded, *row.cycles_measured) : "-",
             row.outcome};
@@ -94,9 +103,11 @@ std::string to_csv(std::vector<Row> const& rows) {
 }
 
 std::string to_table(std::vector<Row> const& rows) {
-    std::vector<Cells> table{{"case", "Gamma", "beta", "alpha", "mu", "f", "eta DEM", "eta theory",
-                              "difference", "mode", "speed", "cycles", "outcome"},
-                             {"", "", "deg", "deg", "", "Hz", "", "", "", "theory", "m/s", "cut+kept", ""}};
+    std::vector<Cells> table{
+        {"case", "Gamma", "beta", "alpha", "mu", "f", "eta DEM", "eta theory", "mu layer", "eta theory",
+         "difference", "mode", "mode", "speed", "cycles", "outcome"},
+        {"", "", "deg", "deg", "", "Hz", "", "at mu", "", "at mu layer", "", "theory", "layer", "m/s",
+         "cut+kept", ""}};
     for (Row const& row : rows) table.push_back(cells(row));
     std::vector<std::size_t> widths(table.front().size(), 0);
     for (Cells const& line : table) {

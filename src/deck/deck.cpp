@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
+#include "deck/phases.hpp"
 #include "deck/templates.hpp"
 #include "deck/trough_mesh.hpp"
 
@@ -87,6 +88,7 @@ Deck make_deck(Scenario const& scenario, int packing) {
     deck.mass = numbers.mass;
     deck.weight = deck.mass * gravity * std::cos(scenario.trough.inclination);
     mustache::data data = describe(scenario, numbers, packing);
+    for (auto const& [name, value] : phase_sampling(scenario, numbers.time)) data.set(name, value);
     deck.settle_files = meshes(scenario, numbers);
     deck.settle_files[settle_file] = render(settle_file, data);
     deck.files = deck.settle_files;

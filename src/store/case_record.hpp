@@ -2,6 +2,8 @@
 
 #include "measure/cycle_series.hpp"
 #include "measure/estimate.hpp"
+#include "measure/layer_motion.hpp"
+#include "measure/layer_profiles.hpp"
 #include "scenario/scenario.hpp"
 
 #include <string>
@@ -20,6 +22,9 @@ struct PackingRecord {
     std::vector<double> efficiency;     ///< velocity efficiency of cycle 1 ... n
     measure::PackingEstimate estimate;  ///< of `efficiency`
     std::string deck;                   ///< in.liggghts
+    measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
+    measure::Profiles profiles;         ///< of the same cycles
+    measure::Surface surface;
 };
 
 /// Where and with what a result was made.
@@ -42,6 +47,7 @@ struct CaseRecord {
     measure::CaseEstimate estimate;  ///< of velocity efficiency
     std::vector<PackingRecord> packings;
     Provenance provenance;
+    std::string layer_mode;  ///< of most packings, see measure::LayerMotion
 };
 
 }  // namespace vibrotrough::store

@@ -69,6 +69,10 @@ std::string packing_path(std::size_t packing, Entry const& entry) {
     return fmt::format("series/{}/{}", packing + 1, entry.name);
 }
 
+std::string packing_path(std::size_t packing, PackingTable const& table) {
+    return fmt::format("{}/{}/{}", table.group, packing + 1, table.entry.name);
+}
+
 /// Reads one PackingValue of all packings, whose number was read before.
 void read_column(ImageReader const& image, PackingValue const& value, std::vector<PackingRecord>& packings) {
     std::string const path = fmt::format("packings/{}", value.entry.name);
@@ -96,6 +100,18 @@ void read_series(ImageReader const& image, std::vector<PackingRecord>& packings)
             if (series.field(packings[i]).size() != wanted) {
                 throw Hdf5Error("use the dataset " + packing_path(i, series.entry) + ", its length is wrong");
             }
+        }
+    }
+}
+
+void read_tables(ImageReader const& image, std::vector<PackingRecord>& packings) {
+    for (std::size_t i = 0; i < packings.size(); ++i) {
+        PackingTable const* first = nullptr;
+        for (PackingTable const& table : packing_tables()) {
+            if (!first || first->group != table.group) first = &table;
+            table.field(packings[i]) = image.values<double>(packing_path(i, table), Rank::array);
+            if (table.field(packings[i]).size() != first->field(packings[i]).size())
+                throw Hdf5Error("use the dataset " + packing_path(i, table) + ", its length is wrong");
         }
     }
 }
@@ -146,6 +162,7 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     record.packings.resize(image.length("packings/seed"));
     for (PackingValue const& value : packing_values()) read_column(image, value, record.packings);
     read_series(image, record.packings);
+    read_tables(image, record.packings);
     FileSource source;
     auto const files = nlohmann::json::parse(
         image.values<std::string>(std::string(scenario_files_entry().name), Rank::scalar).front());
@@ -196,6 +213,9 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         for (std::size_t i = 0; i < copy.packings.size(); ++i) {
             for (PackingSeries const& series : packing_series()) {
                 put(packing_path(i, series.entry), series.entry, series.field(copy.packings[i]), Rank::array);
+            }
+            for (PackingTable const& table : packing_tables()) {
+                put(packing_path(i, table), table.entry, table.field(copy.packings[i]), Rank::array);
             }
         }
         bytes = image.bytes();

@@ -1,6 +1,7 @@
 #include "store/schema.hpp"
 
 #include "store/hdf5_image.hpp"
+#include "store/layer_schema.hpp"
 
 #include <limits>
 #include <numeric>
@@ -42,6 +43,9 @@ std::vector<CaseFact> const& case_facts() {
          [](Record r) -> std::string& { return r.provenance.started; }},
         {{"finished", "1", "When the case was finished, ISO 8601, UTC"},
          [](Record r) -> std::string& { return r.provenance.finished; }},
+        {{"layer_mode", "1",
+          "The bulk's mode in the theory's letters, of most packings; empty when too few cycles were kept"},
+         [](Record r) -> std::string& { return r.layer_mode; }},
     };
     return facts;
 }
@@ -149,15 +153,18 @@ std::vector<CaseValue> const& case_values() {
     static std::vector<CaseValue> const values = [] {
         std::vector<CaseValue> all = drive_and_result_values();
         for (CaseValue const& value : grain_and_layer_values()) all.push_back(value);
+        for (CaseValue const& value : layer_case_values()) all.push_back(value);
         return all;
     }();
     return values;
 }
 
-std::vector<PackingValue> const& packing_values() {
+namespace {
+
+std::vector<PackingValue> run_packing_values() {
     using Field = std::variant<int*, double*, std::string*, measure::Verdict*>;
     using Packing = PackingRecord&;
-    static std::vector<PackingValue> const values{
+    return {
         {{"seed", "1", "Seed of the packing's random positions"}, [](Packing p) -> Field { return &p.seed; }},
         {{"steps_per_cycle", "1", "Time steps of the engine per cycle"},
          [](Packing p) -> Field { return &p.steps_per_cycle; }},
@@ -180,6 +187,16 @@ std::vector<PackingValue> const& packing_values() {
          [](Packing p) -> Field { return &p.estimate.verdict; }},
         {{"deck", "1", "The LIGGGHTS deck, in.liggghts"}, [](Packing p) -> Field { return &p.deck; }},
     };
+}
+
+}  // namespace
+
+std::vector<PackingValue> const& packing_values() {
+    static std::vector<PackingValue> const values = [] {
+        std::vector<PackingValue> all = run_packing_values();
+        for (PackingValue const& value : layer_packing_values()) all.push_back(value);
+        return all;
+    }();
     return values;
 }
 

@@ -51,10 +51,19 @@ struct PackingSeries {
     std::vector<double>& (*field)(PackingRecord&);
 };
 
+/// One column of a table of a packing: `<group>/<packing>/<name>` of result.h5. All columns of a group have
+/// the same length.
+struct PackingTable {
+    std::string_view group;
+    Entry entry;
+    std::vector<double>& (*field)(PackingRecord&);
+};
+
 std::vector<CaseFact> const& case_facts();
 std::vector<CaseValue> const& case_values();
 std::vector<PackingValue> const& packing_values();
 std::vector<PackingSeries> const& packing_series();
+std::vector<PackingTable> const& packing_tables();
 
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();

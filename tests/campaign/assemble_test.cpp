@@ -113,6 +113,20 @@ TEST_F(Assemble, IsWhatTheStoreGivesBack) {
     EXPECT_EQ(read->packings[1].efficiency, record.packings[1].efficiency);
 }
 
+// v = 1 m/s is faster than the trough (omega r = 0.5 m/s) at all times: a layer that slides for ever.
+TEST_F(Assemble, MeasuresTheLayer) {
+    write_packings(cycles(60, around(0.5)), cycles(60, around(0.6)));
+    store::CaseRecord const record = assembled();
+    EXPECT_EQ(record.layer_mode, "P");
+    EXPECT_EQ(record.packings[1].motion.mode, "P");
+    EXPECT_NEAR(record.packings[0].motion.friction_ratio, 0.01 / 0.09, 1e-12);
+    EXPECT_EQ(record.packings[0].motion.curves.phase.size(), 100u);
+    EXPECT_EQ(record.packings[0].motion.largest_overlap, 2e-6);
+    EXPECT_EQ(record.packings[0].profiles.solid_fraction,
+              (std::vector<double>{700 / scenario.grains.density}));
+    EXPECT_EQ(record.packings[0].surface.height, (std::vector<double>{0.004}));
+}
+
 TEST_F(Assemble, RefusesUnfinishedPackings) {
     EXPECT_THROW(assembled(), InputError);
     write_packing(1, cycles(30, around(0.5)));

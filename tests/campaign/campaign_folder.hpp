@@ -37,6 +37,25 @@ inline std::string cycles_text(Scenario const& scenario, int cycles, std::functi
     return text;
 }
 
+/// phases.csv of a layer that goes with the trough but for a steady slip, and one snapshot per profile.
+inline void write_layer(std::filesystem::path const& folder, Scenario const& scenario, int cycles) {
+    int const steps = deck::choose_time_step(scenario).steps_per_cycle;
+    double const beta = scenario.trough.vibration_angle, r = scenario.trough.amplitude;
+    std::string text =
+        "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,floor_z,touching,touching_vx,"
+        "touching_spin,"
+        "clearance,energy_translation,energy_rotation,overlap\n";
+    for (int i = 1; i <= 100 * cycles; ++i) {
+        double const place = r * std::sin(2 * std::numbers::pi * i / 100);
+        double const x = place * std::cos(beta), z = place * std::sin(beta);
+        text += fmt::format("{},{},{},1,0,{},{},-0.01,-0.09,-0.09,10,10,0,-1e-6,0,0,2e-6\n",
+                            i * (steps / 100), x, z, x, z);
+    }
+    overwrite(folder / "phases.csv", text);
+    overwrite(folder / "profiles.0.txt", fmt::format("{} 1\n  1 0.001 10 700 1 0\n", steps * 6 / 5));
+    overwrite(folder / "surface.0.txt", fmt::format("{} 1\n  1 0.001 10 700 0.002\n", steps * 6 / 5));
+}
+
 /// A campaign folder of one case with two packings; nothing is written at first.
 class CampaignFolder : public testing::Test {
   protected:
@@ -46,6 +65,7 @@ class CampaignFolder : public testing::Test {
     void write_packing(int packing, std::string const& cycles, FinishedPacking const& marker = {}) const {
         overwrite(planned.packing_folder(packing) / "in.liggghts", fmt::format("# deck {}\n", packing));
         overwrite(planned.packing_folder(packing) / "cycles.csv", cycles);
+        write_layer(planned.packing_folder(packing), scenario, 60);
         write_finished_packing(planned, packing, marker);
     }
 

@@ -108,6 +108,19 @@ TEST_F(PackingMarker, HoldsOnlyForTheCyclesItWasWrittenFor) {
     EXPECT_TRUE(read_finished_packing(planned, 1));
 }
 
+TEST_F(PackingMarker, HoldsOnlyForThePhasesAndSnapshotsItWasWrittenFor) {
+    for (char const* name : {"phases.csv", "profiles.0.txt", "surface.0.txt"}) {
+        fs::path const path = planned.packing_folder(1) / name;
+        std::string const whole = read_file(path);
+        overwrite(path, whole + "1\n");
+        EXPECT_FALSE(read_finished_packing(planned, 1)) << name;
+        fs::remove(path);
+        EXPECT_FALSE(read_finished_packing(planned, 1)) << name;
+        overwrite(path, whole);
+        EXPECT_TRUE(read_finished_packing(planned, 1)) << name;
+    }
+}
+
 TEST_F(PackingMarker, DamagedIsNone) {
     std::string const whole = read_file(marker);
     for (std::string const& damaged : {std::string(), whole.substr(0, whole.size() / 2), std::string("{}"),

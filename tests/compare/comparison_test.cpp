@@ -93,10 +93,27 @@ TEST(Compare, ShowsTheMeasurement) {
     // speed = eta omega r cos(beta), multiplied in another order: some roundings.
     EXPECT_NEAR(row.speed_dem_m_per_s.value(), 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5),
                 1e-15);
+    EXPECT_EQ(row.mode_layer, "FP'N");
     EXPECT_EQ(row.packings, 2);
     EXPECT_EQ(row.cycles_measured, 1 + 1);
     EXPECT_EQ(row.cycles_discarded, 2 + 0);
     EXPECT_EQ(row.wall_s, 12.5 + 11.25);
+}
+
+// Theory at the friction that was measured, beside theory at the grain's.
+TEST(Compare, HasTheoryAtTheLayersFriction) {
+    Row const row = compare("", record.scenario, {}, "open", MeasuredFriction{0.15, 0.14, 0.17});
+    EXPECT_EQ(row.friction_layer, 0.15);
+    EXPECT_EQ(row.friction_layer_low, 0.14);
+    EXPECT_EQ(row.friction_layer_high, 0.17);
+    Scenario smooth = record.scenario;
+    smooth.trough.friction = 0.15;
+    Row const wanted = compare("", smooth, {}, "open");
+    EXPECT_EQ(row.efficiency_theory_layer, wanted.efficiency_theory);
+    EXPECT_EQ(row.mode_theory_layer, wanted.mode_theory);
+    EXPECT_NE(row.efficiency_theory_layer, row.efficiency_theory);
+    EXPECT_FALSE(compare("", record.scenario, {}, "open").friction_layer);
+    EXPECT_FALSE(compare("", record.scenario, {}, "open").efficiency_theory_layer);
 }
 
 TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
@@ -127,6 +144,7 @@ TEST(Compare, HasNoMeasurementWithoutARecord) {
         EXPECT_FALSE(row.efficiency_dem);
         EXPECT_FALSE(row.efficiency_dem_half_width);
         EXPECT_FALSE(row.speed_dem_m_per_s);
+        EXPECT_FALSE(row.mode_layer);
         EXPECT_FALSE(row.packings);
         EXPECT_FALSE(row.cycles_measured);
         EXPECT_FALSE(row.cycles_discarded);

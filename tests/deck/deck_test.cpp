@@ -114,6 +114,20 @@ TEST(Deck, OneSizeIsOneClass) {
     EXPECT_EQ(deck.find("class2"), std::string::npos);
 }
 
+// 36.3 mm / 1.5 / 3 mm = 8 columns, each a hair wider than an eighth, so that rounding opens no ninth.
+TEST(Deck, CutsTheLayerIntoBins) {
+    Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
+    std::string const deck = decks(s);
+    int const n = choose_time_step(s).steps_per_cycle;
+    EXPECT_EQ(number_after(deck, "window all ave/time 1 "), n / 100);
+    EXPECT_EQ(number_after(deck, "phases all print "), n / 100);
+    EXPECT_EQ(number_after(deck, "profiles all ave/spatial "), 3 * n / 10);
+    EXPECT_EQ(number_after(deck, " z 0.0 "), 0.0015);
+    double const column = number_after(deck, " x lower ");
+    EXPECT_GT(column, 0.0363 / 8);
+    EXPECT_NEAR(column, 0.0363 / 8, 1e-13);
+}
+
 // g (-sin(alpha), 0, -cos(alpha)): uphill positive, gravity pulls a layer on an incline backwards.
 TEST(Deck, TiltsGravityNotTheTrough) {
     std::string const deck = decks(scenario(with("inclination = \"0 deg\"", "inclination = \"30 deg\"")));

@@ -18,7 +18,7 @@ SWEEP = {"trough.tan_vibration_angle": [0.25, 0.5]}
 COLUMNS = {
     "case", "throw_number", "machine_number", "vibration_angle_deg", "inclination_deg", "friction", "amplitude_m",
     "frequency_hz", "efficiency_dem", "efficiency_dem_half_width", "speed_dem_m_per_s", "efficiency_theory",
-    "mode_theory", "packings", "cycles_measured", "cycles_discarded", "wall_s", "outcome",
+    "mode_theory", "mode_layer", "packings", "cycles_measured", "cycles_discarded", "wall_s", "outcome",
 }  # fmt: skip
 # Student's t for 95 % and one degree of freedom (two packings), from any table of it.
 STUDENT_95_1 = 12.706

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -46,10 +46,10 @@ def check_file(path, heading, readme):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"series/(\d+)/(\w+)", name)
-            row_name = f"series/<packing>/{series[2]}" if series else name
+            series = re.fullmatch(r"(series|phases|profiles|surface)/(\d+)/(\w+)", name)
+            row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if series:
-                shapes |= {"cycles": (CYCLES[series[1]],), "cycles + 1": (CYCLES[series[1]] + 1,)}
+                shapes |= {"cycles": (CYCLES[series[2]],), "cycles + 1": (CYCLES[series[2]] + 1,)}
             assert row_name in table, f"{path}: {name} is not documented"
             seen.add(row_name)
             if data is not None:
@@ -77,6 +77,14 @@ def check_result_values(file):
     assert case["efficiency"] == 0.82 and case["efficiency_half_width"] == 0.127 and case["confidence"] == 0.95
     assert case["cycles_measured"] == 2 and case["cycles_discarded"] == 2 and case["wall_time"] == 23.75
     assert case["grain_density"] == 1400.0 and case["layer_grains"] == 500 and math.isnan(case["layer_height"])
+    # The layer: means over the packings that have the number, the largest overlap, NaN where none has it.
+    assert file.attrs["layer_mode"] == "FP'N"
+    assert case["take_off_phase"] == 0.75 and case["period_cycles"] == 2 and case["velocity_gradient"] == -0.01
+    assert case["largest_overlap"] == 4.5e-5 and math.isnan(case["friction_ratio"])
+    scale = 0.0099 * (omega * 0.006) ** 2
+    assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
+    assert list(file["phases/1/phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
+    assert list(file["surface/2/height"])[-1] > list(file["surface/1/height"])[-1]
     packings = file["packings"]
     assert list(packings["seed"]) == [49979687, 86028121]
     assert list(packings["verdict"].asstr()) == ["precise", "not-precise"]
@@ -95,6 +103,7 @@ def check_campaign_values(file):
     # Gamma goes with the square of the frequency; powers of two are exact in a double.
     assert file["throw_number"][1] == 4 * file["throw_number"][0]
     assert list(file["packings"]) == [2, 2]
+    assert list(file["layer_mode"].asstr()) == ["FP'N"] * 2 and list(file["flight_number"]) == [0.625] * 2
 
 
 def main(folder, readme_path):

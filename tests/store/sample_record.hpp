@@ -1,8 +1,33 @@
 #pragma once
 
 #include "store/case_record.hpp"
+#include "store/schema.hpp"
+
+#include <limits>
 
 namespace vibrotrough::store {
+
+/// Columns of `length` values that differ from one another and from packing to packing.
+inline void fill_layer(PackingRecord& packing, double first) {
+    packing.motion.mode = "FP'N";
+    packing.motion.period_cycles = 1;
+    packing.motion.take_off_phase = 0.5 + first;
+    packing.motion.landing_phase = 4.5 + first;
+    packing.motion.flight_number = 0.625;
+    packing.motion.restitution = 0.0625;
+    packing.motion.dissipation = 0.001 + first / 1024;
+    packing.motion.floor_slip = 0.03;
+    packing.motion.friction_ratio = std::numeric_limits<double>::quiet_NaN();
+    packing.motion.largest_overlap = 3e-5 * (1 + first);
+    packing.motion.largest_floor_overlap = 2e-5;
+    packing.profiles.velocity_gradient = -0.01;
+    packing.surface.wiggle_amplitude = 0.0008;
+    double value = first;
+    for (PackingTable const& table : packing_tables()) {
+        std::size_t const length = table.group == "phases" ? 5 : table.group == "profiles" ? 4 : 3;
+        for (std::size_t i = 0; i < length; ++i) table.field(packing).push_back(value += 0.25);
+    }
+}
 
 /// A case with two packings of different length whose numbers are easy to tell apart.
 /// `id` and `throw_number` may be chosen to make several.
@@ -50,6 +75,9 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     first.deck = "# deck of packing 1, angle \xCE\xB2\nrun 3000\n";
 
     PackingRecord second = first;
+    fill_layer(first, 0);
+    fill_layer(second, 0.5);
+    second.motion.period_cycles = 2;
     second.seed = 86028121;
     second.wall_time = 11.25;
     second.series = {.x = {0.018, 0.025},
@@ -80,7 +108,8 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
                            .engine_certificate = "{\"verdict\": \"passed\"}\n",
                            .host = "trough",
                            .started = "2026-11-21T12:00:00Z",
-                           .finished = "2026-11-21T12:01:00Z"}};
+                           .finished = "2026-11-21T12:01:00Z"},
+            .layer_mode = "FP'N"};
 }
 
 }  // namespace vibrotrough::store

@@ -1,0 +1,99 @@
+#include "campaign/layer.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "deck/phases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+measure::LayerFacts facts_of(store::PackingRecord const& record, Scenario const& s) {
+    return {record.mass,
+            -gravity * std::sin(s.trough.inclination),
+            -gravity * std::cos(s.trough.inclination),
+            s.trough.frequency,
+            record.estimate.discarded,
+            record.estimate.discarded + record.estimate.measured};
+}
+
+/// Where the trough is and how fast, at each phase of the snapshots; phase 0 is the end of a cycle.
+void add_trough(measure::ProfileFacts& facts, measure::PhaseSeries const& series,
+                measure::PhaseCurves const& curves) {
+    constexpr int lines = measure::PhaseSeries::per_cycle;
+    for (int phase = 0; phase < facts.phases; ++phase) {
+        auto const line = static_cast<std::size_t>((phase * lines / facts.phases + lines - 1) % lines);
+        facts.trough_z.push_back(series.trough_z.at(line));
+        facts.trough_vx.push_back(curves.trough_velocity_x.at(line));
+        facts.trough_vz.push_back(curves.trough_velocity_z.at(line));
+    }
+}
+
+}  // namespace
+
+measure::PhaseSeries read_packing_phases(Scenario const& s, deck::Deck const& deck, fs::path const& folder) {
+    auto series = measure::read_phases(folder / "phases.csv", deck.time.steps_per_cycle);
+    if (!is_clump(s.grains) && s.layer.block != Block::plate) return series;
+    return measure::with_integrated_places(std::move(series),
+                                           1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
+}
+
+void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck const& deck,
+                   fs::path const& folder) {
+    static_assert(deck::phases_per_cycle == measure::PhaseSeries::per_cycle);
+    auto const series = read_packing_phases(s, deck, folder);
+    measure::LayerFacts const facts = facts_of(record, s);
+    if (series.cycles() < facts.used) {
+        throw InputError(
+            fmt::format("{} ends before cycle {}", (folder / "phases.csv").string(), facts.used));
+    }
+    record.motion = measure::layer_motion(series, facts);
+    if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
+    measure::ProfileFacts profile{s.grains.density,
+                                  deck.time.steps_per_cycle,
+                                  facts.discarded,
+                                  facts.used,
+                                  deck::profiles_per_cycle,
+                                  {},
+                                  {},
+                                  {},
+                                  record.estimate.mean * velocity_scale(s.trough)};
+    add_trough(profile, series, record.motion.curves);
+    record.profiles = measure::layer_profiles(measure::read_snapshots(folder, "profiles"), profile);
+    record.surface = measure::layer_surface(measure::read_snapshots(folder, "surface"), profile);
+}
+
+std::string common_mode(std::vector<store::PackingRecord> const& packings) {
+    std::string common;
+    long most = 0;
+    for (store::PackingRecord const& one : packings) {
+        long const count = std::ranges::count_if(packings, [&](store::PackingRecord const& other) {
+            return other.motion.mode == one.motion.mode;
+        });
+        if (count <= most || one.motion.mode.empty()) continue;
+        most = count;
+        common = one.motion.mode;
+    }
+    return common;
+}
+
+std::string layer_outputs(fs::path const& folder) {
+    if (!fs::is_regular_file(folder / "phases.csv")) return {};
+    std::string all = read_file(folder / "phases.csv");
+    std::set<fs::path> snapshots;
+    for (auto const& entry : fs::directory_iterator(folder)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("profiles.") || name.starts_with("surface.")) snapshots.insert(entry.path());
+    }
+    for (fs::path const& path : snapshots) all += path.filename().string() + read_file(path);
+    return all;
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,236 @@
+#include "measure/layer_profiles.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::measure {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// All numbers of a line; nothing when there is something else in it.
+std::optional<std::vector<double>> numbers_of(std::string_view line) {
+    std::vector<double> numbers;
+    char const* at = line.data();
+    char const* const end = line.data() + line.size();
+    while (true) {
+        while (at != end && *at == ' ') ++at;
+        if (at == end) return numbers;
+        double number = 0;
+        auto const [next, failure] = std::from_chars(at, end, number);
+        if (failure != std::errc() || (next != end && *next != ' ')) return {};
+        numbers.push_back(number);
+        at = next;
+    }
+}
+
+/// Step, number of bins, and then a line per bin: its number, middle, grains, density and means.
+class SnapshotParser {
+  public:
+    explicit SnapshotParser(fs::path path) : path_(std::move(path)) {}
+
+    std::vector<Snapshot> parse() {
+        std::string const content = read_file(path_);
+        for (std::size_t start = 0; start < content.size();) {
+            std::size_t const end = content.find('\n', start);
+            if (end == std::string::npos) break;
+            std::string_view const line(content.data() + start, end - start);
+            start = end + 1;
+            ++line_number_;
+            if (line.empty() || line.front() == '#') continue;
+            take(line);
+        }
+        if (left_ > 0) snapshots_.pop_back();
+        return std::move(snapshots_);
+    }
+
+  private:
+    void take(std::string_view line) {
+        auto numbers = numbers_of(line);
+        if (!numbers) refuse();
+        if (left_ == 0) {
+            if (numbers->size() != 2 || !((*numbers)[1] >= 1 && (*numbers)[1] <= 1e7)) refuse();
+            snapshots_.push_back({static_cast<long>((*numbers)[0]), {}});
+            left_ = static_cast<int>((*numbers)[1]);
+            return;
+        }
+        if (numbers->size() < 5) refuse();
+        snapshots_.back().bins.push_back(
+            {(*numbers)[1], (*numbers)[2], (*numbers)[3], {numbers->begin() + 4, numbers->end()}});
+        --left_;
+    }
+    [[noreturn]] void refuse() const {
+        throw InputError(fmt::format("{}:{}: the line is damaged; expected {}", path_.string(), line_number_,
+                                     left_ == 0 ? "a step and a number of bins" : "the numbers of a bin"));
+    }
+
+    fs::path path_;
+    int line_number_ = 0;
+    int left_ = 0;  ///< bins of the last snapshot that are still to come
+    std::vector<Snapshot> snapshots_;
+};
+
+/// The files by the step at which their run started.
+std::map<long, fs::path> snapshot_files(fs::path const& folder, std::string_view name) {
+    std::map<long, fs::path> files;
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(folder, missing)) {
+        std::string const file = entry.path().filename().string();
+        if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) continue;
+        std::string_view const step(file.data() + name.size() + 1, file.size() - name.size() - 5);
+        long number = 0;
+        auto const [end, failure] = std::from_chars(step.data(), step.data() + step.size(), number);
+        if (failure == std::errc() && end == step.data() + step.size()) files[number] = entry.path();
+    }
+    return files;
+}
+
+/// Snapshots of the cycles that count, by phase.
+std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& snapshots,
+                                                   ProfileFacts const& facts) {
+    std::vector<std::vector<Snapshot const*>> phases(static_cast<std::size_t>(facts.phases));
+    long const n = facts.steps_per_cycle;
+    for (Snapshot const& one : snapshots) {
+        if (one.step <= facts.discarded * n || one.step > facts.used * n) continue;
+        phases[static_cast<std::size_t>(one.step % n * facts.phases / n)].push_back(&one);
+    }
+    return phases;
+}
+
+/// Mean v_x of the grains between two fractions of the layer's number, counted from below.
+double mean_between(Snapshot const& one, double from, double to) {
+    double grains = 0;
+    for (Bin const& bin : one.bins) grains += bin.grains;
+    double below = 0, sum = 0;
+    for (Bin const& bin : one.bins) {
+        double const low = std::max(below, from * grains), high = std::min(below + bin.grains, to * grains);
+        if (high > low) sum += (high - low) * bin.means[0];
+        below += bin.grains;
+    }
+    return sum / ((to - from) * grains);
+}
+
+/// Mean over the phases of the means over their snapshots.
+template <class Value>
+double mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases, Value const& value) {
+    double sum = 0;
+    int seen = 0;
+    for (auto const& snapshots : phases) {
+        double at_phase = 0;
+        for (Snapshot const* one : snapshots) at_phase += value(*one);
+        if (snapshots.empty()) continue;
+        sum += at_phase / static_cast<double>(snapshots.size());
+        ++seen;
+    }
+    return seen > 0 ? sum / seen : nothing;
+}
+
+/// First and last bin in which there ever was a grain, as a half-open range.
+std::pair<std::size_t, std::size_t> occupied(std::vector<std::vector<Snapshot const*>> const& phases) {
+    std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
+    for (auto const& snapshots : phases) {
+        for (Snapshot const* one : snapshots) {
+            for (std::size_t b = 0; b < one->bins.size(); ++b) {
+                if (one->bins[b].grains == 0) continue;
+                first = std::min(first, b);
+                last = std::max(last, b + 1);
+            }
+        }
+    }
+    return {first, last};
+}
+
+void add_bin(Profiles& profiles, std::vector<Snapshot const*> const& snapshots, std::size_t bin,
+             std::size_t phase, ProfileFacts const& facts) {
+    double grains = 0, density = 0, vx = 0, vz = 0;
+    for (Snapshot const* one : snapshots) {
+        Bin const& b = one->bins[bin];
+        grains += b.grains;
+        density += b.density;
+        vx += b.grains * b.means[0];
+        vz += b.grains * b.means[1];
+    }
+    profiles.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
+    profiles.height.push_back(snapshots.front()->bins[bin].place - facts.trough_z[phase]);
+    profiles.solid_fraction.push_back(density / static_cast<double>(snapshots.size()) / facts.density);
+    profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : nothing);
+    profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : nothing);
+}
+
+/// Variance of the surface's height along the trough.
+double surface_variance(Snapshot const& one) {
+    double sum = 0, squares = 0, columns = 0;
+    for (Bin const& bin : one.bins) {
+        if (bin.grains == 0) continue;
+        double const height = 2 * bin.means[0];
+        sum += height;
+        squares += height * height;
+        ++columns;
+    }
+    if (columns < 2) return 0;
+    return std::max(0.0, squares - sum * sum / columns) / (columns - 1);
+}
+
+}  // namespace
+
+std::vector<Snapshot> read_snapshots(fs::path const& folder, std::string_view name) {
+    auto const files = snapshot_files(folder, name);
+    if (files.empty())
+        throw MissingError(fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
+    std::vector<Snapshot> all;
+    for (auto const& [start, path] : files) {
+        std::erase_if(all, [&](Snapshot const& one) { return one.step >= start; });
+        for (Snapshot& one : SnapshotParser(path).parse()) {
+            if (!all.empty() && one.bins.size() != all.front().bins.size())
+                throw InputError(fmt::format("{} holds snapshots of different size", path.string()));
+            all.push_back(std::move(one));
+        }
+    }
+    return all;
+}
+
+Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts) {
+    auto const phases = by_phase(snapshots, facts);
+    auto const [first, last] = occupied(phases);
+    Profiles profiles{};
+    for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+        if (phases[phase].empty()) continue;
+        for (std::size_t bin = first; bin < last; ++bin) add_bin(profiles, phases[phase], bin, phase, facts);
+    }
+    double const difference = mean_over_phases(phases, [](Snapshot const& one) {
+        return mean_between(one, 2.0 / 3, 1) - mean_between(one, 0, 1.0 / 3);
+    });
+    double const drive = std::ranges::max(facts.trough_vx);
+    bool const conveyed = std::abs(facts.conveying_speed) > 0.01 * drive;
+    profiles.velocity_gradient = conveyed ? difference / facts.conveying_speed : nothing;
+    return profiles;
+}
+
+Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts) {
+    auto const phases = by_phase(snapshots, facts);
+    Surface surface{};
+    for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+        if (phases[phase].empty()) continue;
+        for (Bin const& bin : phases[phase].back()->bins) {
+            surface.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
+            surface.x.push_back(bin.place);
+            surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : nothing);
+        }
+    }
+    surface.wiggle_amplitude = std::sqrt(2 * mean_over_phases(phases, surface_variance));
+    return surface;
+}
+
+}  // namespace vibrotrough::measure

@@ -1,0 +1,65 @@
+#include "scenario/shake_test.hpp"
+
+#include "example_campaign.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough {
+namespace {
+
+class ShakeTestCampaign : public testing::Test {
+  protected:
+    ~ShakeTestCampaign() override { std::filesystem::remove(path); }
+
+    Campaign made_from(std::string const& text) {
+        std::ofstream(path) << text;
+        return parse_campaign(shake_test_campaign(path, 0.67), "test.toml");
+    }
+    std::filesystem::path path = testing::TempDir() + fmt::format("shake_{}.toml", ::getpid());
+};
+
+TEST_F(ShakeTestCampaign, ShakesTheSameLayerAlongALevelTrough) {
+    Scenario const original = parse_campaign(example_campaign, "test.toml").cases.front();
+    Campaign const campaign = made_from(example_campaign);
+    ASSERT_EQ(campaign.cases.size(), 1u);
+    Scenario const& test = campaign.cases.front();
+    EXPECT_EQ(test.trough.inclination, 0);
+    EXPECT_EQ(test.trough.vibration_angle, 0);
+    EXPECT_NEAR(machine_number(test.trough), 0.67, 1e-12);
+    EXPECT_EQ(test.trough.amplitude, original.trough.amplitude);
+    EXPECT_EQ(test.trough.friction, original.trough.friction);
+    EXPECT_EQ(test.layer.grains, original.layer.grains);
+    EXPECT_EQ(test.measure.packings, original.measure.packings);
+    EXPECT_EQ(layer_key(test), layer_key(original));
+}
+
+// Drives are swept in vain: one test per layer.
+TEST_F(ShakeTestCampaign, KeepsSweepsOverTheLayerOnly) {
+    std::string const text = example_campaign + std::string(R"(
+[sweep]
+"trough.throw_number" = [1.5, 2.0]
+"trough.tan_inclination" = [-0.05, 0.05]
+"trough.amplitude" = ["5 mm", "7 mm"]
+"trough.friction" = [0.2, 0.3]
+"grains.friction" = { from = 0.4, to = 0.6, step = 0.1 }
+)");
+    Campaign const campaign = made_from(text);
+    ASSERT_EQ(campaign.cases.size(), 6u);
+    for (Scenario const& one : campaign.cases) EXPECT_EQ(one.trough.amplitude, 0.005);
+    EXPECT_EQ(campaign.cases[0].trough.friction, 0.2);
+    EXPECT_EQ(campaign.cases[5].trough.friction, 0.3);
+    for (Scenario const& one : parse_campaign(text, "test.toml").cases) {
+        auto const same = std::ranges::count_if(
+            campaign.cases, [&](Scenario const& test) { return layer_key(test) == layer_key(one); });
+        EXPECT_EQ(same, 1) << "each case has its test";
+    }
+}
+
+}  // namespace
+}  // namespace vibrotrough
