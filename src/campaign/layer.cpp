@@ -36,6 +36,19 @@ void add_trough(measure::ProfileFacts& facts, measure::PhaseSeries const& series
     }
 }
 
+/// The engine gives every sphere of a clump the clump's whole mass, and counts the room behind side walls as
+/// the layer's. Then the profile's own sum, which is the layer's mass, says by how much its densities are
+/// off.
+void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double mass) {
+    std::size_t bins = 0;
+    double sum = 0;
+    while (bins < profiles.phase.size() && profiles.phase[bins] == profiles.phase[0])
+        sum += profiles.solid_fraction[bins++];
+    if (!(sum > 0)) return;
+    double const wanted = mass / (s.grains.density * s.layer.length * s.layer.width * s.grains.diameter / 2);
+    for (double& fraction : profiles.solid_fraction) fraction *= wanted / sum;
+}
+
 }  // namespace
 
 measure::PhaseSeries read_packing_phases(Scenario const& s, deck::Deck const& deck, fs::path const& folder) {
@@ -67,6 +80,8 @@ void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck c
                                   record.estimate.mean * velocity_scale(s.trough)};
     add_trough(profile, series, record.motion.curves);
     record.profiles = measure::layer_profiles(measure::read_snapshots(folder, "profiles"), profile);
+    if (is_clump(s.grains) || s.layer.block != Block::none || s.trough.side_wall_friction)
+        scale_solid_fraction(record.profiles, s, record.mass);
     record.surface = measure::layer_surface(measure::read_snapshots(folder, "surface"), profile);
 }
 

@@ -109,7 +109,9 @@ class Run(EndToEndTest):
         for row, wanted in zip(rows, table):
             self.assertEqual(list(row), list(wanted))
             # Both print the shortest text of a number: equal, not nearly so.
-            self.assertEqual({name: type(wanted[name])(text) for name, text in row.items()}, wanted)
+            # What is not known is null there and empty here.
+            known = {name: value for name, value in wanted.items() if value is not None}
+            self.assertEqual({name: type(known[name])(text) for name, text in row.items() if text}, known)
 
     def test_a_second_run_runs_nothing(self):
         self.run_campaign(self.campaign)
