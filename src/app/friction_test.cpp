@@ -72,6 +72,8 @@ int run(Options const& options) {
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     fs::path const test_file = test_folder / "shake-test.toml";
     for (Scenario const& one : campaign.cases) campaign::write_named_files(one, test_folder);
+    for (fs::path const& file : campaign.files)
+        write_file_atomically(test_folder / file.filename(), read_file(file));
     write_file_atomically(test_file, shake_test_campaign(options.campaign_file, k));
     campaign::Plan const plan = campaign::make_plan(read_campaign(test_file), test_folder, engine.version);
     campaign::Summary summary;

@@ -53,9 +53,25 @@ std::vector<std::pair<toml::key const*, toml::node const*>> in_file_order(toml::
     return entries;
 }
 
+/// toml++ bounds the depth of brackets, but not that of dotted keys, whose million tables would overflow the
+/// stack. A stretch without other punctuation holds at most so many dots.
+bool is_nested_too_deeply(std::string_view text) {
+    constexpr int most_dots = 5000;
+    int dots = 0;
+    for (char const c : text) {
+        if (std::string_view("=,[]{}").find(c) != std::string_view::npos) dots = 0;
+        if (c == '.' && ++dots > most_dots) return true;
+    }
+    return false;
+}
+
 class Reader {
   public:
     Reader(std::string_view text, std::string const& file) : file_(file) {
+        if (is_nested_too_deeply(text)) {
+            throw_at({file_, {}}, "TOML", "keys are nested too deeply",
+                     "write key = value lines under [section] headings");
+        }
         try {
             root_ = toml::parse(text, file);
         } catch (toml::parse_error const& error) {

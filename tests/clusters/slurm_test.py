@@ -45,6 +45,14 @@ class Slurm(EndToEndTest):
         path.write_text(campaign_text(changes, sweep) + asked)
         return path
 
+    def assert_refused(self, done, *parts):
+        """In one line, below what the check of the campaign may have warned of."""
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        lines = [line for line in done.stderr.splitlines() if line.startswith("vibrotrough: ")]
+        self.assertEqual(done.stderr.splitlines()[-1:], lines)
+        for part in parts:
+            self.assertIn(part, lines[0])
+
     def simulations(self):
         """Engines that simulate; each task also asks one for its version."""
         found = []
@@ -125,7 +133,7 @@ class Slurm(EndToEndTest):
         if not list(self.output.glob("cases/*/result.h5")):
             self.assertEqual({case["outcome"] for case in self.status()["cases"]}, {"unknown"})
             refused = self.call(*self.run_arguments(campaign))
-            self.assert_one_line_error(refused, 3, "Slurm does not answer")
+            self.assert_refused(refused, "Slurm does not answer")
         slurm.start_controller()
         self.wait_for_the_end()
         self.run_campaign(campaign)
@@ -139,7 +147,7 @@ class Slurm(EndToEndTest):
             ('[run]\nexecutor = "slurm"\n[run.slurm]\npartition = "short"\ntime = "2 hours"\n', "has a limit of 5 minutes, and run.slurm.time asks for 120"),
         ):  # fmt: skip
             campaign = self.write_slurm_campaign(asked)
-            self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 3, *parts)
+            self.assert_refused(self.call(*self.run_arguments(campaign)), *parts)
             self.assertEqual(self.status()["left"], 3)
             self.assertEqual(self.count_submitted(), 0)
 

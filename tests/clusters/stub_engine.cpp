@@ -1,10 +1,12 @@
 // Stands in for LIGGGHTS where ten thousand cases are run to time the driver, and nowhere else: it answers
 // with its version, and it writes what the two decks would, in no time and without any physics.
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 namespace {
@@ -26,6 +28,25 @@ void settle(std::string const& deck) {
     std::printf("VIBROTROUGH SETTLED floor_force %.15g mass %.15g centre_height 0.01\n", -9.81 * mass, mass);
 }
 
+/// The layer goes with the trough but for a steady slip; one snapshot per profile.
+void write_layer(std::string const& deck, int cycles, int steps, double weight) {
+    double const beta = number_after(deck, "vibration angle ") * std::numbers::pi / 180;
+    double const amplitude = number_after(deck, "deg, amplitude ");
+    std::ofstream table("phases.csv");
+    table.precision(12);
+    table << "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,floor_z,touching,touching_vx,"
+             "touching_spin,"
+             "clearance,energy_translation,energy_rotation,overlap\n";
+    for (int i = 1; i <= 100 * cycles; ++i) {
+        double const place = amplitude * std::sin(2 * std::numbers::pi * i / 100);
+        double const x = place * std::cos(beta), z = place * std::sin(beta);
+        table << i * (steps / 100) << ',' << x << ',' << z << ",1,0," << x << ',' << z << ",-0.01," << -weight
+              << ',' << -weight << ",10,10,0,-1e-6,0,0,2e-6\n";
+    }
+    std::ofstream("profiles.0.txt") << steps * 6 / 5 << " 1\n  1 0.001 10 700 1 0\n";
+    std::ofstream("surface.0.txt") << steps * 6 / 5 << " 1\n  1 0.001 10 700 0.002\n";
+}
+
 void drive(std::string const& deck) {
     double const weight = 9.81 * std::strtod(content("settled.restart").c_str(), nullptr);
     int const grains = static_cast<int>(number_after(deck, "#   grains    "));
@@ -34,6 +55,7 @@ void drive(std::string const& deck) {
     std::ofstream table("cycles.csv");
     table.precision(15);
     table << "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n";
+    write_layer(deck, cycles, steps, weight);
     double x = 0.01;
     for (int k = 0; k <= cycles; ++k) {
         if (k > 0) x += k % 2 == 0 ? 0.0101 : 0.0099;
