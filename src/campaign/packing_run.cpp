@@ -64,6 +64,8 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
         start_engine(checkpoint);
         return;
     }
+    // From now on the packing is seen as under way.
+    make_folder(folder_);
     settled_.obtain(deck_, [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
         if (!alive.expired()) start_on(made);
     });

@@ -61,7 +61,8 @@ Transcript read_transcript(std::filesystem::path const& path) {
 
 /// What the deck says after its failure marker: " <name>: <message>".
 RunReport named_failure(std::string const& text) {
-    std::string const named = text.substr(text.find_first_not_of(' '));
+    std::string const named = text.substr(std::min(text.find_first_not_of(' '), text.size()));
+    if (named.empty()) return {Outcome::engine_error, "the deck gave up without saying why"};
     for (Outcome const outcome : {Outcome::insertion_incomplete, Outcome::not_settled}) {
         std::string const prefix = to_string(outcome) + ": ";
         if (named.starts_with(prefix)) return {outcome, named.substr(prefix.size())};

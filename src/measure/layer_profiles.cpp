@@ -191,7 +191,7 @@ std::vector<Snapshot> read_snapshots(fs::path const& folder, std::string_view na
         throw MissingError(fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
     std::vector<Snapshot> all;
     for (auto const& [start, path] : files) {
-        std::erase_if(all, [&](Snapshot const& one) { return one.step >= start; });
+        std::erase_if(all, [first = start](Snapshot const& one) { return one.step >= first; });
         for (Snapshot& one : SnapshotParser(path).parse()) {
             if (!all.empty() && one.bins.size() != all.front().bins.size())
                 throw InputError(fmt::format("{} holds snapshots of different size", path.string()));

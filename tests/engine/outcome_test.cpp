@@ -66,6 +66,9 @@ TEST_F(OutcomeTest, FailuresHaveNames) {
     RunReport const restless = examine("VIBROTROUGH FAILED not-settled: kinetic energy\n");
     EXPECT_EQ(restless.outcome, Outcome::not_settled);
     EXPECT_EQ(restless.message, "kinetic energy");
+    // A line cut short, found by fuzzing.
+    EXPECT_EQ(examine("VIBROTROUGH FAILED\n").outcome, Outcome::engine_error);
+    EXPECT_EQ(examine("VIBROTROUGH FAILED  ").outcome, Outcome::engine_error);
     EXPECT_EQ(examine("WARNING: Not all nodes of fix mesh inside simulation box, elements will be deleted\n" +
                       whole)
                   .outcome,
