@@ -18,7 +18,7 @@ VARIATIONS = [
     ("time_step", "solver.rayleigh_fraction", [0.1, 0.2, 0.3, 0.4], 0.2, 0.1),
     ("length", "layer.length", ["24 mm", "36 mm", "72 mm", "144 mm"], "36 mm", "144 mm"),
     ("width", "layer.width", ["15 mm", "18 mm", "36 mm", "72 mm"], "18 mm", "72 mm"),
-    ("height", "layer.height", ["6 mm", "12 mm", "24 mm", "36 mm"], "12 mm", "36 mm"),
+    ("height", "layer.height", ["6 mm", "12 mm", "24 mm"], "12 mm", "24 mm"),
 ]
 LABELS = {"modulus": "Young's modulus", "time_step": "time step / Rayleigh time", "length": "length of the box",
           "width": "width of the box", "height": "height of the layer", "seeds": "packing"}
