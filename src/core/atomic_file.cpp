@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/time.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -66,7 +67,10 @@ std::string read_file(fs::path const& path) {
     if (!file || fs::is_directory(path)) {
         throw MissingError(fmt::format("cannot open {} (no such file, or not readable)", path.string()));
     }
-    std::string content{std::istreambuf_iterator<char>(file), {}};
+    std::string content;
+    std::array<char, 1 << 16> block;
+    while (file.read(block.data(), block.size()), file.gcount() > 0)
+        content.append(block.data(), static_cast<std::size_t>(file.gcount()));
     if (file.bad())
         throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
     return content;
