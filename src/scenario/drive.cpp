@@ -1,10 +1,10 @@
 #include "scenario/drive.hpp"
 
+#include "scenario/number_table.hpp"
 #include "scenario/scenario.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -20,44 +20,10 @@ constexpr double two_pi = 2 * std::numbers::pi;
 
 using Sample = std::array<double, 3>;  // time, x, z
 
-bool read_sample(std::string_view line, Sample& sample) {
-    char const* at = line.data();
-    char const* const end = at + line.size();
-    for (std::size_t column = 0; column < sample.size(); ++column) {
-        auto const [next, failure] = std::from_chars(at, end, sample[column]);
-        bool const last = column + 1 == sample.size();
-        if (failure != std::errc() || !std::isfinite(sample[column]) ||
-            (last ? next != end : next == end || *next != ',')) {
-            return false;
-        }
-        at = next + 1;
-    }
-    return true;
-}
-
 std::vector<Sample> read_samples(std::string_view csv) {
     std::vector<Sample> samples;
-    bool seen_header = false;
-    int number = 0;
-    while (!csv.empty()) {
-        std::size_t const end = std::min(csv.find('\n'), csv.size());
-        std::string_view line = csv.substr(0, end);
-        csv.remove_prefix(std::min(end + 1, csv.size()));
-        ++number;
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        if (line.empty() || line.front() == '#') continue;
-        if (!seen_header) {
-            if (line != "time_s,x_m,z_m") {
-                throw std::invalid_argument(fmt::format("line {} is not the header time_s,x_m,z_m", number));
-            }
-            seen_header = true;
-            continue;
-        }
-        Sample sample{};
-        if (!read_sample(line, sample))
-            throw std::invalid_argument(fmt::format("line {} is not three numbers", number));
-        samples.push_back(sample);
-    }
+    for (auto const& row : read_number_table<3>(csv, "time_s,x_m,z_m", "three"))
+        samples.push_back(row.values);
     return samples;
 }
 

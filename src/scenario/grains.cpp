@@ -1,8 +1,8 @@
 #include "scenario/grains.hpp"
 
+#include "scenario/number_table.hpp"
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -87,44 +87,14 @@ std::vector<Sphere> rod_spheres() {
     return {{-0.5, 0, 0, 0.5}, {0, 0, 0, 0.5}, {0.5, 0, 0, 0.5}};
 }
 
-Sphere read_sphere(std::string_view line, int number) {
-    std::array<double, 4> values{};
-    char const* at = line.data();
-    char const* const end = at + line.size();
-    for (std::size_t column = 0; column < values.size(); ++column) {
-        auto const [next, failure] = std::from_chars(at, end, values[column]);
-        bool const last = column + 1 == values.size();
-        if (failure != std::errc() || !std::isfinite(values[column]) ||
-            (last ? next != end : next == end || *next != ',')) {
-            throw std::invalid_argument(fmt::format("line {} is not four numbers", number));
-        }
-        at = next + 1;
-    }
-    if (!(values[3] > 0)) throw std::invalid_argument(fmt::format("line {} has no radius above 0", number));
-    return {values[0], values[1], values[2], values[3]};
-}
-
 std::vector<Sphere> read_spheres(std::string_view text) {
     std::vector<Sphere> spheres;
-    bool seen_header = false;
-    int number = 0;
-    while (!text.empty()) {
-        std::size_t const end = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        ++number;
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        if (line.empty() || line.front() == '#') continue;
-        if (!seen_header) {
-            if (line != "x,y,z,radius")
-                throw std::invalid_argument(fmt::format("line {} is not the header x,y,z,radius", number));
-            seen_header = true;
-            continue;
-        }
-        spheres.push_back(read_sphere(line, number));
-        if (spheres.size() > most_spheres)
-            throw std::invalid_argument(fmt::format("more than {} spheres", most_spheres));
+    for (auto const& [values, line] : read_number_table<4>(text, "x,y,z,radius", "four")) {
+        if (!(values[3] > 0)) throw std::invalid_argument(fmt::format("line {} has no radius above 0", line));
+        spheres.push_back({values[0], values[1], values[2], values[3]});
     }
+    if (spheres.size() > most_spheres)
+        throw std::invalid_argument(fmt::format("more than {} spheres", most_spheres));
     if (spheres.empty()) throw std::invalid_argument("no spheres");
     return spheres;
 }
