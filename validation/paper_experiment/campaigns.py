@@ -1,0 +1,29 @@
+"""The simulations of this case: what is varied on base.toml."""
+
+FRICTION = 0.23  # of base.toml, grain on trough
+SLOPES = [-0.051, 0.046]
+TANGENTS = [0.25, 0.5, 1.0]
+NUMBERS = [0.6, 0.8, 0.95, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0]
+GRID = {"trough.tan_inclination": SLOPES, "trough.tan_vibration_angle": TANGENTS, "trough.throw_number": NUMBERS}
+FREE = {**GRID, "trough.throw_number": [gamma for gamma in NUMBERS if gamma != 0.95]}
+# Every cycle is wanted of these, not only as many as their mean needs.
+WHOLE = {"measure.packings": 1, "measure.half_width": 0.0005}
+WIDE = {**WHOLE, "layer.width": "200 mm", "layer.length": "28 mm", "layer.height": "10.5 mm", "measure.max_cycles": 40,
+        "output.frames_per_cycle": 10}
+
+CAMPAIGNS = {
+    "free": ({}, FREE),
+    "blocked": ({"grains.rotation": "blocked"}, GRID),
+    "cube": ({"grains.shape": "cube", "grains.diameter_spread": 0, "layer.height": "10.5 mm", "measure.max_cycles": 40},
+             {"trough.tan_inclination": SLOPES, "trough.throw_number": [0.8, 1.75]}),
+    "noise": ({"trough.harmonics": ["25, 0.2, 0 deg"]},
+              {"grains.rotation": ["free", "blocked"], "trough.throw_number": [0.8, 1.5, 2.0, 2.5, 3.0]}),
+    "walls": ({**WIDE, "trough.side_wall_friction": 0.23},
+              {"grains.rotation": ["blocked", "free"], "trough.throw_number": [0.8, 2.0]}),
+    "rough_walls": ({**WIDE, "trough.side_wall_friction": 0.6}, {"trough.throw_number": [2.0]}),
+    "waves": ({**WHOLE, "layer.length": "168 mm", "measure.max_cycles": 60},
+              {"trough.throw_number": [1.5, 1.75, 2.0, 2.5, 3.0, 3.5]}),
+}
+
+# To try the script: the last case of each campaign, and few cycles.
+QUICK = {"measure.packings": 1, "measure.max_cycles": 20, "measure.half_width": 0.5}

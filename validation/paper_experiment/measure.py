@@ -1,0 +1,127 @@
+"""The long part: runs the campaigns and writes their small tables."""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+
+import numpy as np  # noqa: E402
+from campaign_program import campaign_text  # noqa: E402
+from campaigns import CAMPAIGNS, QUICK  # noqa: E402
+from lateral_profile import EDGES, lateral_profile  # noqa: E402
+from layer_waves import waves  # noqa: E402
+from vibrotrough import open_result  # noqa: E402
+
+START = 20  # cycles of start-up that the profiles across and along leave out
+
+
+def cases_of(run, name):
+    """Each case of a campaign: the table's row, its folder and its result.h5."""
+    changes, sweep = CAMPAIGNS[name]
+    if run.quick:
+        changes, sweep = {**changes, **QUICK}, {key: values[-1:] for key, values in sweep.items()}
+    for row in run.campaign(name, changes, sweep):
+        folder = run.runs / name / "cases" / row["case"]
+        result = open_result(folder) if (folder / "result.h5").exists() else None
+        yield row, folder, result
+
+
+def measure(run):
+    grid(run, "result.csv", ["free", "blocked", "cube"])
+    grid(run, "noise.csv", ["noise"])
+    walls(run)
+    surface(run)
+    shake_test(run)
+
+
+def grid(run, table, names):
+    """A row per case; `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta)."""
+    rows = []
+    for name in names:
+        for row, _, result in cases_of(run, name):
+            rows.append(described(row, result))
+    run.write_table(table, ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width",
+                            "gradient", "overlap", "packings", "cycles", "mode", "outcome"], rows)
+
+
+def described(row, result):
+    inputs = [f"{math.tan(math.radians(float(row[name]))):.4g}" for name in ("inclination_deg", "vibration_angle_deg")]
+    inputs.append(f"{float(row['throw_number']):.4g}")
+    if result is None:
+        return ["", *inputs, "", "", "", "", "", "", "", row["outcome"]]
+    shape = str(result["case/grain_shape"])
+    grains = shape if shape != "sphere" else str(result["case/grain_rotation"])
+    means = " ".join(f"{value:.4f}" for value in result["packings/efficiency"])
+    steady = row["efficiency_dem"] != ""
+    gradient = float(np.nanmean(result["packings/velocity_gradient"] * result["packings/efficiency"])) if steady else math.nan
+    overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
+    eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency_dem", "efficiency_dem_half_width")]
+    return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["mode_layer"],
+            row["outcome"]]
+
+
+def walls(run):
+    """Speed over the distance from the side walls, in omega r cos(beta)."""
+    rows = []
+    for name in ("walls", "rough_walls"):
+        for row, folder, result in cases_of(run, name):
+            scale = 2 * math.pi * float(row["amplitude_m"]) * math.cos(math.radians(float(row["vibration_angle_deg"])))
+            box = tomllib.loads(str(result["scenario"]))["layer"]
+            speed, seen = lateral_profile(folder / "packing-1" / "dump", metres(box["length"]), metres(box["width"]),
+                                          CAMPAIGNS[name][0]["output.frames_per_cycle"], 2 if run.quick else START)
+            error = speed.std(axis=0, ddof=1) / math.sqrt(len(speed))
+            for i in range(len(EDGES) - 1):
+                rows.append([str(result["case/grain_rotation"]), float(result["case/side_wall_friction"]),
+                             f"{float(row['throw_number']):.4g}", EDGES[i], EDGES[i + 1], f"{speed[:, i].mean() / scale:.4f}",
+                             f"{error[i] / scale:.4f}", int(seen[:, i].sum())])
+    run.write_table("walls.csv", ["rotation", "wall_friction", "throw_number", "from_mm", "to_mm", "efficiency", "standard_error",
+                                  "seen"], rows)
+
+
+def metres(text):
+    """A length of a scenario, which a result keeps in SI: a number, or a text with a unit."""
+    number, unit = (str(text).split() + ["m"])[:2]
+    return float(number) * {"m": 1.0, "mm": 1e-3}[unit]
+
+
+def surface(run):
+    rows, shapes = [], []
+    for row, folder, result in cases_of(run, "waves"):
+        length = metres(tomllib.loads(str(result["scenario"]))["layer"]["length"])
+        found = waves(folder / "packing-1", length, int(result["packings/steps_per_cycle"][0]), 2 if run.quick else START)
+        rows.append([f"{float(row['throw_number']):.4g}", row["efficiency_dem"], row["frequency_hz"],
+                     *(f"{1e3 * found[name]:.3f}" for name in ("all", "amplitude", "highest", "wavelength")), f"{found['share']:.3f}",
+                     f"{found['turnover']:.3f}", row["mode_layer"]])
+        shapes += [[f"{float(row['throw_number']):.4g}", cycle, f"{1e3 * x:.2f}", f"{1e3 * z:.3f}"]
+                   for cycle, heights in enumerate(found["two"]) for x, z in zip(found["x"], heights)]
+    run.write_table("waves.csv", ["throw_number", "efficiency", "frequency_hz", "unevenness_mm", "amplitude_mm",
+                                  "highest_mm", "wavelength_mm", "share", "turnover", "mode"], rows)
+    run.write_table("surfaces.csv", ["throw_number", "snapshot", "x_mm", "deviation_mm"], shapes)
+
+
+def shake_test(run):
+    """Friction from the horizontal shake test, for blocks and for layers."""
+    rows = []
+    text = (FOLDER / "base_block.toml").read_text(encoding="utf-8")
+    rows += [["block", *one] for one in frictions(run, "shaken_block", text)]
+    base = tomllib.loads((FOLDER / "base.toml").read_text(encoding="utf-8"))
+    for name in () if run.quick else ("free", "blocked"):
+        changes = {**CAMPAIGNS[name][0], "campaign.name": "shaken_" + name}
+        layer = campaign_text(base, changes, {"trough.throw_number": [0.8]})
+        rows += [[name, *one] for one in frictions(run, "shaken_" + name, layer)]
+    run.write_table("friction.csv", ["what", "friction_put_in", "friction", "low", "high", "machine_number", "mode"], rows)
+
+
+def frictions(run, name, text):
+    file, folder = run.runs / f"{name}.toml", run.runs / name
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    command = [run.program, "friction-test", str(file), "--output", str(folder), "--jobs", str(run.jobs)]
+    if subprocess.run(command, check=False).returncode not in (0, 1):
+        sys.exit(f"{' '.join(command)} failed")
+    for test in json.loads((folder / "friction.json").read_text(encoding="utf-8")):
+        yield (test.get(key) for key in ("grain_friction", "friction", "friction_low", "friction_high", "machine_number", "mode"))
