@@ -6,13 +6,13 @@ import numpy as np
 from campaigns import SLOPES, TANGENTS
 
 WORDS = {"free": "spheres that roll", "blocked": "grains that cannot rotate"}
-CURVE = np.round(np.arange(0.5, 3.101, 0.05), 3)
+CURVE = np.round(np.arange(0.5, 3.101, 0.02), 3)
 
 
 def efficiency(run, theory, grid):
     figure, axes = style.new_figure(2, len(SLOPES), size=(10.5, 8), sharex=True, sharey=True, layout="constrained")
     for column, slope in enumerate(SLOPES):
-        curves = {tangent: [theory.efficiency(slope, tangent, gamma) for gamma in CURVE] for tangent in TANGENTS}
+        curves = {tangent: theory.efficiencies([(slope, tangent, gamma) for gamma in CURVE]) for tangent in TANGENTS}
         for row, grains in enumerate(WORDS):
             panel = axes[row][column]
             style.plain_axes(panel)
@@ -79,8 +79,8 @@ def heights(panel, waves):
 
 
 def shapes(panel, surfaces, waves):
-    numbers = [row["throw_number"] for row in waves]
-    for i, gamma in enumerate([numbers[1], numbers[-2]] if len(numbers) > 2 else numbers):
+    numbers = sorted(row["throw_number"] for row in waves)
+    for i, gamma in enumerate(numbers[::4][:2]):
         for snapshot in (0, 1):
             rows = [row for row in surfaces if row["throw_number"] == gamma and row["snapshot"] == snapshot]
             panel.plot([row["x_mm"] for row in rows], [row["deviation_mm"] + 10 * i for row in rows], style.DASHES[snapshot],

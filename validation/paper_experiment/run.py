@@ -2,6 +2,7 @@
 import math
 import pathlib
 import sys
+import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -10,7 +11,7 @@ import draw  # noqa: E402
 import findings  # noqa: E402
 from campaigns import FREE, FRICTION, GRID  # noqa: E402
 from measure import measure  # noqa: E402
-from validation_case import ValidationCase  # noqa: E402
+from validation_case import ValidationCase, read_table  # noqa: E402
 
 STEADY = ("finished", "not-precise")
 
@@ -21,11 +22,20 @@ class Theory:
     def __init__(self, run):
         self.run, self.sign = run, -1 if run.wrong else 1
 
-    def efficiency(self, tan_inclination, tan_vibration_angle, throw_number, harmonic=None):
+    def efficiency(self, tan_inclination, tan_vibration_angle, throw_number, harmonic):
         words = ["--tan-inclination", self.sign * tan_inclination, "--tan-vibration-angle", tan_vibration_angle,
                  "--throw-number", throw_number, "--friction", FRICTION]
-        words += ["--harmonic-along", harmonic, "--harmonic-normal", harmonic] if harmonic else []
+        words += ["--harmonic-along", harmonic, "--harmonic-normal", harmonic]
         return self.run.json("point", *words)["velocity_efficiency"]
+
+    def efficiencies(self, points):
+        """Of many points (tan_inclination, tan_vibration_angle, throw_number) at once."""
+        with tempfile.TemporaryDirectory() as folder:
+            asked, told = (pathlib.Path(folder) / name for name in ("points.csv", "answers.csv"))
+            lines = [f"{self.sign * slope},{tangent},{gamma},{FRICTION}" for slope, tangent, gamma in points]
+            asked.write_text("tan_inclination,tan_vibration_angle,throw_number,friction\n" + "\n".join(lines) + "\n", encoding="utf-8")
+            self.run.theory("batch", asked, "--output", told)
+            return [float(row["velocity_efficiency"]) for row in read_table(told)]
 
 
 def numbers(rows):
@@ -45,8 +55,9 @@ def main():
         measure(run)
     theory = Theory(run)
     grid = numbers(run.table("result.csv"))
-    for row in grid:
-        row["theory"] = theory.efficiency(row["tan_inclination"], row["tan_vibration_angle"], row["throw_number"])
+    places = [[row[key] for key in ("tan_inclination", "tan_vibration_angle", "throw_number")] for row in grid]
+    for row, eta in zip(grid, theory.efficiencies(places)):
+        row["theory"] = eta
     walls, waves, friction = (numbers(run.table(name)) for name in ("walls.csv", "waves.csv", "friction.csv"))
     noise = numbers(run.table("noise.csv"))
     criteria(run, grid, walls, friction)
