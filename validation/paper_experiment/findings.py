@@ -5,6 +5,7 @@ import statistics
 
 NEAR_ZERO = 0.03  # of eta: what was asked of the means; 20 % of less cannot be told
 NOISY = (0.8, 0.95, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+KINDS = [("blocked", "grains that cannot rotate"), ("cube", "cubes of eight spheres"), ("free", "spheres that roll")]
 MODERATE = (1.5, 1.75, 2.0)
 
 
@@ -24,18 +25,16 @@ def follows(row):
 
 
 def slide_conveyors(run, grid):
-    told = {}
-    for grains in ("blocked", "cube", "free"):
+    for grains, words in KINDS:
         rows = steady(grid, grains, lambda row: row["throw_number"] < 1)
-        if rows:
-            off = statistics.median(abs(row["efficiency"] - row["theory"]) for row in rows)
-            told[grains] = (sum(map(follows, rows)), len(rows), off)
-    text = ", ".join(f"{grains} {good} of {count} (median difference {off:.3f})" for grains, (good, count, off) in told.items())
-    for grains, words in [("blocked", "grains that cannot rotate"), ("cube", "cubes of eight spheres"), ("free", "spheres that roll")]:
-        if grains in told:
-            good, count, _ = told[grains]
-            run.finding(f"(a) below throw number 1 the layer follows the theory within 20 %: {words}", good == count,
-                        f"{good} of {count} steady cases do; of all kinds: {text}")
+        if not rows:
+            continue
+        off = [row["efficiency"] - row["theory"] for row in rows]
+        good = sum(abs(one) <= 0.2 * abs(row["theory"]) for one, row in zip(off, rows))
+        near = sum(map(follows, rows)) - good
+        run.finding(f"(a) below throw number 1 the layer follows the theory within 20 %: {words}", good + near == len(rows),
+                    f"{good} of {len(rows)} steady cases do" + (f", {near} more are within {NEAR_ZERO} of a theory near zero" if near else "")
+                    + f"; layer - theory from {min(off):+.2f} to {max(off):+.2f}, median {statistics.median(off):+.2f}")
 
 
 def spread(rows, key):
