@@ -15,16 +15,15 @@ CAMPAIGNS = {
     "free": ({}, FREE),
     "blocked": ({"grains.rotation": "blocked"}, GRID),
     "cube": ({"grains.shape": "cube", "grains.diameter_spread": 0, "layer.height": "10.5 mm", "measure.max_cycles": 40},
-             {"trough.tan_inclination": SLOPES, "trough.throw_number": [0.8, 1.75]}),
+             {"trough.tan_inclination": SLOPES, "trough.throw_number": [0.8]}),
     # Where the blocked layer is furthest from the theory below throw number 1: is it the softness of the grains?
     "stiff": ({"grains.rotation": "blocked", "trough.tan_inclination": 0.046, "trough.tan_vibration_angle": 1.0,
                "trough.throw_number": 0.95, "measure.packings": 1, "measure.max_cycles": 40},
-              {"grains.youngs_modulus": ["1 MPa", "5 MPa", "50 MPa"]}),
+              {"grains.youngs_modulus": ["1 MPa", "20 MPa"]}),
     "noise": ({"trough.harmonics": ["25, 0.2, 0 deg"]},
               {"grains.rotation": ["free", "blocked"], "trough.throw_number": [0.8, 1.5, 2.0, 2.5, 3.0]}),
     "walls": ({**WIDE, "trough.side_wall_friction": 0.23},
               {"grains.rotation": ["blocked", "free"], "trough.throw_number": [0.8, 2.0]}),
-    "rough_walls": ({**WIDE, "trough.side_wall_friction": 0.6}, {"trough.throw_number": [2.0]}),
     "waves": ({**WHOLE, "layer.length": "168 mm", "measure.max_cycles": 60},
               {"trough.throw_number": [1.5, 1.75, 2.0, 2.5, 3.0, 3.5]}),
 }

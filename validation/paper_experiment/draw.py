@@ -27,7 +27,7 @@ def efficiency(run, theory, grid):
     for panel in axes[1]:
         panel.set_xlabel(style.THROW_NUMBER)
     for row in axes:
-        row[0].set_ylabel(style.EFFICIENCY)
+        row[0].set(ylabel=style.EFFICIENCY, ylim=(-0.45, 1.3))
     figure.savefig(run.figure("efficiency.png"), dpi=120)
 
 
@@ -35,15 +35,23 @@ def points(panel, grid, grains, slope, tangent, i):
     rows = [row for row in grid if row["grains"] == grains and row["tan_inclination"] == slope
             and abs(row["tan_vibration_angle"] - tangent) < 1e-3]
     known = [row for row in rows if row["efficiency"] is not None]
-    panel.errorbar([row["throw_number"] for row in known], [row["efficiency"] for row in known], [row["half_width"] for row in known],
-                   fmt=style.MARKERS[i], color=style.COLOURS[i], ms=5, capsize=2, lw=1, label=f"tan β = {tangent:g}")
+    bars(panel, known, style.MARKERS[i], style.COLOURS[i], f"tan β = {tangent:g}")
+
+
+def bars(panel, rows, marker, colour, label):
+    """Thin: the 95 % interval, wide because of two packings only; thick: from one packing's mean to the other's."""
+    gamma = [row["throw_number"] for row in rows]
+    panel.errorbar(gamma, [row["efficiency"] for row in rows], [row["half_width"] for row in rows], fmt="none", ecolor=colour,
+                   alpha=0.35, capsize=2, lw=0.8)
+    means = [[float(text) for text in str(row["packings"]).split()] for row in rows]
+    panel.vlines(gamma, [min(two) for two in means], [max(two) for two in means], color=colour, lw=2.5)
+    panel.plot(gamma, [row["efficiency"] for row in rows], marker, color=colour, ms=5, label=label)
 
 
 def cubes(panel, grid, slope):
     rows = [row for row in grid if row["grains"] == "cube" and row["tan_inclination"] == slope and row["efficiency"] is not None]
     if rows:
-        panel.errorbar([row["throw_number"] for row in rows], [row["efficiency"] for row in rows], [row["half_width"] for row in rows],
-                       fmt="X", color="black", mfc="none", ms=8, capsize=2, lw=1, label="cubes, tan β = 0.5")
+        bars(panel, rows, "X", "black", "cubes, tan β = 0.5")
 
 
 def layer(run, walls, waves, surfaces):

@@ -35,6 +35,7 @@ def measure(run):
     grid(run, "noise.csv", ["noise"])
     walls(run)
     surface(run)
+    stiffness(run)
     shake_test(run)
 
 
@@ -57,7 +58,8 @@ def described(row, result):
     grains = shape if shape != "sphere" else str(result["case/grain_rotation"])
     means = " ".join(f"{value:.4f}" for value in result["packings/efficiency"])
     steady = row["efficiency_dem"] != ""
-    gradient = float(np.nanmean(result["packings/velocity_gradient"] * result["packings/efficiency"])) if steady else math.nan
+    gradients = np.asarray(result["packings/velocity_gradient"] * result["packings/efficiency"])
+    gradient = gradients[~np.isnan(gradients)].mean() if steady and not np.isnan(gradients).all() else math.nan
     overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
     eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency_dem", "efficiency_dem_half_width")]
     return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["mode_layer"],
@@ -67,17 +69,16 @@ def described(row, result):
 def walls(run):
     """Speed over the distance from the side walls, in omega r cos(beta)."""
     rows = []
-    for name in ("walls", "rough_walls"):
-        for row, folder, result in cases_of(run, name):
-            scale = 2 * math.pi * float(row["amplitude_m"]) * math.cos(math.radians(float(row["vibration_angle_deg"])))
-            box = tomllib.loads(str(result["scenario"]))["layer"]
-            speed, seen = lateral_profile(folder / "packing-1" / "dump", metres(box["length"]), metres(box["width"]),
-                                          CAMPAIGNS[name][0]["output.frames_per_cycle"], 2 if run.quick else START)
-            error = speed.std(axis=0, ddof=1) / math.sqrt(len(speed))
-            for i in range(len(EDGES) - 1):
-                rows.append([str(result["case/grain_rotation"]), float(result["case/side_wall_friction"]),
-                             f"{float(row['throw_number']):.4g}", EDGES[i], EDGES[i + 1], f"{speed[:, i].mean() / scale:.4f}",
-                             f"{error[i] / scale:.4f}", int(seen[:, i].sum())])
+    for row, folder, result in cases_of(run, "walls"):
+        scale = 2 * math.pi * float(row["amplitude_m"]) * math.cos(math.radians(float(row["vibration_angle_deg"])))
+        box = tomllib.loads(str(result["scenario"]))["layer"]
+        speed, seen = lateral_profile(folder / "packing-1" / "dump", metres(box["length"]), metres(box["width"]),
+                                      CAMPAIGNS["walls"][0]["output.frames_per_cycle"], 2 if run.quick else START)
+        error = speed.std(axis=0, ddof=1) / math.sqrt(len(speed))
+        for i in range(len(EDGES) - 1):
+            rows.append([str(result["case/grain_rotation"]), float(result["case/side_wall_friction"]),
+                         f"{float(row['throw_number']):.4g}", EDGES[i], EDGES[i + 1], f"{speed[:, i].mean() / scale:.4f}",
+                         f"{error[i] / scale:.4f}", int(seen[:, i].sum())])
     run.write_table("walls.csv", ["rotation", "wall_friction", "throw_number", "from_mm", "to_mm", "efficiency", "standard_error",
                                   "seen"], rows)
 
@@ -103,6 +104,12 @@ def surface(run):
     run.write_table("surfaces.csv", ["throw_number", "snapshot", "x_mm", "deviation_mm"], shapes)
 
 
+def stiffness(run):
+    rows = [[float(result["case/grain_youngs_modulus"]) / 1e6, *described(row, result)[1:6]] for row, _, result in cases_of(run, "stiff")]
+    run.write_table("stiff.csv", ["youngs_modulus_mpa", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency",
+                                  "half_width"], rows)
+
+
 def shake_test(run):
     """Friction from the horizontal shake test, for blocks and for layers."""
     rows = []
@@ -124,4 +131,5 @@ def frictions(run, name, text):
     if subprocess.run(command, check=False).returncode not in (0, 1):
         sys.exit(f"{' '.join(command)} failed")
     for test in json.loads((folder / "friction.json").read_text(encoding="utf-8")):
-        yield (test.get(key) for key in ("grain_friction", "friction", "friction_low", "friction_high", "machine_number", "mode"))
+        values = [test[key] for key in ("grain_friction", "friction", "friction_low", "friction_high", "machine_number")]
+        yield [*("" if value is None else f"{value:.4f}" for value in values), test["mode"]]
