@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "deck/phases.hpp"
+#include "measure/landing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,16 @@ void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double
     for (double& fraction : profiles.solid_fraction) fraction *= wanted / sum;
 }
 
+/// What the difference to the theory is made of; side walls carry a part that the floor's force does not
+/// tell.
+void explain(measure::LayerMotion& motion, Scenario const& s, double mass) {
+    if (s.trough.side_wall_friction) return;
+    motion.landing_friction = measure::landing_friction(motion);
+    motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
+        motion.curves, {mass, s.trough.friction, -gravity * std::sin(s.trough.inclination),
+                        s.trough.frequency, velocity_scale(s.trough)});
+}
+
 }  // namespace
 
 measure::PhaseSeries read_packing_phases(Scenario const& s, deck::Deck const& deck, fs::path const& folder) {
@@ -69,6 +80,7 @@ void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck c
     }
     record.motion = measure::layer_motion(series, facts);
     if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
+    explain(record.motion, s, record.mass);
     measure::ProfileFacts profile{s.grains.density,
                                   deck.time.steps_per_cycle,
                                   facts.discarded,
