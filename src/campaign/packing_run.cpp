@@ -1,15 +1,13 @@
 #include "campaign/packing_run.hpp"
 
-#include "campaign/assemble.hpp"
 #include "campaign/case_state.hpp"
+#include "campaign/layer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 #include "engine/outcome.hpp"
 #include "measure/cycle_series.hpp"
-#include "measure/layer_profiles.hpp"
-#include "measure/phase_series.hpp"
 
 #include <cmath>
 
@@ -154,36 +152,40 @@ PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.outcome != engine::Outcome::completed)
         return {false, to_string(report.outcome), report.message};
-    double const weight = deck_.weight;
+    auto const outputs = read_outputs(folder_);
     try {
-        auto const series = measure::read_cycles(folder_ / "cycles.csv", deck_.time.steps_per_cycle,
-                                                 planned_.scenario.layer.grains);
-        if (static_cast<long>(series.cycles()) * deck_.time.steps_per_cycle != report.last_step) {
-            return {false, "outputs-incomplete",
-                    fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
-                                report.last_step)};
-        }
-        // What the case's result needs must be there now; later it would be too late to run again.
-        auto const phases = measure::read_phases(folder_ / "phases.csv", deck_.time.steps_per_cycle);
-        measure::read_snapshots(folder_, "profiles");
-        measure::read_snapshots(folder_, "surface");
-        if (phases.cycles() != series.cycles()) {
-            return {
-                false, "outputs-incomplete",
-                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
-        }
-        double const carried =
-            measure::weight_by_momentum(series, deck_.mass, 1 / planned_.scenario.trough.frequency);
-        if (!(std::abs(carried - weight) <= balance_tolerance * weight)) {
-            return wrong_weight(carried, weight);
-        }
+        PackingOutcome const outcome = judge_outputs(outputs, report.last_step);
+        if (!outcome.well) return outcome;
     } catch (Error const& error) {
         return {false, "outputs-incomplete", error.what()};
     }
     remove_checkpoints(folder_);
-    write_finished_packing(planned_, packing_,
-                           {wall_time(), started_, utc_now(), std::string(program_version()),
-                            std::string(program_commit()), host_name(), engine_certificate_});
+    write_finished_packing(planned_, packing_, measured_->run, outputs);
+    return {true, {}, {}};
+}
+
+/// What the case's result needs must be there now; later it would be too late to run again.
+PackingOutcome PackingRun::judge_outputs(PackingOutputs const& outputs, long last_step) {
+    Scenario const& scenario = planned_.scenario;
+    auto const series =
+        measure::parse_cycles(outputs.cycles, deck_.time.steps_per_cycle, scenario.layer.grains);
+    if (static_cast<long>(series.cycles()) * deck_.time.steps_per_cycle != last_step) {
+        return {false, "outputs-incomplete",
+                fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
+                            last_step)};
+    }
+    auto const phases = packing_phases(scenario, deck_, outputs.phases);
+    if (phases.cycles() != series.cycles()) {
+        return {false, "outputs-incomplete",
+                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
+    }
+    double const carried = measure::weight_by_momentum(series, deck_.mass, 1 / scenario.trough.frequency);
+    if (!(std::abs(carried - deck_.weight) <= balance_tolerance * deck_.weight))
+        return wrong_weight(carried, deck_.weight);
+    measured_ = {{wall_time(), started_, utc_now(), std::string(program_version()),
+                  std::string(program_commit()), host_name(), engine_certificate_},
+                 measure_packing(scenario, deck_, outputs, series, phases)};
+    measured_->record.wall_time = measured_->run.wall_time;
     return {true, {}, {}};
 }
 

@@ -76,6 +76,10 @@ std::string read_file(fs::path const& path) {
     return content;
 }
 
+TextFile read_text_file(fs::path const& path) {
+    return {path, read_file(path)};
+}
+
 void make_folder(fs::path const& path) {
     std::error_code failure;
     fs::create_directories(path, failure);
