@@ -27,6 +27,15 @@ PackingOutcome wrong_weight(double force, double weight) {
                         force, weight)};
 }
 
+/// What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
+void remove_content(std::filesystem::path const& folder) {
+    std::vector<std::filesystem::path> left;
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(folder, ignored))
+        left.push_back(entry.path());
+    for (std::filesystem::path const& path : left) std::filesystem::remove_all(path, ignored);
+}
+
 /// The packing's folder holds its settled packing, so that the deck runs there by hand.
 void link_file(std::filesystem::path const& from, std::filesystem::path const& to) {
     std::error_code failure;
@@ -82,8 +91,7 @@ void PackingRun::start_on(Settled const& settled) {
         });
         return;
     }
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
+    remove_content(folder_);
     deck::write_deck(deck_, folder_);
     link_file(settled.restart, folder_ / deck::settled_file);
     start_engine({});
@@ -147,7 +155,7 @@ void PackingRun::interrupt() {
 
 PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     // By hand the deck runs on as far as max_cycles.
-    replace_file(folder_ / deck::control_file, deck::control_go_on);
+    if (told_to_end_) replace_file(folder_ / deck::control_file, deck::control_go_on);
     if (interrupted_) return {false, "interrupted", "the run was interrupted"};
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.outcome != engine::Outcome::completed)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -105,11 +106,12 @@ Hdf5Session::Hdf5Session() : lock_(one_at_a_time) {
 ImageWriter::ImageWriter() : file_(make_file()) {}
 
 void ImageWriter::attribute(std::string const& name, int value) {
-    write_attribute(file_.id(), name, H5T_NATIVE_INT, &value);
+    write_attribute(file_.id(), name, H5T_NATIVE_INT, makings_.one, &value);
 }
 
 void ImageWriter::attribute(std::string const& name, std::string const& value) {
-    write_attribute(file_.id(), name, value);
+    char const* const text = value.c_str();
+    write_attribute(file_.id(), name, makings_.text.id(), makings_.one, &text);
 }
 
 void ImageWriter::dataset(std::string const& path, Values const& values, Rank rank, std::string_view units,
@@ -130,9 +132,12 @@ void ImageWriter::grid(std::string const& path, Values const& values, std::size_
 void ImageWriter::write(std::string const& path, Values const& values, Handle const& space,
                         std::string_view units, std::string_view description) {
     Packed const packed = pack(values);
-    Handle const data = write_dataset(file_.id(), path, packed.type, space, packed.bytes);
-    write_attribute(data.id(), "units", std::string(units));
-    write_attribute(data.id(), "description", std::string(description));
+    Handle const data = write_dataset(file_.id(), makings_, path, packed.type, space, packed.bytes);
+    for (auto const& [name, value] : {std::pair("units", units), std::pair("description", description)}) {
+        std::string const words(value);
+        char const* const text = words.c_str();
+        write_attribute(data.id(), name, makings_.text.id(), makings_.one, &text);
+    }
 }
 
 std::string ImageWriter::bytes() const {

@@ -53,6 +53,15 @@ class Handle {
     Close close_;
 };
 
+/// What all datasets and attributes of a file are made with.
+struct Makings {
+    Makings();
+    Handle text;       ///< type of attributes
+    Handle one;        ///< shape of one value
+    Handle in_groups;  ///< link properties: groups are made on the way
+    Handle timeless;   ///< dataset properties: same values, same bytes
+};
+
 /// One thread at a time is inside HDF5, whose usual builds are not thread-safe; its own error print is off.
 class Hdf5Session {
   public:
@@ -90,6 +99,7 @@ class ImageWriter {
                std::string_view description);
 
     Hdf5Session session_;
+    Makings makings_;
     Handle file_;
 };
 

@@ -6,14 +6,11 @@
 namespace vibrotrough::store {
 namespace {
 
-void write_texts(hid_t object, std::string const& name, std::vector<std::string> const& texts) {
+void write_texts(hid_t object, Makings const& makings, std::string const& name,
+                 std::vector<std::string> const& texts) {
     std::vector<char const*> pointers;
     for (std::string const& text : texts) pointers.push_back(text.c_str());
-    Handle const type = text_type(H5T_VARIABLE);
-    Handle const space = data_space(texts.size(), Rank::array);
-    Handle const attribute(H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, "make the attribute " + name);
-    require(H5Awrite(attribute.id(), type.id(), pointers.data()) >= 0, "write the attribute " + name);
+    write_attribute(object, name, makings.text.id(), data_space(texts.size(), Rank::array), pointers.data());
 }
 
 /// Numbers of the one kind and texts of fixed length: what this program writes, and nothing that HDF5 would
@@ -64,9 +61,9 @@ void ImageWriter::table(std::string const& path, std::vector<Column> const& colu
         }
         offset += sizes[c];
     }
-    Handle const data = write_dataset(file_.id(), path, type, data_space(rows, rank), bytes);
-    write_texts(data.id(), "units", units);
-    write_texts(data.id(), "description", descriptions);
+    Handle const data = write_dataset(file_.id(), makings_, path, type, data_space(rows, rank), bytes);
+    write_texts(data.id(), makings_, "units", units);
+    write_texts(data.id(), makings_, "description", descriptions);
 }
 
 ImageTable::ImageTable(hid_t file, std::string const& path, Rank rank, std::size_t limit)

@@ -67,25 +67,26 @@ std::size_t count(Values const& values) {
     return std::visit([](auto const& all) { return all.size(); }, values);
 }
 
-void write_attribute(hid_t object, std::string const& name, hid_t type, void const* value) {
-    Handle const space = data_space(1, Rank::scalar);
+Makings::Makings()
+    : text(text_type(H5T_VARIABLE)),
+      one(data_space(1, Rank::scalar)),
+      in_groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make link properties"),
+      timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset properties") {
+    require(H5Pset_create_intermediate_group(in_groups.id(), 1) >= 0, "ask for groups");
+    require(H5Pset_obj_track_times(timeless.id(), 0) >= 0, "leave out times");
+}
+
+void write_attribute(hid_t object, std::string const& name, hid_t type, Handle const& space,
+                     void const* value) {
     Handle const attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose, "make the attribute " + name);
     require(H5Awrite(attribute.id(), type, value) >= 0, "write the attribute " + name);
 }
 
-void write_attribute(hid_t object, std::string const& name, std::string const& value) {
-    char const* const text = value.c_str();
-    write_attribute(object, name, text_type(H5T_VARIABLE).id(), &text);
-}
-
-Handle write_dataset(hid_t file, std::string const& path, Handle const& type, Handle const& space,
-                     std::string const& bytes) {
-    Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make link properties");
-    require(H5Pset_create_intermediate_group(links.id(), 1) >= 0, "ask for groups");
-    Handle const creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset properties");
-    require(H5Pset_obj_track_times(creation.id(), 0) >= 0, "leave out times");  // same values, same bytes
-    Handle data(H5Dcreate2(file, path.c_str(), type.id(), space.id(), links.id(), creation.id(), H5P_DEFAULT),
+Handle write_dataset(hid_t file, Makings const& makings, std::string const& path, Handle const& type,
+                     Handle const& space, std::string const& bytes) {
+    Handle data(H5Dcreate2(file, path.c_str(), type.id(), space.id(), makings.in_groups.id(),
+                           makings.timeless.id(), H5P_DEFAULT),
                 H5Dclose, "make the dataset " + path);
     if (!bytes.empty()) {
         require(H5Dwrite(data.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0,

@@ -25,11 +25,11 @@ Packed pack(Values const& values);
 
 std::size_t count(Values const& values);
 
-void write_attribute(hid_t object, std::string const& name, hid_t type, void const* value);
-void write_attribute(hid_t object, std::string const& name, std::string const& value);
+void write_attribute(hid_t object, std::string const& name, hid_t type, Handle const& space,
+                     void const* value);
 
 /// Makes a dataset with the groups above it and writes its bytes.
-Handle write_dataset(hid_t file, std::string const& path, Handle const& type, Handle const& space,
-                     std::string const& bytes);
+Handle write_dataset(hid_t file, Makings const& makings, std::string const& path, Handle const& type,
+                     Handle const& space, std::string const& bytes);
 
 }  // namespace vibrotrough::store
