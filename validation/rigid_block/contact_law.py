@@ -42,12 +42,12 @@ class Law:
         return (slow / fast) ** ((fast + slow) / (fast - slow)) if root else float(numpy.exp(-2))
 
 
-def efficiency(pairs, contacts_per_cycle, steps, cycles, start=0.0):
+def efficiency(pairs, contacts_per_cycle, steps, cycles, start=0):
     """Velocity efficiency of each cycle, shape (cycles, pairs).
 
     @param pairs  (Point, Law) each
     @param steps  per cycle
-    @param start  speed along the trough at phase 0, in omega r; the mass begins on the trough
+    @param start  speed along the trough at phase 0, in omega r, of each pair or of all; the mass begins on the trough
     """
     points, laws = [point for point, _ in pairs], [law for _, law in pairs]
     column = lambda values: numpy.array(list(values), dtype=float)  # noqa: E731
@@ -66,7 +66,7 @@ def efficiency(pairs, contacts_per_cycle, steps, cycles, start=0.0):
     place = numpy.sin(CYCLE * numpy.arange(steps + 1) / steps)
     speed = numpy.diff(place) / step
     x, z, vx, vz, spring = (numpy.zeros(len(pairs)) for _ in range(5))
-    vx += start
+    vx += numpy.asarray(start, dtype=float)
     ax, az = gravity_x, gravity_z
     means = numpy.empty((cycles, len(pairs)))
     for cycle in range(cycles):
