@@ -20,6 +20,7 @@ void add_export(CLI::App& program, int& exit_code);
 void add_plot(CLI::App& program, int& exit_code);
 void add_report(CLI::App& program, int& exit_code);  // in plot.cpp: the report is drawn with the figures
 void add_probe_engine(CLI::App& program, int& exit_code);
+void add_validate(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_theory_point(CLI::App& theory, int& exit_code);
 void add_theory_map(CLI::App& theory, int& exit_code);

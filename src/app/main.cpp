@@ -29,6 +29,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_report(program, exit_code);
     add_check(program, exit_code);
     add_probe_engine(program, exit_code);
+    add_validate(program, exit_code);
     CLI::App* const theory =
         program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
     theory->require_subcommand(1);

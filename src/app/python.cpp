@@ -74,13 +74,18 @@ fs::path script_folder() {
                     (program.parent_path().parent_path() / installed_scripts).string(), source_scripts));
 }
 
-void run_script(std::string const& script, std::vector<std::string> const& arguments,
-                std::string const& python, std::vector<std::string> const& modules) {
+int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
+                     std::string const& python, std::vector<std::string> const& modules) {
     fs::path const path = script_folder() / script;
     // -B: an installed folder need not be writable, and the sources stay clean.
     std::vector<std::string> words{find_python(python, modules), "-B", path.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    int const code = run_program(words, false);
+    return run_program(words, false);
+}
+
+void run_script(std::string const& script, std::vector<std::string> const& arguments,
+                std::string const& python, std::vector<std::string> const& modules) {
+    int const code = script_exit_code(script, arguments, python, modules);
     if (code == 130 || code == 128 + 2)
         throw MissingError(fmt::format("{} was interrupted; start it again", script));
     if (code != 0) {

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "deck/phases.hpp"
+#include "measure/landing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,16 @@ void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double
     for (double& fraction : profiles.solid_fraction) fraction *= wanted / sum;
 }
 
+/// What the difference to the theory is made of; side walls carry a part that the floor's force does not
+/// tell.
+void explain(measure::LayerMotion& motion, Scenario const& s, double mass) {
+    if (s.trough.side_wall_friction) return;
+    motion.landing_friction = measure::landing_friction(motion);
+    motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
+        motion.curves, {mass, s.trough.friction, -gravity * std::sin(s.trough.inclination),
+                        s.trough.frequency, velocity_scale(s.trough)});
+}
+
 }  // namespace
 
 measure::PhaseSeries packing_phases(Scenario const& s, deck::Deck const& deck, TextFile const& file) {
@@ -66,6 +77,7 @@ void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck c
     auto const surface = measure::parse_snapshots(outputs.snapshots, outputs.folder, "surface");
     record.motion = measure::layer_motion(series, facts);
     if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
+    explain(record.motion, s, record.mass);
     measure::ProfileFacts profile{s.grains.density,
                                   deck.time.steps_per_cycle,
                                   facts.discarded,

@@ -12,6 +12,10 @@
 namespace vibrotrough::store {
 namespace {
 
+/// HDF5 wants a name for a file in memory and refuses one that it can open on the disk: under a device
+/// nothing is.
+constexpr char const* no_file = "/dev/null/vibrotrough";
+
 std::mutex one_at_a_time;
 
 /// An attribute of one value, after checking that its type is of the class wanted.
@@ -32,7 +36,7 @@ Handle make_file() {
     // No reserves of space, so that the file is no longer than what it holds.
     require(H5Pset_meta_block_size(access.id(), 0) >= 0 && H5Pset_small_data_block_size(access.id(), 0) >= 0,
             "switch off reserves");
-    return Handle(H5Fcreate("vibrotrough", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
+    return Handle(H5Fcreate(no_file, H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
 }
 
 /// The line after HDF5's end.
@@ -55,7 +59,7 @@ Handle open_file(std::string bytes) {
     std::size_t constexpr increment = std::size_t{1} << 16;
     require(H5Pset_fapl_core(access.id(), increment, 0) >= 0, "choose HDF5's memory driver");
     require(H5Pset_file_image(access.id(), bytes.data(), bytes.size()) >= 0, "hand the bytes to HDF5");
-    return Handle(H5Fopen("vibrotrough", H5F_ACC_RDONLY, access.id()), H5Fclose, "open it as HDF5");
+    return Handle(H5Fopen(no_file, H5F_ACC_RDONLY, access.id()), H5Fclose, "open it as HDF5");
 }
 
 /// A dataset's values as bytes, `size` each, after checking type and shape.

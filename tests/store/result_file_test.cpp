@@ -140,6 +140,18 @@ TEST_F(ResultFile, SameRecordGivesSameBytes) {
     EXPECT_EQ(read_file(path), read_file(folder / "again.h5"));
 }
 
+// HDF5's files in memory have names, too: whatever lies in the folder where the program is started must not
+// matter.
+TEST_F(ResultFile, FilesInTheCurrentFolderDoNotMatter) {
+    auto const before = std::filesystem::current_path();
+    std::filesystem::current_path(folder);
+    std::ofstream("vibrotrough") << "the program itself";
+    write_result(path, sample_record());
+    EXPECT_NO_THROW(expect_equal(read_result(path), sample_record()));
+    std::filesystem::current_path(before);
+    EXPECT_EQ(read_file(folder / "vibrotrough"), "the program itself");
+}
+
 TEST_F(ResultFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
     write_result(path, sample_record());
     std::string const whole = read_file(path);

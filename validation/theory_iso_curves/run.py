@@ -11,11 +11,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 import draw_theory_map  # noqa: E402
-from theory_program import Validation  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 
 def main():
-    run = Validation("Fig. 5: curves of equal efficiency over inclination and throw number", FOLDER)
+    run = ValidationCase(FOLDER)
     figure, axes = plt.subplots(2, 2, figsize=(11, 8), layout="constrained")
     for i, mu in enumerate((0.2, 0.3)):
         for j, beta in enumerate((30, 45)):

@@ -6,11 +6,11 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import draw_theory_map  # noqa: E402
-from theory_program import Validation  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 
 def main():
-    run = Validation("Figs 2, 3, 4: mode diagrams and efficiency over throw number and vibration angle", FOLDER)
+    run = ValidationCase(FOLDER)
     for tan_alpha, name in ((-0.1, "decline"), (0.1, "incline")):
         path = run.output / f"{name}.h5"
         print(run.theory("map", "--x", f"throw_number=0.3:3.3:{run.points}", "--y", f"vibration_angle_deg=5:60:{run.points}",

@@ -12,11 +12,11 @@ import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from theory_program import Validation  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 
 def main():
-    run = Validation("Fig. 8: largest relative displacement of a horizontal shake test against friction", FOLDER)
+    run = ValidationCase(FOLDER)
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     for k in (0.5, 0.67, 1, 1.5, 2, 4):
         rows = run.csv("friction", "--machine-number", k, "--friction", "0.02:0.6:117")

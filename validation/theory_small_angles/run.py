@@ -8,11 +8,11 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import math  # noqa: E402
 
 import draw_theory_map  # noqa: E402
-from theory_program import Validation  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 
 def main():
-    run = Validation("Fig. 7: mode diagram at small vibration angles; Eqs. 20 and 21", FOLDER)
+    run = ValidationCase(FOLDER)
     path = run.output / "small_angles.h5"
     run.theory("map", "--x", f"machine_number=0.3:3:{run.points}", "--y", f"vibration_angle_deg=0:10:{run.points}",
                "--friction", 0.35, "--output", path)

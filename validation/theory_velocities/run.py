@@ -10,13 +10,13 @@ import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-from theory_program import Validation  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 SMALL = ("--tan-vibration-angle", 1e-6, "--friction", 0.35)
 
 
 def main():
-    run = Validation("Fig. 6: velocities of trough and mass at the throw numbers 3.297 and 2.975", FOLDER)
+    run = ValidationCase(FOLDER)
     limits = run.json("limits", "--friction", 0.35, "--tan-vibration-angle", 1e-6)
     whole, best = limits["throw_number_of_whole_cycle_flight"], limits["best_throw_number_small_angle"]
     run.check("throw number of maximum efficiency (2.975)", best, 2.975, 0.0006)

@@ -1,0 +1,87 @@
+#include "app/commands.hpp"
+#include "app/python.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::vector<std::string> names;
+    std::string output = "runs/validation", runs = "runs", python;
+    bool list = false, long_ones = false, store = false, verbose = false, page = false;
+    unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+    int points = 300;
+};
+
+std::vector<std::string> words(Options const& options) {
+    std::vector<std::string> all = options.names;
+    all.insert(all.end(), {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
+                           options.output, "--runs", options.runs, "--jobs", std::to_string(options.jobs),
+                           "--points", std::to_string(options.points)});
+    if (options.list) all.emplace_back("--list");
+    if (options.long_ones) all.emplace_back("--long");
+    if (options.store) all.emplace_back("--store");
+    if (options.verbose) all.emplace_back("--verbose");
+    if (options.page) all.emplace_back("--page");
+    return all;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program, int& exit_code) {
+    CLI::App* const command = program.add_subcommand(
+        "validate", "Hold the program against the paper, exact solutions and other people's measurements");
+    auto const options = std::make_shared<Options>();
+    command->add_option("NAME", options->names, "Cases of validation/; default: all")->type_name("");
+    command->add_flag("--list", options->list,
+                      "List the cases with their latest stored verdict; run nothing");
+    command->add_flag("--long", options->long_ones,
+                      "Run the simulations of the long cases (minutes to an hour each); without it their "
+                      "stored tables are judged again");
+    command
+        ->add_option("--output", options->output,
+                     "Folder for tables, figures, verdicts and logs, one folder per case")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command
+        ->add_option("--runs", options->runs, "Folder for simulations, which go on where they were stopped")
+        ->capture_default_str()
+        ->type_name("DIR");
+    command->add_option("--jobs", options->jobs, "Simulations at once; default: the number of cores")
+        ->check(CLI::Range(1, 4096));
+    command->add_option("--points", options->points, "Per axis of a map of the theory")
+        ->capture_default_str()
+        ->check(CLI::Range(10, 5000));
+    command->add_flag("--store", options->store,
+                      "Keep tables, figures and verdicts in validation/ itself and renew its page");
+    command->add_flag("--page", options->page, "Print the page of stored verdicts; run nothing");
+    command->add_flag("--verbose", options->verbose,
+                      "Show what the cases print instead of writing it to their logs");
+    command->add_option("--python", options->python, "Python with numpy, h5py and matplotlib")
+        ->type_name("PATH");
+    command->footer(
+        "A case holds when all its criteria do. Each has a wrong twin, a deliberate mistake that its "
+        "criteria must "
+        "notice.\n"
+        "Exit codes: 0 every case holds and every twin was noticed; 1 some do not, or were not; 2 the input "
+        "is "
+        "wrong;\n"
+        "3 something is missing (Python with its modules, no engine, disk); 130 interrupted.\n"
+        "Example: vibrotrough validate theory_table_1 rigid_block --verbose");
+    command->callback([options, &exit_code] {
+        exit_code = script_exit_code("validate.py", words(*options), options->python,
+                                     {"numpy", "h5py", "matplotlib"});
+    });
+}
+
+}  // namespace vibrotrough::app
