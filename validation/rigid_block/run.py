@@ -5,6 +5,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -33,8 +34,8 @@ PLASTIC = Law("the decks' law", 1, 10)
 FORMER = Law("former law", math.pi**2, 3 * math.pi, pulls=True, tangential_stiffness=4 * math.pi**2)
 LAWS = [PLASTIC, Law("may pull", 1, 10, pulls=True), Law("damped 2 times the critical", 25 / 4, 10),
         Law("damped 1.5 times the critical", 100 / 9, 10), Law("critically damped", 25, 10),
-        Law("spring along, kt = 10 kn", 1, 10, tangential_stiffness=10), Law("spring along, kt = 40 kn", 1, 10, tangential_stiffness=40),
-        Law("spring along, kt = 160 kn", 1, 10, tangential_stiffness=160), FORMER]
+        Law("spring along of 10 kn", 1, 10, tangential_stiffness=10), Law("spring along of 40 kn", 1, 10, tangential_stiffness=40),
+        Law("spring along of 160 kn", 1, 10, tangential_stiffness=160), FORMER]
 CONTACTS, STEPS = 300, 6000  # per cycle, as in the decks
 LAW_CYCLES, KEPT, START_CYCLES = 100, 20, 160
 STEADY = 0.001  # largest spread of a motion's last cycles, in efficiency
@@ -137,17 +138,16 @@ def starts(run):
 
 def theories(run, points, restitution=None):
     """The theory's answers at many points; the wrong twin's friction is 30 % too high."""
-    table, answers = run.output / "points.csv", run.output / "answers.csv"
     lines = [",".join(POINT_COLUMNS + ["restitution"])]
     for index, p in enumerate(points):
         mu = p.friction * (1.3 if run.wrong else 1)
         e = restitution[index] if restitution else 0
         lines.append(",".join(map(repr, [p.throw_number, p.tan_vibration_angle, p.tan_inclination, mu, e])))
-    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    run.theory("batch", table, "--output", answers)
-    rows = read_table(answers)
-    table.unlink()
-    answers.unlink()
+    with tempfile.TemporaryDirectory() as folder:
+        table, answers = pathlib.Path(folder, "points.csv"), pathlib.Path(folder, "answers.csv")
+        table.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        run.theory("batch", table, "--output", answers)
+        rows = read_table(answers)
     return [(float(row["velocity_efficiency"]), row["mode"]) for row in rows]
 
 
@@ -160,7 +160,7 @@ def near_a_change(around):
 
 
 def judge_grid(run):
-    rows = [row for row in run.table("result.csv")]
+    rows = run.table("result.csv")
     points = [point_of(row) for row in rows]
     shifted = [Point(p.throw_number * (1 + shift), *values(p)[1:]) for p in points for shift in SHIFTS]
     answers = theories(run, shifted)
