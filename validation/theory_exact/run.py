@@ -98,7 +98,7 @@ def draw(run, solver):
     gammas = sorted([1.001, 1.02] + [1.05 + 0.05 * i for i in range(119)] + [*exact.plateau(1), *exact.plateau(2)])
     points = [solver.point(gamma) for gamma in gammas]
     figure, (left, right) = figure_style.new_figure(1, 2, size=(11, 4.4), layout="constrained")
-    left.plot(gammas, [point["flight_number"] for point in points], color=figure_style.COLOURS[0], label="solver, longest flight")
+    left.plot(gammas, [point["flight_number"] if point["converged"] else math.nan for point in points], color=figure_style.COLOURS[0], label="solver, longest flight")
     some = [gamma for gamma in gammas if gamma < 4.5][::3]
     for gamma in some:
         flights = exact.settled_flights(gamma, count=2, skip=100)
@@ -108,12 +108,12 @@ def draw(run, solver):
                label="solver, $\\mu$ = 0.35, $\\tan\\beta$ = 0.5")
     for n in (1, 2):
         begin, end = exact.plateau(n)
-        right.plot([begin, end], [math.pi * n / begin, math.pi * n / end], "--", lw=4, alpha=0.6, color=figure_style.COLOURS[1],
+        right.plot([begin, end], [math.pi * n / begin, math.pi * n / end], lw=5, alpha=0.5, color=figure_style.COLOURS[1],
                    label="exact, $\\pi n/\\Gamma$" if n == 1 else None)
         for axes in (left, right):
             axes.axvspan(begin, end, color="#dddddd", zorder=0)
-            axes.text((begin + end) / 2, 0.02, f"{begin:.4f}\n{end:.4f}", ha="center", va="bottom", fontsize=7,
-                      transform=axes.get_xaxis_transform())
+        left.text((begin + end) / 2, 0.02, f"{begin:.4f}\n{end:.4f}", ha="center", va="bottom", fontsize=8,
+                  transform=left.get_xaxis_transform())
     left.set_ylabel("flight number n [-]")
     right.set_ylabel(figure_style.EFFICIENCY)
     for axes in (left, right):

@@ -1,0 +1,53 @@
+"""Small LIGGGHTS decks of validation/: a folder's own deck, run for real, and what it dumped."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+
+import numpy as np
+
+CONTACT_OPTIONS = "limitForce on tangential_damping off"  # of the campaigns' decks
+
+
+def flat_floor(length, width, cell):
+    """STL of the rectangle 0..length, 0..width at z = 0 m, in triangles of about `cell`: long thin ones abort the engine."""
+    columns, rows = (max(1, round(side / cell)) for side in (length, width))
+    text = ["solid floor"]
+    for i in range(columns):
+        for j in range(rows):
+            corner = [(length * (i + a) / columns, width * (j + b) / rows) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            for triangle in ((0, 1, 2), (0, 2, 3)):
+                text += ["facet normal 0 0 1", "outer loop"]
+                text += [f"vertex {corner[k][0]!r} {corner[k][1]!r} 0" for k in triangle]
+                text += ["endloop", "endfacet"]
+    return "\n".join(text + ["endsolid floor"]) + "\n"
+
+
+def run_deck(folder, deck, variables=None):
+    """Runs `deck` in `folder` with the variables that it names as ${name}; ends when the engine does not say DONE."""
+    program = shutil.which("liggghts")
+    if program is None:
+        raise SystemExit("there is no liggghts on the PATH; install the package liggghts")
+    command = [program, "-in", str(deck), "-log", "log.liggghts"]
+    for name, value in (variables or {}).items():
+        command += ["-var", name, str(value)]
+    folder = pathlib.Path(folder)
+    environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder), "OMP_NUM_THREADS": "1"}
+    with open(folder / "screen.txt", "w", encoding="utf-8") as screen:
+        code = subprocess.run(command, cwd=folder, stdout=screen, stderr=subprocess.STDOUT, env=environment, check=False).returncode
+    if code != 0 or "VIBROTROUGH DONE" not in (folder / "screen.txt").read_text(encoding="utf-8"):
+        raise SystemExit(f"{' '.join(command)} ended with {code}; see {folder / 'screen.txt'}")
+
+
+def read_dump(path):
+    """Steps, and the columns of a text dump sorted by id as {name: array of shape (steps, grains)}."""
+    lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+    steps, frames, names, at = [], [], [], 0
+    while at < len(lines):
+        steps.append(int(lines[at + 1]))
+        count, names = int(lines[at + 3]), lines[at + 8].split()[2:]
+        frames.append([list(map(float, line.split())) for line in lines[at + 9:at + 9 + count]])
+        at += 9 + count
+    table = np.array(frames)
+    return np.array(steps), {name: table[:, :, i] for i, name in enumerate(names)}
