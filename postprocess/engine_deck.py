@@ -24,8 +24,9 @@ def flat_floor(length, width, cell):
     return "\n".join(text + ["endsolid floor"]) + "\n"
 
 
-def run_deck(folder, deck, variables=None):
-    """Runs `deck` in `folder` with the variables that it names as ${name}; ends when the engine does not say DONE."""
+def run_deck(folder, deck, variables=None, wanted="VIBROTROUGH DONE"):
+    """Runs `deck` in `folder` with the variables that it names as ${name}, and returns what the engine wrote; ends when it did
+    not write `wanted`."""
     program = shutil.which("liggghts")
     if program is None:
         raise SystemExit("there is no liggghts on the PATH; install the package liggghts")
@@ -36,8 +37,35 @@ def run_deck(folder, deck, variables=None):
     environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder), "OMP_NUM_THREADS": "1"}
     with open(folder / "screen.txt", "w", encoding="utf-8") as screen:
         code = subprocess.run(command, cwd=folder, stdout=screen, stderr=subprocess.STDOUT, env=environment, check=False).returncode
-    if code != 0 or "VIBROTROUGH DONE" not in (folder / "screen.txt").read_text(encoding="utf-8"):
+    text = (folder / "screen.txt").read_text(encoding="utf-8")
+    if code != 0 or wanted not in text:
         raise SystemExit(f"{' '.join(command)} ended with {code}; see {folder / 'screen.txt'}")
+    return text
+
+
+def campaign_decks(program, folder, text):
+    """Renders the decks of the campaign `text` into `folder`, as `vibrotrough deck` does; the packings' folders, in order."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    file = folder.with_suffix(".toml")
+    file.write_text(text, encoding="utf-8")
+    answer = subprocess.run([program, "deck", str(file), "--output", str(folder)], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise SystemExit(answer.stderr)
+    return sorted(path.parent for path in folder.glob("case-*/packing-*/in.liggghts"))
+
+
+def settled(screen):
+    """Floor force (N, along z), mass (kg) and height of the centre (m) of a settled packing, from settle.liggghts' last line."""
+    words = screen[screen.rindex("VIBROTROUGH SETTLED"):].split()
+    return {name: float(words[words.index(name) + 1]) for name in ("floor_force", "mass", "centre_height")}
+
+
+def read_lines(path):
+    """A table that a campaign's deck wrote (cycles.csv, phases.csv): {column: array}."""
+    lines = [line for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    table = np.array([list(map(float, line.split(","))) for line in lines[1:]])
+    return {name: table[:, i] for i, name in enumerate(lines[0].split(","))}
 
 
 def read_dump(path):

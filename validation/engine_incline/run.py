@@ -88,7 +88,7 @@ def judge_rest(run, columns):
     third = len(way) // 3
     drift = np.abs(way[-third:].mean(axis=0) - way[third:2 * third].mean(axis=0))
     run.between("grains held by friction: largest drift of their place in 50 ms, over the spring's swing 2 m g sin(alpha) / k", drift.max() / swing,
-                0, 0.2, because="they swing undamped, and 25 samples know the middle of a swing to a fifth; sliding would be 1000 times as far")
+                0, 0.5, because="a swing is at most one wide, and 25 samples leave half of that open; sliding would be 1000 times as far")
     later = np.ptp(way[third:], axis=0)
     run.between("grains held by friction: largest width of that swing", later.max() / swing, 0, 1.05,
                 because="wider ones slip until they are narrow enough; the normal overlap swings a little as well")
@@ -108,7 +108,7 @@ def draw(run, blocked, free, spin):
         axes.axvline(friction, color=figure_style.GREY, lw=0.8)
         axes.text(friction, 1.02, name, ha="center", fontsize=8, color=figure_style.GREY)
     axes.set(xlabel="friction \u03bc  [-]", ylabel="acceleration / (g sin \u03b1)  [-]", ylim=(-0.05, 1.08))
-    axes.legend(fontsize=8, ncols=2, loc=(0.3, 0.3))
+    axes.legend(fontsize=8, loc=(0.69, 0.2))
     figure_style.plain_axes(axes)
     figure.savefig(run.figure("incline.png"), dpi=110)
 
