@@ -24,34 +24,48 @@ def flat_floor(length, width, cell):
     return "\n".join(text + ["endsolid floor"]) + "\n"
 
 
-def run_deck(folder, deck, variables=None, wanted="VIBROTROUGH DONE"):
+def run_deck(folder, deck, variables=None, wanted="VIBROTROUGH DONE", resume=False):
     """Runs `deck` in `folder` with the variables that it names as ${name}, and returns what the engine wrote; ends when it did
-    not write `wanted`."""
+    not write `wanted`. `resume`: takes what an earlier run of the same deck wrote."""
     program = shutil.which("liggghts")
     if program is None:
         raise SystemExit("there is no liggghts on the PATH; install the package liggghts")
-    command = [program, "-in", str(deck), "-log", "log.liggghts"]
+    folder, deck = pathlib.Path(folder), pathlib.Path(deck)
+    screen = folder / f"{deck.stem}.screen"
+    if resume and screen.exists() and screen.stat().st_mtime >= (folder / deck).stat().st_mtime and wanted in screen.read_text():
+        return screen.read_text(encoding="utf-8")
+    command = [program, "-in", str(deck), "-log", f"{deck.stem}.log"]
     for name, value in (variables or {}).items():
         command += ["-var", name, str(value)]
-    folder = pathlib.Path(folder)
     environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder), "OMP_NUM_THREADS": "1"}
-    with open(folder / "screen.txt", "w", encoding="utf-8") as screen:
-        code = subprocess.run(command, cwd=folder, stdout=screen, stderr=subprocess.STDOUT, env=environment, check=False).returncode
-    text = (folder / "screen.txt").read_text(encoding="utf-8")
+    with open(screen, "w", encoding="utf-8") as file:
+        code = subprocess.run(command, cwd=folder, stdout=file, stderr=subprocess.STDOUT, env=environment, check=False).returncode
+    text = screen.read_text(encoding="utf-8")
     if code != 0 or wanted not in text:
-        raise SystemExit(f"{' '.join(command)} ended with {code}; see {folder / 'screen.txt'}")
+        raise SystemExit(f"{' '.join(command)} ended with {code}; see {screen}")
     return text
 
 
-def campaign_decks(program, folder, text):
-    """Renders the decks of the campaign `text` into `folder`, as `vibrotrough deck` does; the packings' folders, in order."""
+def write_if_new(path, text):
+    """Leaves a file that holds `text` already as it is, so that what was made from it counts."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def campaign_decks(program, folder, text, resume=False):
+    """Renders the decks of the campaign `text` into `folder`, as `vibrotrough deck` does; the packings' folders, in order.
+    `resume`: keeps what is there when the same campaign was rendered before."""
+    file = folder.with_suffix(".toml")
+    if resume and folder.exists() and file.exists() and file.read_text(encoding="utf-8") == text:
+        return sorted(path.parent for path in folder.glob("case-*/packing-*/in.liggghts"))
     shutil.rmtree(folder, ignore_errors=True)
     folder.parent.mkdir(parents=True, exist_ok=True)
-    file = folder.with_suffix(".toml")
-    file.write_text(text, encoding="utf-8")
-    answer = subprocess.run([program, "deck", str(file), "--output", str(folder)], capture_output=True, text=True, check=False)
+    fresh = folder.with_suffix(".new.toml")
+    fresh.write_text(text, encoding="utf-8")
+    answer = subprocess.run([program, "deck", str(fresh), "--output", str(folder)], capture_output=True, text=True, check=False)
     if answer.returncode != 0:
         raise SystemExit(answer.stderr)
+    fresh.rename(file)
     return sorted(path.parent for path in folder.glob("case-*/packing-*/in.liggghts"))
 
 

@@ -19,6 +19,8 @@ AGREEMENT = 0.2  # of layers with the theory in Sloot & Kruyt's experiments belo
 BAND = (0.2, 0.8)  # friction of gravel and sand on steel, 0.3 to 0.6, and as much again
 FRICTIONS = np.round(np.arange(0.02, 1.201, 0.01), 3)
 SLOPES = {"uphill": 2.0, "level": 0.0, "downhill": -2.0}
+LAYER_FRICTIONS = [0.3, 0.45, 0.6]
+LAYER_COLUMNS = ["revolutions", "friction", "speed_m_per_s", "speed_half_width", "theory_m_per_s", "cycles", "outcome"]
 COLUMNS = ["machine_number", "vibration_angle_deg", "inclination_deg", "friction"]
 
 
@@ -55,6 +57,35 @@ def theory_error(run, row, slope, amplitude, friction):
     return math.sqrt(sum((values[at] / nominal - 1) ** 2 for values in changed))
 
 
+def simulate(run, rows):
+    """A layer of 3 mm spheres on the laboratory's trough, uphill, at three frictions."""
+    frequencies = [f"{row['revolutions']} / minute" for row in rows]
+    lines = []
+    for answer in run.campaign("layers", {}, {"trough.friction": LAYER_FRICTIONS, "trough.frequency": frequencies}):
+        frequency, eta = float(answer["frequency_hz"]), float(answer["efficiency_dem"])
+        unit = 2 * math.pi * frequency * float(answer["amplitude_m"]) * math.cos(math.radians(float(answer["vibration_angle_deg"])))
+        lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_dem_half_width']) * unit:.5f}",
+                      f"{float(answer['efficiency_theory']) * unit:.5f}", answer["cycles_measured"], answer["outcome"]])
+    run.write_table("result.csv", LAYER_COLUMNS, lines)
+
+
+def judge_layer(run, rows, layers):
+    """The simulated layer's speeds against the measured ones: is there a friction that gives all three?"""
+    measured, least = np.array([float(row["speed"]) for row in rows]), {}
+    for mu in LAYER_FRICTIONS:
+        speed = np.array([float(one["speed_m_per_s"]) for one in layers if float(one["friction"]) == mu])
+        theory = np.array([float(one["theory_m_per_s"]) for one in layers if float(one["friction"]) == mu])
+        least[mu] = (np.abs(speed / measured - 1).max(), np.abs(theory / measured - 1).max(), speed)
+    best, best_theory = (min(least, key=lambda mu: least[mu][i]) for i in (0, 1))
+    theories = [float(one["theory_m_per_s"]) for one in layers if float(one["friction"]) == best_theory]
+    theory_rise = theories[2] / theories[0]
+    run.finding("a simulated layer of 3 mm spheres, uphill, comes nearer to the three speeds than the theory does", least[best][0] < least[best_theory][1],
+                f"at its best friction, {best:g}, the layer is within {100 * least[best][0]:.0f} % of all three "
+                f"({', '.join(f'{v:.3f}' for v in least[best][2])} m/s); the theory at its best of the same frictions, {best_theory:g}, within "
+                f"{100 * least[best_theory][1]:.0f} %. From the slowest to the fastest the measured speed rises by a factor {measured[2] / measured[0]:.1f}, "
+                f"the simulated layer's by {least[best][2][2] / least[best][2][0]:.1f}, the theory's by {theory_rise:.1f}")
+
+
 def judge_bands(run, rows, bands):
     """Ours: A is the amplitude and the trough goes up or is level, since then every speed lies in the band."""
     for name in ("uphill", "level"):
@@ -81,14 +112,14 @@ def judge_findings(run, rows, bands, amplitude):
                 f"at {gammas[1]:.2f} and {100 * (faster[2] - 1):.0f} % at {gammas[2]:.2f} (uphill; the theory's error from the inputs is {100 * errors[2]:.0f} %)")
 
 
-def draw(run, rows, bands):
+def draw(run, rows, layers):
     figure, panels = figure_style.new_figure(1, 3, size=(12, 4.2), layout="constrained", sharey=True)
     rpm = [float(row["revolutions"]) for row in rows]
     fine = np.linspace(1230, 1600, 20)
     for axes, (name, slope) in zip(panels, SLOPES.items()):
         table = np.array([speeds(run, "fine", n, slope, AMPLITUDE) for n in fine])
-        axes.fill_between(fine, *(f([in_band(values) for values in table], axis=1) for f in (np.min, np.max)), color=figure_style.COLOURS[0], alpha=0.15,
-                          label="theory, friction 0.2 to 0.8")
+        band = np.array([in_band(values) for values in table])
+        axes.fill_between(fine, band.min(axis=1), band.max(axis=1), color=figure_style.COLOURS[0], alpha=0.15, label="theory, friction 0.2 to 0.8")
         for i, mu in enumerate((0.3, 0.45, 0.6)):
             line = table[:, int(np.argmin(np.abs(FRICTIONS - mu)))]
             axes.plot(fine, line, figure_style.DASHES[i], color=figure_style.COLOURS[0], lw=1.2, label=f"\u03bc = {mu}")
@@ -97,24 +128,38 @@ def draw(run, rows, bands):
         errors = [[(float(row["revolutions"]) - float(row["revolutions_mechanical"])) for row in rows], [0] * 3]
         axes.errorbar(rpm, [float(row["speed"]) for row in rows], yerr=[float(row["speed_error"]) for row in rows], xerr=errors, fmt="o",
                       color=figure_style.COLOURS[1], capsize=2, label="measured")
+        for i, mu in enumerate(LAYER_FRICTIONS if name == "uphill" else []):
+            these = [one for one in layers if float(one["friction"]) == mu]
+            axes.errorbar([float(one["revolutions"]) for one in these], [float(one["speed_m_per_s"]) for one in these],
+                          yerr=[float(one["speed_half_width"]) for one in these], fmt=figure_style.MARKERS[i + 1], ls=figure_style.DASHES[i],
+                          lw=0.8, color=figure_style.COLOURS[2], fillstyle="none", capsize=2, label=f"simulated spheres, \u03bc = {mu}")
         axes.set(title=f"{name} (\u03b1 = {slope:g}\u00b0)", xlabel="revolutions  [1/min]")
         figure_style.plain_axes(axes)
     panels[0].set_ylabel("conveying speed  [m/s]")
-    panels[0].legend(fontsize=8, loc="upper left")
+    handles, labels = panels[0].get_legend_handles_labels()
+    material = [label == "measured" or "spheres" in label for label in labels]
+    for axes, wanted in ((panels[0], True), (panels[1], False)):
+        chosen = [i for i in range(len(labels)) if material[i] == wanted]
+        axes.legend([handles[i] for i in chosen], [labels[i] for i in chosen], fontsize=8, loc="upper left")
+    panels[0].set_ylim(-0.01, 0.19)
     figure.savefig(run.figure("krakow.png"), dpi=110)
 
 
 def main():
     run = ValidationCase(FOLDER)
     rows = run.reference()
+    if run.long:
+        simulate(run, rows)
     for row in rows:
         run.check(f"{row['revolutions']} rpm: speed is 1 m over the time", 1 / float(row["time"]), float(row["speed"]), 6e-5, because="rounding")
     amplitude = AMPLITUDE / 2 if run.wrong else AMPLITUDE
     bands = {name: [speeds(run, name, float(row["revolutions"]), slope, amplitude) for row in rows] for name, slope in SLOPES.items()}
     judge_bands(run, rows, bands)
     if not run.wrong:
+        layers = run.table("result.csv")
         judge_findings(run, rows, bands, amplitude)
-        draw(run, rows, bands)
+        judge_layer(run, rows, layers)
+        draw(run, rows, layers)
     run.finish()
 
 
