@@ -107,8 +107,9 @@ void write_files(std::map<std::string, std::string> const& files, std::filesyste
 }
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder) {
-    make_folder(folder / "dump");
     write_files(deck.files, folder);
+    // The engine makes no folders.
+    if (deck.files.at(drive_file).find(" dump/") != std::string::npos) make_folder(folder / "dump");
 }
 
 }  // namespace vibrotrough::deck
