@@ -80,6 +80,10 @@ class ValidationCase:
     def csv(self, *words):
         return list(csv.DictReader(io.StringIO(self.theory(*words))))
 
+    def probes(self):
+        """What `vibrotrough probe-engine` measured and expected, by the probes' names."""
+        return {probe["name"]: probe for probe in json.loads(self._ask("probe-engine", "--json"))["probes"]}
+
     def _ask(self, *words):
         answer = subprocess.run([self.program, *words], capture_output=True, text=True, check=False)
         if answer.returncode != 0:
