@@ -48,8 +48,19 @@ def _read(dataset):
     return Array(values, str(dataset.attrs.get("units", "1")), str(dataset.attrs.get("description", "")))
 
 
+def _read_fields(table):
+    """The fields of a table, by name, with their units and descriptions."""
+    rows = table[()]
+    words = zip(table.dtype.names, table.attrs["units"], table.attrs["description"])
+    for name, units, description in words:
+        values = rows[name]
+        yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, units, description)
+
+
 class File:
-    """All datasets of a file by their path, e.g. file["case/throw_number"], and its root attributes in `attributes`."""
+    """All datasets of a file and fields of its tables by their path, e.g. file["case/throw_number"], and its root
+    attributes in `attributes`.
+    """
 
     def __init__(self, path, wanted_format):
         self.path = pathlib.Path(path)
@@ -62,8 +73,12 @@ class File:
             file.visititems(lambda name, item: self._keep(name, item))
 
     def _keep(self, name, item):
-        if isinstance(item, h5py.Dataset):
+        if not isinstance(item, h5py.Dataset):
+            return
+        if item.dtype.names is None:
             self._arrays[name] = _read(item)
+        else:
+            self._arrays |= {f"{name}/{field}": values for field, values in _read_fields(item)}
 
     def __getitem__(self, name):
         if name not in self._arrays:

@@ -72,6 +72,8 @@ void TheoryOptions::add_extensions(CLI::App& command) {
     add("--slowest-rebound", slowest_rebound_,
         "Slower rebounds are contact, in omega r sin(beta); 1e-6 when not given");
     add("--static-friction", static_friction_, "At least --friction, which is then the kinetic one");
+    add("--landing-friction", landing_friction_,
+        "mu in the impulse of a landing, as --friction when not given; below it for grains that roll");
     add("--air-drag", air_drag_, "kappa: drag force = m omega kappa times velocity");
     add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along over r cos(beta)");
     add("--along-phase", along_phase_,
@@ -124,6 +126,7 @@ theory::Inputs TheoryOptions::given() const {
     set(Input::tan_inclination, "--tan-inclination", tan_inclination_, "-0.05", -1e6, 1e6);
     set(Input::friction, "--friction", friction_, "0.3", 0, 1e6);
     set(Input::static_friction, "--static-friction", static_friction_, "0.4", 0, 1e6);
+    set(Input::landing_friction, "--landing-friction", landing_friction_, "0.1", 0, 1e6);
     set(Input::restitution, "--restitution", restitution_, "0.2", 0, 0.999999);
     set(Input::air_drag, "--air-drag", air_drag_, "0.01", 0, 1000);
     set(Input::along_ratio, "--along-ratio", along_ratio_, "0.8", -1000, 1000);

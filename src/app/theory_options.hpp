@@ -61,7 +61,7 @@ class TheoryOptions {
     Text vibration_angle_, tan_vibration_angle_;
     Text inclination_, tan_inclination_;
     Text friction_;
-    Text static_friction_, restitution_, slowest_rebound_, air_drag_;
+    Text static_friction_, landing_friction_, restitution_, slowest_rebound_, air_drag_;
     Text along_ratio_, along_phase_;
     Text wall_friction_, wall_pressure_ratio_, height_over_width_;
     std::vector<std::string> along_, normal_;

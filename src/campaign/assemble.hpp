@@ -1,19 +1,15 @@
 #pragma once
 
+#include "campaign/measured_packing.hpp"
 #include "campaign/plan.hpp"
-#include "measure/estimate.hpp"
 #include "store/case_record.hpp"
 
 namespace vibrotrough::campaign {
 
-/// The velocity efficiency of a series, measured as the scenario asks.
-measure::SequentialEstimate estimate_series(Scenario const& scenario, measure::CycleSeries const& series);
-
-/// Whether the mean is known as well as the scenario asks, so that the run may end.
-bool enough_cycles(Scenario const& scenario, measure::CycleSeries const& series);
-
 /// Puts the result of a case together from its finished packings.
-/// @throws InputError when a packing's files are damaged
-store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine_version);
+/// @param known  packings that were measured already; the others are read from their folders
+/// @throws InputError when one is not finished or its files are damaged
+store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine_version,
+                           MeasuredPackings known = {});
 
 }  // namespace vibrotrough::campaign

@@ -26,16 +26,19 @@ void remove_halves(PlannedCase const& planned) {
 
 }  // namespace
 
-std::optional<std::string> finish_case(PlannedCase const& planned, std::string const& engine_version) {
+std::optional<store::CaseRecord> finish_case(PlannedCase const& planned, std::string const& engine_version,
+                                             MeasuredPackings known) {
     // A packing that ends now has its marker already: of two that end at once, at least one sees both.
-    if (count_finished_packings(planned) < planned.scenario.measure.packings) return {};
+    for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
+        if (!known.contains(packing) && !read_finished_packing(planned, packing)) return {};
+    }
     FileLock const lock = lock_case(planned);
-    if (auto const result = read_whole_result(planned)) return result->outcome;
+    if (auto result = read_whole_result(planned)) return result;
     remove_halves(planned);
-    store::CaseRecord const record = assemble(planned, engine_version);
+    store::CaseRecord record = assemble(planned, engine_version, std::move(known));
     store::write_result(planned.result_file(), record);
     std::filesystem::remove(planned.failure_file());
-    return record.outcome;
+    return record;
 }
 
 void record_failure(PlannedCase const& planned, int packing, PackingOutcome const& outcome) {

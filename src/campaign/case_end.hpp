@@ -1,5 +1,6 @@
 #pragma once
 
+#include "campaign/measured_packing.hpp"
 #include "campaign/packing_run.hpp"
 #include "campaign/plan.hpp"
 
@@ -12,10 +13,12 @@ namespace vibrotrough::campaign {
 // call these at once. A lock of the case lets one at a time through.
 
 /// Puts the case's result in its place when all its packings are finished and it has none yet.
-/// @return the result's outcome, or nothing while packings are missing
+/// @param known  packings that were measured already; the others are read from their folders
+/// @return the result, or nothing while packings are missing
 /// @throws InputError when a packing's files are damaged
 /// @throws MissingError when the disk refuses
-std::optional<std::string> finish_case(PlannedCase const& planned, std::string const& engine_version);
+std::optional<store::CaseRecord> finish_case(PlannedCase const& planned, std::string const& engine_version,
+                                             MeasuredPackings known = {});
 
 /// Writes failure.json for a packing that failed, and counts the attempts.
 /// @throws MissingError when the disk refuses

@@ -1,10 +1,8 @@
 #include "campaign/case_state.hpp"
 
-#include "campaign/layer.hpp"
 #include "campaign/outcome_names.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
 #include "core/time.hpp"
 #include "store/result_file.hpp"
 
@@ -26,16 +24,6 @@ std::optional<Json> read_json(fs::path const& path) {
 
 fs::path marker(PlannedCase const& planned, int packing) {
     return planned.packing_folder(packing) / "packing.json";
-}
-
-/// Empty when there is no cycles.csv.
-std::string digest_of_cycles(PlannedCase const& planned, int packing) {
-    fs::path const cycles = planned.packing_folder(packing) / "cycles.csv";
-    return fs::is_regular_file(cycles) ? sha256_hex(read_file(cycles)) : std::string();
-}
-
-std::string digest_of_layer(PlannedCase const& planned, int packing) {
-    return sha256_hex(layer_outputs(planned.packing_folder(packing)));
 }
 
 }  // namespace
@@ -91,12 +79,17 @@ CaseState case_state(PlannedCase const& planned) {
 }
 
 std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing) {
+    if (!fs::is_regular_file(marker(planned, packing))) return {};
+    return read_finished_packing(planned, packing, read_outputs(planned.packing_folder(packing)));
+}
+
+std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing,
+                                                     PackingOutputs const& outputs) {
     auto const json = read_json(marker(planned, packing));
-    std::string const digest = digest_of_cycles(planned, packing);
-    if (!json || digest.empty()) return {};
+    if (!json || outputs.cycles.content.empty()) return {};
     try {
-        if (json->at("cycles_sha256") != digest) return {};
-        if (json->at("layer_sha256") != digest_of_layer(planned, packing)) return {};
+        if (json->at("cycles_sha256") != outputs.digest_of_cycles()) return {};
+        if (json->at("layer_sha256") != outputs.digest_of_layer()) return {};
         return FinishedPacking{json->at("wall_time"),
                                json->at("started"),
                                json->at("finished"),
@@ -109,7 +102,8 @@ std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned,
     }
 }
 
-void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished) {
+void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished,
+                            PackingOutputs const& outputs) {
     Json const json{{"wall_time", finished.wall_time},
                     {"started", finished.started},
                     {"finished", finished.finished},
@@ -117,8 +111,8 @@ void write_finished_packing(PlannedCase const& planned, int packing, FinishedPac
                     {"git_commit", finished.git_commit},
                     {"host", finished.host},
                     {"engine_certificate", finished.engine_certificate},
-                    {"cycles_sha256", digest_of_cycles(planned, packing)},
-                    {"layer_sha256", digest_of_layer(planned, packing)}};
+                    {"cycles_sha256", outputs.digest_of_cycles()},
+                    {"layer_sha256", outputs.digest_of_layer()}};
     write_file_atomically(marker(planned, packing), json.dump(2) + "\n");
 }
 

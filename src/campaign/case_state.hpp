@@ -1,5 +1,6 @@
 #pragma once
 
+#include "campaign/packing_outputs.hpp"
 #include "campaign/plan.hpp"
 #include "deck/deck.hpp"
 #include "store/case_record.hpp"
@@ -48,8 +49,13 @@ struct FinishedPacking {
 /// The packing's marker, if it is there and cycles.csv is still what it was then.
 std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing);
 
+/// The same when the packing's outputs were read already.
+std::optional<FinishedPacking> read_finished_packing(PlannedCase const& planned, int packing,
+                                                     PackingOutputs const& outputs);
+
 /// Writes the marker packing.json: from now on the packing is not run again.
-void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished);
+void write_finished_packing(PlannedCase const& planned, int packing, FinishedPacking const& finished,
+                            PackingOutputs const& outputs);
 
 /// Number of packings with a marker.
 int count_finished_packings(PlannedCase const& planned);

@@ -34,8 +34,8 @@ struct Pen {
 };
 
 Pen read_pen(PlannedCase const& planned, store::PackingRecord const& packing, int number) {
-    auto const series = read_packing_phases(planned.scenario, deck::make_deck(planned.scenario, number),
-                                            planned.packing_folder(number));
+    auto const series = packing_phases(planned.scenario, deck::make_deck(planned.scenario, number),
+                                       read_text_file(planned.packing_folder(number) / "phases.csv"));
     int const first = std::max(packing.estimate.discarded, 1);
     int const last = packing.estimate.discarded + packing.estimate.measured;
     double const r = planned.scenario.trough.amplitude;

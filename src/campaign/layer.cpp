@@ -1,19 +1,16 @@
 #include "campaign/layer.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "deck/phases.hpp"
+#include "measure/landing.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::campaign {
 namespace {
-
-namespace fs = std::filesystem;
 
 measure::LayerFacts facts_of(store::PackingRecord const& record, Scenario const& s) {
     return {record.mass,
@@ -49,26 +46,38 @@ void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double
     for (double& fraction : profiles.solid_fraction) fraction *= wanted / sum;
 }
 
+/// What the difference to the theory is made of; side walls carry a part that the floor's force does not
+/// tell.
+void explain(measure::LayerMotion& motion, Scenario const& s, double mass) {
+    if (s.trough.side_wall_friction) return;
+    motion.landing_friction = measure::landing_friction(motion);
+    motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
+        motion.curves, {mass, s.trough.friction, -gravity * std::sin(s.trough.inclination),
+                        s.trough.frequency, velocity_scale(s.trough)});
+}
+
 }  // namespace
 
-measure::PhaseSeries read_packing_phases(Scenario const& s, deck::Deck const& deck, fs::path const& folder) {
-    auto series = measure::read_phases(folder / "phases.csv", deck.time.steps_per_cycle);
+measure::PhaseSeries packing_phases(Scenario const& s, deck::Deck const& deck, TextFile const& file) {
+    auto series = measure::parse_phases(file, deck.time.steps_per_cycle);
     if (!is_clump(s.grains) && s.layer.block != Block::plate) return series;
     return measure::with_integrated_places(std::move(series),
                                            1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
 
 void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck const& deck,
-                   fs::path const& folder) {
+                   PackingOutputs const& outputs, measure::PhaseSeries const& series) {
     static_assert(deck::phases_per_cycle == measure::PhaseSeries::per_cycle);
-    auto const series = read_packing_phases(s, deck, folder);
     measure::LayerFacts const facts = facts_of(record, s);
     if (series.cycles() < facts.used) {
-        throw InputError(
-            fmt::format("{} ends before cycle {}", (folder / "phases.csv").string(), facts.used));
+        throw InputError(fmt::format("{} ends before cycle {}", outputs.phases.path.string(), facts.used));
     }
+    // Damaged ones are noticed also where they are not needed.
+    auto const profiles = measure::parse_snapshots(outputs.snapshots, outputs.folder, "profiles");
+    auto const surface = measure::parse_snapshots(outputs.snapshots, outputs.folder, "surface");
     record.motion = measure::layer_motion(series, facts);
     if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
+    explain(record.motion, s, record.mass);
     measure::ProfileFacts profile{s.grains.density,
                                   deck.time.steps_per_cycle,
                                   facts.discarded,
@@ -79,10 +88,10 @@ void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck c
                                   {},
                                   record.estimate.mean * velocity_scale(s.trough)};
     add_trough(profile, series, record.motion.curves);
-    record.profiles = measure::layer_profiles(measure::read_snapshots(folder, "profiles"), profile);
+    record.profiles = measure::layer_profiles(profiles, profile);
     if (is_clump(s.grains) || s.layer.block != Block::none || s.trough.side_wall_friction)
         scale_solid_fraction(record.profiles, s, record.mass);
-    record.surface = measure::layer_surface(measure::read_snapshots(folder, "surface"), profile);
+    record.surface = measure::layer_surface(surface, profile);
 }
 
 std::string common_mode(std::vector<store::PackingRecord> const& packings) {
@@ -97,18 +106,6 @@ std::string common_mode(std::vector<store::PackingRecord> const& packings) {
         common = one.motion.mode;
     }
     return common;
-}
-
-std::string layer_outputs(fs::path const& folder) {
-    if (!fs::is_regular_file(folder / "phases.csv")) return {};
-    std::string all = read_file(folder / "phases.csv");
-    std::set<fs::path> snapshots;
-    for (auto const& entry : fs::directory_iterator(folder)) {
-        std::string const name = entry.path().filename().string();
-        if (name.starts_with("profiles.") || name.starts_with("surface.")) snapshots.insert(entry.path());
-    }
-    for (fs::path const& path : snapshots) all += path.filename().string() + read_file(path);
-    return all;
 }
 
 }  // namespace vibrotrough::campaign

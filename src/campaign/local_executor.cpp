@@ -82,15 +82,15 @@ class LocalExecutor {
         start_jobs();
         tick();
         context_.run();
+        index_.save();
         return summary();
     }
 
   private:
     void collect_jobs() {
-        ResultIndex index(plan_);
         for (std::size_t i = 0; i < plan_.cases.size(); ++i) {
             PlannedCase const& planned = plan_.cases[i];
-            if (auto const result = index.find(planned)) {
+            if (auto const result = index_.find(planned)) {
                 outcomes_[i] = result->outcome;
                 for (auto const& packing : result->packings) progress_.core_time += packing.wall_time;
                 continue;
@@ -194,6 +194,7 @@ class LocalExecutor {
         progress_.core_time += place->elapsed() * place->ranks;
         if (place->late && outcome.outcome == "interrupted") outcome = too_late();
         outcome = find_reason(plan_.cases[job.case_index], job.packing, outcome, place->memory_kills);
+        auto measured = outcome.well ? std::optional(place->run->take_measured()) : std::nullopt;
         // The run is in the middle of its own call: it is destroyed after it has returned.
         context_.post([run = std::shared_ptr<PackingRun>(std::move(place->run))] {});
         running_.erase(place);
@@ -202,6 +203,7 @@ class LocalExecutor {
         if (outcome.well) {
             ++progress_.packings_done;
             time_to_go_.done(scenario, cycles);
+            measured_[job.case_index].emplace(job.packing, std::move(*measured));
             if (--missing_[job.case_index] == 0) finish_case(job.case_index);
         } else if (retry_makes_sense(outcome.outcome) && tries_[job]++ < settings_.retries && !stopping_) {
             queue_.push_front(job);
@@ -215,12 +217,15 @@ class LocalExecutor {
 
     void finish_case(std::size_t index) {
         PlannedCase const& planned = plan_.cases[index];
-        auto const outcome = campaign::finish_case(planned, plan_.engine_version);
-        if (!outcome) throw InputError(fmt::format("a packing of case {} is damaged", planned.id));
-        outcomes_[index] = *outcome;
+        auto const known = measured_.extract(index);
+        auto const result = campaign::finish_case(planned, plan_.engine_version,
+                                                  known.empty() ? MeasuredPackings{} : known.mapped());
+        if (!result) throw InputError(fmt::format("a packing of case {} is damaged", planned.id));
+        index_.remember(planned, *result);
+        outcomes_[index] = result->outcome;
         ++progress_.finished;
         --progress_.left;
-        observer_.case_ended(planned, *outcome, {});
+        observer_.case_ended(planned, result->outcome, {});
     }
 
     PackingOutcome too_late() const {
@@ -240,6 +245,7 @@ class LocalExecutor {
     void fail_case(Job const& job, PackingOutcome const& outcome) {
         if (!failures_.insert({job.case_index, outcome.outcome}).second) return;
         PlannedCase const& planned = plan_.cases[job.case_index];
+        measured_.erase(job.case_index);  // in its folder, for the next run
         write_failure(planned, {outcome.outcome, outcome.message, job.packing, ++attempts_[job.case_index]});
         ++progress_.failed;
         --progress_.left;
@@ -311,10 +317,12 @@ class LocalExecutor {
     std::deque<Job> queue_;
     SettledPackings settled_{context_, engine_with(settings_.ranks.value_or(1)), plan_.folder};
     std::list<Running> running_;
-    std::map<Job, int> tries_;                     ///< failed ones of this run, by packing
-    std::map<std::size_t, int> missing_;           ///< packings that an unfinished case still needs
-    std::map<std::size_t, std::string> outcomes_;  ///< of cases with a result
-    std::map<std::size_t, std::string> failures_;  ///< of cases that failed in this run
+    ResultIndex index_{plan_};
+    std::map<std::size_t, MeasuredPackings> measured_;  ///< of cases that are not finished
+    std::map<Job, int> tries_;                          ///< failed ones of this run, by packing
+    std::map<std::size_t, int> missing_;                ///< packings that an unfinished case still needs
+    std::map<std::size_t, std::string> outcomes_;       ///< of cases with a result
+    std::map<std::size_t, std::string> failures_;       ///< of cases that failed in this run
     TimeToGo time_to_go_;
     Progress progress_;
     std::map<std::size_t, int> attempts_;  ///< failures so far, of this and of earlier runs

@@ -78,12 +78,14 @@ bool speaks_of_memory(std::string const& message) {
 }  // namespace
 
 long count_memory_kills() {
-    std::ifstream file("/proc/vmstat");
-    std::string name;
-    for (long value = 0; file >> name >> value;) {
-        if (name == "oom_kill") return value;
+    try {
+        std::string const counts = read_file("/proc/vmstat");
+        constexpr std::string_view name = "\noom_kill ";
+        auto const at = counts.find(name);
+        return at == std::string::npos ? 0 : std::strtol(counts.c_str() + at + name.size(), nullptr, 10);
+    } catch (MissingError const&) {
+        return 0;  // another kernel
     }
-    return 0;
 }
 
 PackingOutcome find_reason(PlannedCase const& planned, int packing, PackingOutcome outcome,

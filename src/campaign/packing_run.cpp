@@ -1,15 +1,13 @@
 #include "campaign/packing_run.hpp"
 
-#include "campaign/assemble.hpp"
 #include "campaign/case_state.hpp"
+#include "campaign/layer.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 #include "engine/outcome.hpp"
 #include "measure/cycle_series.hpp"
-#include "measure/layer_profiles.hpp"
-#include "measure/phase_series.hpp"
 
 #include <cmath>
 
@@ -27,6 +25,15 @@ PackingOutcome wrong_weight(double force, double weight) {
             fmt::format("the layer presses with {:.4g} N on the trough over the cycles, less its gain of "
                         "momentum; its weight is {:.4g} N",
                         force, weight)};
+}
+
+/// What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
+void remove_content(std::filesystem::path const& folder) {
+    std::vector<std::filesystem::path> left;
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(folder, ignored))
+        left.push_back(entry.path());
+    for (std::filesystem::path const& path : left) std::filesystem::remove_all(path, ignored);
 }
 
 /// The packing's folder holds its settled packing, so that the deck runs there by hand.
@@ -84,9 +91,8 @@ void PackingRun::start_on(Settled const& settled) {
         });
         return;
     }
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-    deck::write_deck(deck_, folder_);
+    remove_content(folder_);
+    deck::write_deck(deck_, folder_, engine_.ranks);
     link_file(settled.restart, folder_ / deck::settled_file);
     start_engine({});
 }
@@ -99,7 +105,8 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         started_ = checkpoint->started;
         earlier_wall_time_ = checkpoint->wall_time;
         sealed_cycle_ = checkpoint->cycle;
-        replace_file(folder_ / deck::control_file, deck::control_go_on);
+        // Perhaps on another number of ranks than before.
+        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
     start_ = std::chrono::steady_clock::now();
     process_ = std::make_unique<engine::EngineProcess>(
@@ -149,41 +156,46 @@ void PackingRun::interrupt() {
 
 PackingOutcome PackingRun::judge(engine::ExitStatus status) {
     // By hand the deck runs on as far as max_cycles.
-    replace_file(folder_ / deck::control_file, deck::control_go_on);
+    if (told_to_end_) replace_file(folder_ / deck::control_file, deck::control_go_on);
     if (interrupted_) return {false, "interrupted", "the run was interrupted"};
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.outcome != engine::Outcome::completed)
         return {false, to_string(report.outcome), report.message};
-    double const weight = deck_.weight;
+    auto const outputs = read_outputs(folder_);
     try {
-        auto const series = measure::read_cycles(folder_ / "cycles.csv", deck_.time.steps_per_cycle,
-                                                 planned_.scenario.layer.grains);
-        if (static_cast<long>(series.cycles()) * deck_.time.steps_per_cycle != report.last_step) {
-            return {false, "outputs-incomplete",
-                    fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
-                                report.last_step)};
-        }
-        // What the case's result needs must be there now; later it would be too late to run again.
-        auto const phases = measure::read_phases(folder_ / "phases.csv", deck_.time.steps_per_cycle);
-        measure::read_snapshots(folder_, "profiles");
-        measure::read_snapshots(folder_, "surface");
-        if (phases.cycles() != series.cycles()) {
-            return {
-                false, "outputs-incomplete",
-                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
-        }
-        double const carried =
-            measure::weight_by_momentum(series, deck_.mass, 1 / planned_.scenario.trough.frequency);
-        if (!(std::abs(carried - weight) <= balance_tolerance * weight)) {
-            return wrong_weight(carried, weight);
-        }
+        PackingOutcome const outcome = judge_outputs(outputs, report.last_step);
+        if (!outcome.well) return outcome;
     } catch (Error const& error) {
         return {false, "outputs-incomplete", error.what()};
     }
     remove_checkpoints(folder_);
-    write_finished_packing(planned_, packing_,
-                           {wall_time(), started_, utc_now(), std::string(program_version()),
-                            std::string(program_commit()), host_name(), engine_certificate_});
+    write_finished_packing(planned_, packing_, measured_->run, outputs);
+    return {true, {}, {}};
+}
+
+/// What the case's result needs must be there now; later it would be too late to run again.
+PackingOutcome PackingRun::judge_outputs(PackingOutputs const& outputs, long last_step) {
+    Scenario const& scenario = planned_.scenario;
+    auto const series =
+        measure::parse_cycles(outputs.cycles, deck_.time.steps_per_cycle, scenario.layer.grains);
+    if (static_cast<long>(series.cycles()) * deck_.time.steps_per_cycle != last_step) {
+        return {false, "outputs-incomplete",
+                fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
+                            last_step)};
+    }
+    auto const phases = packing_phases(scenario, deck_, outputs.phases);
+    if (phases.cycles() != series.cycles()) {
+        return {false, "outputs-incomplete",
+                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
+    }
+    double const carried = measure::weight_by_momentum(series, deck_.mass, 1 / scenario.trough.frequency);
+    if (!(std::abs(carried - deck_.weight) <= balance_tolerance * deck_.weight))
+        return wrong_weight(carried, deck_.weight);
+    measured_ = {{wall_time(), started_, utc_now(), std::string(program_version()),
+                  std::string(program_commit()), host_name(), engine_certificate_},
+                 measure_packing(scenario, deck_, outputs, series, phases)};
+    measured_->record.wall_time = measured_->run.wall_time;
+    measured_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
     return {true, {}, {}};
 }
 

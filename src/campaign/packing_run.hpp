@@ -1,11 +1,11 @@
 #pragma once
 
 #include "campaign/checkpoint.hpp"
+#include "campaign/measured_packing.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/settled_packings.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
-#include "measure/estimate.hpp"
 
 #include <chrono>
 #include <functional>
@@ -44,6 +44,9 @@ class PackingRun {
     int packing() const { return packing_; }
     int cycles() const { return cycles_; }
 
+    /// What was measured, once the run has ended well.
+    MeasuredPacking take_measured() { return std::move(measured_.value()); }
+
     /// Of the cycles seen so far; nothing before the first look at them.
     std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
 
@@ -53,6 +56,7 @@ class PackingRun {
     void seal();
     double wall_time() const;
     PackingOutcome judge(engine::ExitStatus status);
+    PackingOutcome judge_outputs(PackingOutputs const& outputs, long last_step);
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
@@ -68,6 +72,7 @@ class PackingRun {
     std::string engine_certificate_;
     int cycles_ = 0;
     std::optional<measure::PackingEstimate> estimate_;
+    std::optional<MeasuredPacking> measured_;
     int sealed_cycle_ = 0;
     bool told_to_end_ = false;
     bool interrupted_ = false;

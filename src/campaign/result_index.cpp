@@ -97,6 +97,13 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     return store::unpack_summary(bytes, planned.scenario);
 }
 
+void ResultIndex::remember(PlannedCase const& planned, store::CaseRecord const& record) {
+    auto const stamp = stamp_of(planned.result_file());
+    if (!stamp) return;
+    entries_[planned.id] = {*stamp, store::pack_summary(record)};
+    changed_ = true;
+}
+
 void ResultIndex::save() {
     if (!changed_) return;
     std::string bytes = head();

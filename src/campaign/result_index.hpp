@@ -13,13 +13,16 @@ namespace vibrotrough::campaign {
 
 /// The summaries of a campaign's results, so that thousands need not be read whole at every look. A cache
 /// beside the results, DIR/.index: an entry counts only while size, time and inode of its result.h5 are what
-/// they were when that file was read whole. It may be deleted at any time.
+/// they were when that file was read whole or written. It may be deleted at any time.
 class ResultIndex {
   public:
     explicit ResultIndex(Plan const& plan);
 
     /// The case's summary (store::summary_of) if its result.h5 is there and whole.
     std::optional<store::CaseRecord> find(PlannedCase const& planned);
+
+    /// Takes in the result that this process has just put in its place.
+    void remember(PlannedCase const& planned, store::CaseRecord const& record);
 
     /// Whether results were read that the file did not know.
     bool has_changed() const { return changed_; }

@@ -33,8 +33,8 @@ class Submitter {
   private:
     void collect(PlannedCase const& planned) {
         try {
-            if (auto const outcome = finish_case(planned, plan_.engine_version)) {
-                ++(*outcome == "finished" ? result_.finished : result_.unsure);
+            if (auto const result = finish_case(planned, plan_.engine_version)) {
+                ++(result->outcome == "finished" ? result_.finished : result_.unsure);
                 return;
             }
         } catch (InputError const&) {

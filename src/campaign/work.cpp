@@ -85,9 +85,9 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
 }
 
 WorkResult end_of_case(PlannedCase const& planned, std::string const& engine_version) {
-    auto const outcome = finish_case(planned, engine_version);
-    return {WorkResult::finished, outcome ? fmt::format("case {}: {}", planned.id, *outcome)
-                                          : fmt::format("case {}: other packings are missing", planned.id)};
+    auto const result = finish_case(planned, engine_version);
+    return {WorkResult::finished, result ? fmt::format("case {}: {}", planned.id, result->outcome)
+                                         : fmt::format("case {}: other packings are missing", planned.id)};
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ Json to_object(Row const& row) {
             {"efficiency_theory", json(row.efficiency_theory)},
             {"mode_theory", row.mode_theory},
             {"mode_layer", json(row.mode_layer)},
+            {"efficiency_normal_force", json(row.efficiency_normal_force)},
+            {"landing_friction", json(row.landing_friction)},
             {"friction_layer", json(row.friction_layer)},
             {"friction_layer_low", json(row.friction_layer_low)},
             {"friction_layer_high", json(row.friction_layer_high)},

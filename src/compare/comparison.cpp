@@ -38,6 +38,20 @@ void add_layer_theory(Row& row, Scenario const& scenario, MeasuredFriction const
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
 
+/// The mean over the packings that have the number.
+std::optional<double> mean_of(store::CaseRecord const& record, double measure::LayerMotion::*number) {
+    double sum = 0;
+    int count = 0;
+    for (store::PackingRecord const& packing : record.packings) {
+        double const value = packing.motion.*number;
+        if (!std::isfinite(value)) continue;
+        sum += value;
+        ++count;
+    }
+    if (count == 0) return {};
+    return sum / count;
+}
+
 void add_measurement(Row& row, store::CaseRecord const& record) {
     row.packings = record.estimate.packings;
     if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
@@ -51,6 +65,8 @@ void add_measurement(Row& row, store::CaseRecord const& record) {
     if (record.outcome == "not-steady") return;  // a mean of what is no steady state is no number
     row.efficiency_dem = record.estimate.mean;
     if (std::isfinite(record.estimate.half_width)) row.efficiency_dem_half_width = record.estimate.half_width;
+    row.efficiency_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
+    row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
     row.speed_dem_m_per_s = record.estimate.mean * velocity_scale(record.scenario.trough);
 }
 

@@ -25,6 +25,8 @@ struct Row {
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
     std::string mode_theory;
     std::optional<std::string> mode_layer;  ///< the bulk's mode in the theory's letters
+    std::optional<double> efficiency_normal_force;  ///< of a point mass under the layer's own normal force
+    std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
     std::optional<double> friction_layer;   ///< of the layer as a whole, from a friction test
     std::optional<double> friction_layer_low, friction_layer_high;  ///< its interval
     std::optional<double> efficiency_theory_layer;                  ///< theory at the layer's friction

@@ -27,6 +27,7 @@ constexpr Column columns[] = {{"case", "", 9, true},
                               {"f", "Hz", 1, false},
                               {"eta DEM", "", 9, false},
                               {"eta theory", "at mu", 7, false},
+                              {"eta point", "its force", 3, false},
                               {"mu layer", "", 4, false},
                               {"eta theory", "at mu layer", 6, false},
                               {"difference", "", 9, false},
@@ -36,7 +37,7 @@ constexpr Column columns[] = {{"case", "", 9, true},
                               {"cycles", "cut+kept", 2, false},
                               {"outcome", "", 6, true}};
 constexpr std::size_t column_count = std::size(columns);
-constexpr std::size_t difference_at = 10, outcome_at = 15;
+constexpr std::size_t difference_at = 11, outcome_at = 16;
 constexpr int never_dropped = 9;
 constexpr std::size_t gap = 2;
 
@@ -53,6 +54,7 @@ Cells cells(Row const& row) {
             fmt::format("{:.2f}", row.frequency_hz),
             shown(row.efficiency_dem, "{:.3f}") + " +- " + shown(row.efficiency_dem_half_width, "{:.3f}"),
             shown(row.efficiency_theory, "{:.3f}"),
+            shown(row.efficiency_normal_force, "{:.3f}"),
             shown(row.friction_layer, "{:.3f}"),
             shown(row.efficiency_theory_layer, "{:.3f}"),
             shown(difference(row), "{:+.3f}"),
@@ -91,7 +93,8 @@ std::vector<bool> constant(std::vector<Cells> const& lines) {
 /// What only some campaigns know: the layer's friction and mode. Not shown when it is known of no case.
 bool is_optional(std::size_t column) {
     std::string const unit = columns[column].unit;
-    return unit == "at mu layer" || unit == "layer" || std::string(columns[column].name) == "mu layer";
+    return unit == "at mu layer" || unit == "layer" || unit == "its force" ||
+           std::string(columns[column].name) == "mu layer";
 }
 
 bool is_unknown(std::vector<Cells> const& lines, std::size_t column) {

@@ -117,17 +117,14 @@ void describe_block_contact(mustache::data& data, Scenario const& s, DeckNumbers
     auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
     data.set("contact_stiffness", rounded(contact.stiffness));
     data.set("contact_stiffnesses", everywhere(contact.stiffness));
-    data.set("tangential_stiffnesses", everywhere(contact.tangential_stiffness));
     data.set("contact_dampings", everywhere(contact.damping));
-    data.set("no_dampings", everywhere(0));
 }
 
 void describe_contact(mustache::data& data, Scenario const& s, DeckNumbers const& n) {
     bool const block = s.layer.block != Block::none, rolls = s.grains.rotation == Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
-    std::string const model = block ? "hooke/stiffness tangential history" : "hertz tangential history";
-    std::string const options =
-        block ? "limitForce off tangential_damping off" : "limitForce on tangential_damping off";
+    std::string const model = block ? "hooke/stiffness tangential no_history" : "hertz tangential history";
+    std::string const options = fmt::format("limitForce on tangential_damping {}", block ? "on" : "off");
     std::string const wall_model = model + (rolls ? " rolling_friction epsd2" : "");
     double const wall_friction = s.trough.side_wall_friction.value_or(0);
     data.set("block", block);

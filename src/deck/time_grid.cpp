@@ -17,7 +17,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double fewest_steps = 500;   ///< per cycle
 constexpr double harmonic_steps = 50;  ///< per period of the highest harmonic
 constexpr double most_steps = 1e8;
-constexpr double block_steps = 30;  ///< per contact
+constexpr double block_steps = 20;  ///< per contact, 2 per time constant of a landing
+constexpr double block_damping_ratio = 5;
 
 double smallest_radius(Scenario const& s) {
     if (!is_clump(s.grains)) return smallest_diameter(s.grains) / 2;
@@ -74,9 +75,7 @@ double settling_time_step(Scenario const& s, double fall_height) {
 
 BlockContact block_contact(Scenario const& s, double mass, int spheres) {
     double const duration = block_duration(s);
-    double const stiffness = mass * std::pow(pi / duration, 2);
-    double const critical = 2 * std::sqrt(stiffness / mass);
-    return {duration, stiffness / spheres, 4 * stiffness / spheres, 1.5 * critical / spheres};
+    return {duration, mass / (duration * duration) / spheres, 2 * block_damping_ratio / duration / spheres};
 }
 
 }  // namespace vibrotrough::deck

@@ -24,7 +24,7 @@ constexpr int phases_per_cycle = 100;
 /// Hertz contact  t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5) of two equal grains
 ///   (Johnson, Contact Mechanics, 1985, section 11.4), at v = twice the drive's largest speed: a grain that
 ///   flies at the trough's largest speed against a trough that comes at its largest speed.
-/// A block has a linear contact of duration T / block_stiffness instead, and 1/30 of that as its time step.
+/// A block has a linear contact of duration T / block_stiffness instead, and 1/20 of that as its time step.
 /// @throws InputError when a cycle would take more than 1e8 steps
 TimeGrid choose_time_step(Scenario const& scenario);
 
@@ -32,13 +32,17 @@ TimeGrid choose_time_step(Scenario const& scenario);
 /// the drive.
 double settling_time_step(Scenario const& scenario, double fall_height);
 
-/// The plastic contact of a block: linear spring of stiffness k = m (pi / t_c)^2 with t_c the contact's
-/// duration; damped at 1.5 times its critical damping nothing rebounds.
+/// The plastic contact of a block of mass m, for contacts of duration t_c. Normal force k d + c v, never
+/// negative, with k = m / t_c^2 and c = 10 m / t_c, five times the critical damping: a landing dies with the
+/// time constant m / c = t_c / 10, the spring gives back 1/100 of its speed, and what it was pressed in
+/// relaxes within c / k = 10 t_c. Tangential force min(c v, mu F): damping and friction decay together
+/// in a landing, so that its tangential impulse is exactly what Coulomb allows or what stops the slip,
+/// whichever is less; a spring instead would give its energy back. The price is a creep of a t_c / 10
+/// where a block rests under the acceleration a. See validation/rigid_block.
 struct BlockContact {
-    double duration;              ///< s
-    double stiffness;             ///< N/m, of one of its spheres
-    double tangential_stiffness;  ///< N/m, of one of its spheres
-    double damping;               ///< 1/s: the damping force is damping * m * v, of one of its spheres
+    double duration;   ///< s
+    double stiffness;  ///< N/m, of one of its spheres
+    double damping;    ///< 1/s: the damping force is damping * m * v, both ways, of one of its spheres
 };
 
 /// @param spheres  that the block stands on

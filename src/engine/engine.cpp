@@ -12,6 +12,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/process.hpp>
 #include <boost/process/extend.hpp>
+#include <boost/process/posix.hpp>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -24,7 +25,8 @@ namespace bp = boost::process;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// In the child, before the engine starts: leave the terminal's process group, and die with the driver.
+/// In the child, before the engine starts: leave the terminal's process group, and die with the driver. The
+/// child borrows the driver's memory (vfork), so nothing here may write to it.
 void prepare_child(pid_t driver) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -176,11 +178,14 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                 std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
+    // Boost opens the file without cutting it: the end of an earlier, interrupted run's output would follow.
+    std::error_code ignored;
+    fs::remove(folder / output_file, ignored);
     try {
         state_->process = bp::child(
             bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
             bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > (folder / output_file).string(),
-            bp::std_in < bp::null, context, bp::on_exit(ended),
+            bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
             bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
         throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),

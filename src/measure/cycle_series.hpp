@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/atomic_file.hpp"
+
 #include <filesystem>
 #include <vector>
 
@@ -27,6 +29,9 @@ struct CycleSeries {
 /// @throws InputError naming file and line when a line is damaged, a cycle is missing or grains are
 /// @throws MissingError when there is no such file
 CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains);
+
+/// The same of a file that was read before. @throws InputError
+CycleSeries parse_cycles(TextFile const& file, int steps_per_cycle, int grains);
 
 /// The first `cycles` cycles of a series that has at least as many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);

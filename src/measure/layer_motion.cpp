@@ -284,16 +284,17 @@ int period_of(PhaseSeries const& series, int discarded, int used) {
 // For N even and t_j = j T / N: d_jk = (-1)^(j-k) cot((j-k) pi / N) / 2 in units of 2 pi / T
 // (Trefethen, Spectral Methods in MATLAB, 2000, chapter 3).
 std::vector<double> periodic_velocity(std::vector<double> const& places, double frequency) {
-    int const n = static_cast<int>(places.size());
-    Values velocity(places.size(), 0.0);
-    for (int j = 0; j < n; ++j) {
-        for (int k = 0; k < n; ++k) {
-            if (k == j) continue;
-            double const sign = (j - k) % 2 == 0 ? 1 : -1;
-            velocity[static_cast<std::size_t>(j)] +=
-                sign / (2 * std::tan((j - k) * std::numbers::pi / n)) * places[static_cast<std::size_t>(k)];
-        }
-        velocity[static_cast<std::size_t>(j)] *= two_pi * frequency;
+    std::size_t const n = places.size();
+    Values weight(n, 0.0);  // of j - k
+    for (std::size_t d = 1; d < n; ++d) {
+        double const sign = d % 2 == 0 ? 1 : -1;
+        weight[d] = sign / (2 * std::tan(static_cast<double>(d) * std::numbers::pi / static_cast<double>(n)));
+    }
+    Values velocity(n, 0.0);
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < j; ++k) velocity[j] += weight[j - k] * places[k];
+        for (std::size_t k = j + 1; k < n; ++k) velocity[j] -= weight[k - j] * places[k];
+        velocity[j] *= two_pi * frequency;
     }
     return velocity;
 }

@@ -1,6 +1,5 @@
 #include "measure/layer_profiles.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -39,10 +38,10 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
 /// Step, number of bins, and then a line per bin: its number, middle, grains, density and means.
 class SnapshotParser {
   public:
-    explicit SnapshotParser(fs::path path) : path_(std::move(path)) {}
+    explicit SnapshotParser(TextFile const& file) : file_(file) {}
 
     std::vector<Snapshot> parse() {
-        std::string const content = read_file(path_);
+        std::string const& content = file_.content;
         for (std::size_t start = 0; start < content.size();) {
             std::size_t const end = content.find('\n', start);
             if (end == std::string::npos) break;
@@ -72,29 +71,25 @@ class SnapshotParser {
         --left_;
     }
     [[noreturn]] void refuse() const {
-        throw InputError(fmt::format("{}:{}: the line is damaged; expected {}", path_.string(), line_number_,
+        throw InputError(fmt::format("{}:{}: the line is damaged; expected {}", file_.path.string(),
+                                     line_number_,
                                      left_ == 0 ? "a step and a number of bins" : "the numbers of a bin"));
     }
 
-    fs::path path_;
+    TextFile const& file_;
     int line_number_ = 0;
     int left_ = 0;  ///< bins of the last snapshot that are still to come
     std::vector<Snapshot> snapshots_;
 };
 
-/// The files by the step at which their run started.
-std::map<long, fs::path> snapshot_files(fs::path const& folder, std::string_view name) {
-    std::map<long, fs::path> files;
-    std::error_code missing;
-    for (auto const& entry : fs::directory_iterator(folder, missing)) {
-        std::string const file = entry.path().filename().string();
-        if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) continue;
-        std::string_view const step(file.data() + name.size() + 1, file.size() - name.size() - 5);
-        long number = 0;
-        auto const [end, failure] = std::from_chars(step.data(), step.data() + step.size(), number);
-        if (failure == std::errc() && end == step.data() + step.size()) files[number] = entry.path();
-    }
-    return files;
+/// The step at which the run of NAME.STEP.txt started.
+std::optional<long> start_of(fs::path const& path, std::string_view name) {
+    std::string const file = path.filename().string();
+    if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) return {};
+    std::string_view const step(file.data() + name.size() + 1, file.size() - name.size() - 5);
+    long number = 0;
+    auto const [end, failure] = std::from_chars(step.data(), step.data() + step.size(), number);
+    return failure == std::errc() && end == step.data() + step.size() ? std::optional(number) : std::nullopt;
 }
 
 /// Snapshots of the cycles that count, by phase.
@@ -186,15 +181,28 @@ double surface_variance(Snapshot const& one) {
 }  // namespace
 
 std::vector<Snapshot> read_snapshots(fs::path const& folder, std::string_view name) {
-    auto const files = snapshot_files(folder, name);
-    if (files.empty())
+    std::vector<TextFile> files;
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(folder, missing)) {
+        if (start_of(entry.path(), name)) files.push_back(read_text_file(entry.path()));
+    }
+    return parse_snapshots(files, folder, name);
+}
+
+std::vector<Snapshot> parse_snapshots(std::vector<TextFile> const& files, fs::path const& folder,
+                                      std::string_view name) {
+    std::map<long, TextFile const*> by_start;
+    for (TextFile const& file : files) {
+        if (auto const start = start_of(file.path, name)) by_start[*start] = &file;
+    }
+    if (by_start.empty())
         throw MissingError(fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
     std::vector<Snapshot> all;
-    for (auto const& [start, path] : files) {
+    for (auto const& [start, file] : by_start) {
         std::erase_if(all, [first = start](Snapshot const& one) { return one.step >= first; });
-        for (Snapshot& one : SnapshotParser(path).parse()) {
+        for (Snapshot& one : SnapshotParser(*file).parse()) {
             if (!all.empty() && one.bins.size() != all.front().bins.size())
-                throw InputError(fmt::format("{} holds snapshots of different size", path.string()));
+                throw InputError(fmt::format("{} holds snapshots of different size", file->path.string()));
             all.push_back(std::move(one));
         }
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/atomic_file.hpp"
+
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,11 @@ struct Snapshot {
 /// @throws InputError naming file and line when a line is damaged
 /// @throws MissingError when there is no such file
 std::vector<Snapshot> read_snapshots(std::filesystem::path const& folder, std::string_view name);
+
+/// The same of files that were read before; those with other names are passed over.
+/// @param folder  for messages
+std::vector<Snapshot> parse_snapshots(std::vector<TextFile> const& files, std::filesystem::path const& folder,
+                                      std::string_view name);
 
 /// What is needed beside the snapshots.
 struct ProfileFacts {

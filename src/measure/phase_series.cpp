@@ -8,6 +8,10 @@
 namespace vibrotrough::measure {
 
 PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle) {
+    return parse_phases(read_text_file(path), steps_per_cycle);
+}
+
+PhaseSeries parse_phases(TextFile const& file, int steps_per_cycle) {
     if (steps_per_cycle % PhaseSeries::per_cycle != 0)
         throw std::invalid_argument("steps per cycle are no multiple of the lines per cycle");
     int const distance = steps_per_cycle / PhaseSeries::per_cycle;
@@ -17,7 +21,7 @@ PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle) 
         "touching_vx,touching_spin,clearance,energy_translation,energy_rotation,overlap",
         distance, distance};
     PhaseSeries series;
-    read_table(path, format, [&series](int, std::span<double const> row) {
+    parse_table(file, format, [&series](int, std::span<double const> row) {
         series.x.push_back(row[1]);
         series.z.push_back(row[2]);
         series.vx.push_back(row[3]);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/atomic_file.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -36,6 +38,9 @@ struct PhaseSeries {
 /// @throws InputError naming file and line when a line is damaged or missing
 /// @throws MissingError when there is no such file
 PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle);
+
+/// The same of a file that was read before. @throws InputError
+PhaseSeries parse_phases(TextFile const& file, int steps_per_cycle);
 
 /// The same with places along the trough that are the integral of the velocity: for rigid bodies, whose
 /// places the engine does not unwrap. Trapezoids, so that what an impact moves within a hundredth of a cycle

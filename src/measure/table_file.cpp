@@ -1,6 +1,5 @@
 #include "measure/table_file.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -27,9 +26,9 @@ bool parse_row(std::string_view line, std::span<double> row) {
 
 }  // namespace
 
-void read_table(std::filesystem::path const& path, TableFormat const& format,
-                std::function<void(int line_number, std::span<double const> row)> const& take) {
-    std::string const content = read_file(path);
+void parse_table(TextFile const& file, TableFormat const& format,
+                 std::function<void(int line_number, std::span<double const> row)> const& take) {
+    auto const& [path, content] = file;
     std::vector<double> row(static_cast<std::size_t>(std::ranges::count(format.header, ',')) + 1);
     bool seen_header = false;
     int line_number = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <filesystem>
+#include "core/atomic_file.hpp"
+
 #include <functional>
 #include <span>
 #include <string_view>
@@ -18,8 +19,7 @@ struct TableFormat {
 /// Calls `take` with the number of each line and its values. A last line without its end is left out: the
 /// engine may be writing it.
 /// @throws InputError naming file and line when a line is damaged or a step is missing
-/// @throws MissingError when there is no such file
-void read_table(std::filesystem::path const& path, TableFormat const& format,
-                std::function<void(int line_number, std::span<double const> row)> const& take);
+void parse_table(TextFile const& file, TableFormat const& format,
+                 std::function<void(int line_number, std::span<double const> row)> const& take);
 
 }  // namespace vibrotrough::measure

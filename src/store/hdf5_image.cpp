@@ -1,6 +1,7 @@
 #include "store/hdf5_image.hpp"
 
 #include "core/hash.hpp"
+#include "store/hdf5_values.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,69 +12,11 @@
 namespace vibrotrough::store {
 namespace {
 
+/// HDF5 wants a name for a file in memory and refuses one that it can open on the disk: under a device
+/// nothing is.
+constexpr char const* no_file = "/dev/null/vibrotrough";
+
 std::mutex one_at_a_time;
-
-void require(bool success, std::string const& action) {
-    if (!success) throw Hdf5Error(action);
-}
-
-/// Texts of datasets have one fixed length: HDF5's heap for others carries no checksum and bloats small
-/// files. Those of attributes (length H5T_VARIABLE) are in that heap all the same, because only then h5py
-/// gives them as str.
-Handle text_type(std::size_t length) {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-    require(H5Tset_size(type.id(), std::max<std::size_t>(length, 1)) >= 0, "size a text type");
-    require(H5Tset_cset(type.id(), H5T_CSET_UTF8) >= 0, "set a text type to UTF-8");
-    require(H5Tset_strpad(type.id(), H5T_STR_NULLPAD) >= 0, "pad a text type");
-    return type;
-}
-
-Handle data_space(std::size_t count, Rank rank) {
-    hsize_t const extent = count;
-    return Handle(rank == Rank::scalar ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr),
-                  H5Sclose, "make a data space");
-}
-
-/// A value's bytes and its HDF5 type.
-struct Packed {
-    Handle type;
-    std::string bytes;
-};
-
-template <typename Number>
-Packed pack_numbers(std::vector<Number> const& values, hid_t type) {
-    return {Handle(H5Tcopy(type), H5Tclose, "copy a number type"),
-            std::string(reinterpret_cast<char const*>(values.data()), values.size() * sizeof(Number))};
-}
-
-Packed pack(std::vector<int> const& values) {
-    static_assert(sizeof(int) == 4);
-    return pack_numbers(values, H5T_STD_I32LE);
-}
-
-Packed pack(std::vector<double> const& values) {
-    return pack_numbers(values, H5T_IEEE_F64LE);
-}
-
-Packed pack(std::vector<std::string> const& values) {
-    std::size_t length = 1;
-    for (std::string const& text : values) length = std::max(length, text.size());
-    std::string bytes;
-    for (std::string const& text : values) bytes += text + std::string(length - text.size(), '\0');
-    return {text_type(length), std::move(bytes)};
-}
-
-void write_attribute(hid_t object, std::string const& name, hid_t type, void const* value) {
-    Handle const space = data_space(1, Rank::scalar);
-    Handle const attribute(H5Acreate2(object, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose, "make the attribute " + name);
-    require(H5Awrite(attribute.id(), type, value) >= 0, "write the attribute " + name);
-}
-
-void write_attribute(hid_t object, std::string const& name, std::string const& value) {
-    char const* const text = value.c_str();
-    write_attribute(object, name, text_type(H5T_VARIABLE).id(), &text);
-}
 
 /// An attribute of one value, after checking that its type is of the class wanted.
 Handle open_attribute(hid_t file, std::string const& name, H5T_class_t kind) {
@@ -93,7 +36,7 @@ Handle make_file() {
     // No reserves of space, so that the file is no longer than what it holds.
     require(H5Pset_meta_block_size(access.id(), 0) >= 0 && H5Pset_small_data_block_size(access.id(), 0) >= 0,
             "switch off reserves");
-    return Handle(H5Fcreate("vibrotrough", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
+    return Handle(H5Fcreate(no_file, H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
 }
 
 /// The line after HDF5's end.
@@ -116,7 +59,7 @@ Handle open_file(std::string bytes) {
     std::size_t constexpr increment = std::size_t{1} << 16;
     require(H5Pset_fapl_core(access.id(), increment, 0) >= 0, "choose HDF5's memory driver");
     require(H5Pset_file_image(access.id(), bytes.data(), bytes.size()) >= 0, "hand the bytes to HDF5");
-    return Handle(H5Fopen("vibrotrough", H5F_ACC_RDONLY, access.id()), H5Fclose, "open it as HDF5");
+    return Handle(H5Fopen(no_file, H5F_ACC_RDONLY, access.id()), H5Fclose, "open it as HDF5");
 }
 
 /// A dataset's values as bytes, `size` each, after checking type and shape.
@@ -160,16 +103,6 @@ std::vector<Number> numbers(Raw const& raw) {
 
 }  // namespace
 
-Handle::Handle(hid_t id, Close closer, std::string const& action) : id_(id), close_(closer) {
-    require(id >= 0, action);
-}
-
-Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-
-Handle::~Handle() {
-    if (id_ >= 0) close_(id_);
-}
-
 Hdf5Session::Hdf5Session() : lock_(one_at_a_time) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -177,24 +110,23 @@ Hdf5Session::Hdf5Session() : lock_(one_at_a_time) {
 ImageWriter::ImageWriter() : file_(make_file()) {}
 
 void ImageWriter::attribute(std::string const& name, int value) {
-    write_attribute(file_.id(), name, H5T_NATIVE_INT, &value);
+    write_attribute(file_.id(), name, H5T_NATIVE_INT, makings_.one, &value);
 }
 
 void ImageWriter::attribute(std::string const& name, std::string const& value) {
-    write_attribute(file_.id(), name, value);
+    char const* const text = value.c_str();
+    write_attribute(file_.id(), name, makings_.text.id(), makings_.one, &text);
 }
 
 void ImageWriter::dataset(std::string const& path, Values const& values, Rank rank, std::string_view units,
                           std::string_view description) {
-    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
-    require(rank == Rank::array || count == 1, "write " + path + ", a scalar is one value");
-    write(path, values, data_space(count, rank), units, description);
+    require(rank == Rank::array || count(values) == 1, "write " + path + ", a scalar is one value");
+    write(path, values, data_space(count(values), rank), units, description);
 }
 
-void ImageWriter::table(std::string const& path, Values const& values, std::size_t rows, std::size_t columns,
-                        std::string_view units, std::string_view description) {
-    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
-    require(count == rows * columns, "write " + path + ", it has not rows times columns values");
+void ImageWriter::grid(std::string const& path, Values const& values, std::size_t rows, std::size_t columns,
+                       std::string_view units, std::string_view description) {
+    require(count(values) == rows * columns, "write " + path + ", it has not rows times columns values");
     std::array<hsize_t, 2> const extent{rows, columns};
     write(path, values,
           Handle(H5Screate_simple(2, extent.data(), nullptr), H5Sclose, "make the shape of " + path), units,
@@ -203,22 +135,13 @@ void ImageWriter::table(std::string const& path, Values const& values, std::size
 
 void ImageWriter::write(std::string const& path, Values const& values, Handle const& space,
                         std::string_view units, std::string_view description) {
-    Packed const packed = std::visit([](auto const& all) { return pack(all); }, values);
-    std::size_t const count = std::visit([](auto const& all) { return all.size(); }, values);
-    Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make link properties");
-    require(H5Pset_create_intermediate_group(links.id(), 1) >= 0, "ask for groups");
-    Handle const creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make dataset properties");
-    require(H5Pset_obj_track_times(creation.id(), 0) >= 0, "leave out times");  // same values, same bytes
-    Handle const data(H5Dcreate2(file_.id(), path.c_str(), packed.type.id(), space.id(), links.id(),
-                                 creation.id(), H5P_DEFAULT),
-                      H5Dclose, "make the dataset " + path);
-    if (count > 0) {
-        require(
-            H5Dwrite(data.id(), packed.type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.bytes.data()) >= 0,
-            "write the dataset " + path);
+    Packed const packed = pack(values);
+    Handle const data = write_dataset(file_.id(), makings_, path, packed.type, space, packed.bytes);
+    for (auto const& [name, value] : {std::pair("units", units), std::pair("description", description)}) {
+        std::string const words(value);
+        char const* const text = words.c_str();
+        write_attribute(data.id(), name, makings_.text.id(), makings_.one, &text);
     }
-    write_attribute(data.id(), "units", std::string(units));
-    write_attribute(data.id(), "description", std::string(description));
 }
 
 std::string ImageWriter::bytes() const {
@@ -254,15 +177,6 @@ std::string ImageReader::text_attribute(std::string const& name) const {
     std::string value = text == nullptr ? "" : text;
     H5free_memory(text);
     return value;
-}
-
-std::size_t ImageReader::length(std::string const& path) const {
-    Handle const data(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose, "find the dataset " + path);
-    Handle const space(H5Dget_space(data.id()), H5Sclose, "read the shape of " + path);
-    hssize_t const count = H5Sget_simple_extent_npoints(space.id());
-    require(count >= 0 && static_cast<std::size_t>(count) <= size_,
-            "use the dataset " + path + ", it is too long");
-    return static_cast<std::size_t>(count);
 }
 
 template <>

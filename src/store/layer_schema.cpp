@@ -84,6 +84,16 @@ std::vector<CaseValue> layer_case_values() {
           "Tangential over normal force while the layer slides, apart from the ends of slides; NaN without "
           "slides; mean over the packings"},
          Real([](Case c) { return mean(c, [](Packing p) { return p.motion.friction_ratio; }); })},
+        {{"landing_friction", "1",
+          "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
+          "mass "
+          "no longer falls against the trough; NaN without landings and with side walls; mean over the "
+          "packings"},
+         Real([](Case c) { return mean(c, [](Packing p) { return p.motion.landing_friction; }); })},
+        {{"efficiency_by_normal_force", "1",
+          "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
+          "with side walls; mean over the packings"},
+         Real([](Case c) { return mean(c, [](Packing p) { return p.motion.efficiency_by_normal_force; }); })},
         {{"largest_overlap", "m", "Largest overlap of two grains; the largest of any packing"},
          Real([](Case c) { return most(c, [](Packing p) { return p.motion.largest_overlap; }); })},
         {{"largest_floor_overlap", "m",
@@ -131,6 +141,15 @@ std::vector<PackingValue> layer_packing_values() {
           "Tangential over normal force while the layer slides, apart from the ends of slides; NaN without "
           "slides"},
          [](Record p) -> Field { return &p.motion.friction_ratio; }},
+        {{"landing_friction", "1",
+          "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
+          "mass "
+          "no longer falls against the trough; NaN without landings and with side walls"},
+         [](Record p) -> Field { return &p.motion.landing_friction; }},
+        {{"efficiency_by_normal_force", "1",
+          "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
+          "with side walls"},
+         [](Record p) -> Field { return &p.motion.efficiency_by_normal_force; }},
         {{"largest_overlap", "m", "Largest overlap of two grains"},
          [](Record p) -> Field { return &p.motion.largest_overlap; }},
         {{"largest_floor_overlap", "m", "Largest overlap of a grain and the floor"},

@@ -7,6 +7,9 @@
 #include "store/hdf5_image.hpp"
 #include "store/schema.hpp"
 
+#include <map>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -65,23 +68,25 @@ Values column(PackingValue const& value, std::vector<PackingRecord>& packings) {
         value.field(example));
 }
 
-std::string packing_path(std::size_t packing, Entry const& entry) {
-    return fmt::format("series/{}/{}", packing + 1, entry.name);
+/// A name of a packing's own table.
+std::string packing_path(std::string_view group, std::size_t packing) {
+    return fmt::format("{}/{}", group, packing + 1);
 }
 
-std::string packing_path(std::size_t packing, PackingTable const& table) {
-    return fmt::format("{}/{}/{}", table.group, packing + 1, table.entry.name);
+std::string_view group_of(PackingSeries const& series) {
+    return series.length == SeriesLength::cycle_ends ? "cycle_ends" : "series";
 }
 
-/// Reads one PackingValue of all packings, whose number was read before.
-void read_column(ImageReader const& image, PackingValue const& value, std::vector<PackingRecord>& packings) {
-    std::string const path = fmt::format("packings/{}", value.entry.name);
+std::string_view group_of(PackingTable const& table) {
+    return table.group;
+}
+
+/// Reads one PackingValue of all packings.
+void read_column(ImageTable const& table, PackingValue const& value, std::vector<PackingRecord>& packings) {
     PackingRecord example{};
     std::visit(
         [&](auto* const kind) {
-            auto const values = image.values<decltype(stored(*kind))>(path, Rank::array);
-            if (values.size() != packings.size())
-                throw Hdf5Error("use the dataset " + path + ", its length is wrong");
+            auto const values = table.values<decltype(stored(*kind))>(std::string(value.entry.name));
             for (std::size_t i = 0; i < values.size(); ++i) {
                 restore(values[i], *std::get<std::remove_const_t<decltype(kind)>>(value.field(packings[i])));
             }
@@ -89,48 +94,63 @@ void read_column(ImageReader const& image, PackingValue const& value, std::vecto
         value.field(example));
 }
 
-void read_series(ImageReader const& image, std::vector<PackingRecord>& packings) {
-    for (std::size_t i = 0; i < packings.size(); ++i) {
-        for (PackingSeries const& series : packing_series()) {
-            series.field(packings[i]) = image.values<double>(packing_path(i, series.entry), Rank::array);
+void read_packings(ImageReader const& image, std::vector<PackingRecord>& packings) {
+    ImageTable const table = image.table("packings", Rank::array);
+    packings.resize(table.rows());
+    for (PackingValue const& value : packing_values()) read_column(table, value, packings);
+}
+
+/// Reads the columns of all tables of a packing.
+template <typename Entries>
+void read_tables(ImageReader const& image, std::size_t number, PackingRecord& packing,
+                 Entries const& entries) {
+    std::map<std::string_view, ImageTable> tables;
+    for (auto const& entry : entries) {
+        auto found = tables.find(group_of(entry));
+        if (found == tables.end()) {
+            found =
+                tables
+                    .emplace(group_of(entry), image.table(packing_path(group_of(entry), number), Rank::array))
+                    .first;
         }
-        std::size_t const cycles = packings[i].series.normal_force.size();
-        for (PackingSeries const& series : packing_series()) {
-            std::size_t const wanted = cycles + (series.length == SeriesLength::cycle_ends ? 1 : 0);
-            if (series.field(packings[i]).size() != wanted) {
-                throw Hdf5Error("use the dataset " + packing_path(i, series.entry) + ", its length is wrong");
-            }
-        }
+        entry.field(packing) = found->second.template values<double>(std::string(entry.entry.name));
     }
 }
 
-void read_tables(ImageReader const& image, std::vector<PackingRecord>& packings) {
-    for (std::size_t i = 0; i < packings.size(); ++i) {
-        PackingTable const* first = nullptr;
-        for (PackingTable const& table : packing_tables()) {
-            if (!first || first->group != table.group) first = &table;
-            table.field(packings[i]) = image.values<double>(packing_path(i, table), Rank::array);
-            if (table.field(packings[i]).size() != first->field(packings[i]).size())
-                throw Hdf5Error("use the dataset " + packing_path(i, table) + ", its length is wrong");
-        }
-    }
+void check_series(PackingRecord const& packing, std::size_t number) {
+    if (packing.series.x.size() != packing.series.normal_force.size() + 1)
+        throw Hdf5Error("use the table " + packing_path("cycle_ends", number) + ", its length is wrong");
 }
 
-/// Reads `case/*`, of which only the estimate is not in the scenario or the packings.
+/// Reads `case`, of which only the estimate is not in the scenario or the packings.
 measure::CaseEstimate read_case_values(ImageReader const& image) {
-    measure::CaseEstimate estimate{};
-    for (CaseValue const& value : case_values()) {
-        std::string const path = fmt::format("case/{}", value.entry.name);
-        if (std::holds_alternative<int (*)(CaseRecord const&)>(value.value)) {
-            int const number = image.values<int>(path, Rank::scalar).front();
-            if (value.entry.name == "packings") estimate.packings = number;
-        } else if (std::holds_alternative<double (*)(CaseRecord const&)>(value.value)) {
-            double const number = image.values<double>(path, Rank::scalar).front();
-            if (value.entry.name == "efficiency") estimate.mean = number;
-            if (value.entry.name == "efficiency_half_width") estimate.half_width = number;
-        }
+    ImageTable const table = image.table("case", Rank::scalar);
+    return {.mean = table.values<double>("efficiency").front(),
+            .half_width = table.values<double>("efficiency_half_width").front(),
+            .packings = table.values<int>("packings").front()};
+}
+
+template <typename Entries>
+void add_tables(ImageWriter& image, std::size_t number, PackingRecord& packing, Entries const& entries) {
+    std::vector<std::pair<std::string_view, std::vector<Column>>> tables;
+    for (auto const& entry : entries) {
+        if (tables.empty() || tables.back().first != group_of(entry)) tables.push_back({group_of(entry), {}});
+        auto const& [name, units, meaning] = entry.entry;
+        tables.back().second.push_back({name, units, meaning, entry.field(packing)});
     }
-    return estimate;
+    for (auto const& [group, columns] : tables)
+        image.table(packing_path(group, number), columns, Rank::array);
+}
+
+/// A table of values, one row per record.
+template <typename Entries, typename Records>
+std::vector<Column> columns_of(Entries const& entries, Records& records) {
+    std::vector<Column> columns;
+    for (auto const& value : entries) {
+        auto const& [name, units, meaning] = value.entry;
+        columns.push_back({name, units, meaning, column(value, records)});
+    }
+    return columns;
 }
 
 void check_kind(ImageReader const& image, std::filesystem::path const& path) {
@@ -141,12 +161,14 @@ void check_kind(ImageReader const& image, std::filesystem::path const& path) {
                         path.string(), result_format));
     }
     int const version = image.integer_attribute("schema_version");
-    if (version > schema_version) {
-        throw InputError(
-            fmt::format("{} was written by a newer Vibrotrough ({}, schema {}; this one reads up to {}); use "
-                        "that version",
-                        path.string(), image.text_attribute("program_version"), version, schema_version));
-    }
+    if (version == result_schema_version) return;
+    bool const newer = version > result_schema_version;
+    throw InputError(
+        fmt::format("{} was written by {} Vibrotrough ({}, schema {}; this one reads {}); {}", path.string(),
+                    newer ? "a newer" : "an older", image.text_attribute("program_version"), version,
+                    result_schema_version,
+                    newer ? "use that version"
+                          : "'vibrotrough run' makes it anew from its packings, without the engine"));
 }
 
 CaseRecord read_record(ImageReader const& image, std::filesystem::path const& path) {
@@ -159,10 +181,12 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     record.provenance.engine_certificate =
         image.values<std::string>(std::string(certificate_entry().name), Rank::scalar).front();
     record.estimate = read_case_values(image);
-    record.packings.resize(image.length("packings/seed"));
-    for (PackingValue const& value : packing_values()) read_column(image, value, record.packings);
-    read_series(image, record.packings);
-    read_tables(image, record.packings);
+    read_packings(image, record.packings);
+    for (std::size_t i = 0; i < record.packings.size(); ++i) {
+        read_tables(image, i, record.packings[i], packing_series());
+        read_tables(image, i, record.packings[i], packing_tables());
+        check_series(record.packings[i], i);
+    }
     FileSource source;
     auto const files = nlohmann::json::parse(
         image.values<std::string>(std::string(scenario_files_entry().name), Rank::scalar).front());
@@ -181,7 +205,7 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
     {
         ImageWriter image;
         image.attribute("format", result_format);
-        image.attribute("schema_version", schema_version);
+        image.attribute("schema_version", result_schema_version);
         image.attribute("campaign", record.scenario.campaign);
         for (CaseFact const& fact : case_facts()) {
             image.attribute(std::string(fact.entry.name), fact.field(copy));
@@ -203,20 +227,12 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         put(std::string(scenario_files.name), scenario_files,
             std::vector<std::string>{files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
             Rank::scalar);
-        for (CaseValue const& value : case_values()) {
-            put(fmt::format("case/{}", value.entry.name), value.entry, column(value, {record}), Rank::scalar);
-        }
-        for (PackingValue const& value : packing_values()) {
-            put(fmt::format("packings/{}", value.entry.name), value.entry, column(value, copy.packings),
-                Rank::array);
-        }
+        std::vector<CaseRecord> const one{record};
+        image.table("case", columns_of(case_values(), one), Rank::scalar);
+        image.table("packings", columns_of(packing_values(), copy.packings), Rank::array);
         for (std::size_t i = 0; i < copy.packings.size(); ++i) {
-            for (PackingSeries const& series : packing_series()) {
-                put(packing_path(i, series.entry), series.entry, series.field(copy.packings[i]), Rank::array);
-            }
-            for (PackingTable const& table : packing_tables()) {
-                put(packing_path(i, table), table.entry, table.field(copy.packings[i]), Rank::array);
-            }
+            add_tables(image, i, copy.packings[i], packing_series());
+            add_tables(image, i, copy.packings[i], packing_tables());
         }
         bytes = image.bytes();
     }
@@ -246,7 +262,7 @@ void write_campaign(std::filesystem::path const& path, std::string const& campai
     {
         ImageWriter image;
         image.attribute("format", campaign_format);
-        image.attribute("schema_version", schema_version);
+        image.attribute("schema_version", campaign_schema_version);
         image.attribute("campaign", campaign);
         image.attribute("program_version", std::string(program_version()));
         image.attribute("git_commit", std::string(program_commit()));

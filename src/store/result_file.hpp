@@ -7,14 +7,15 @@
 
 namespace vibrotrough::store {
 
-/// Version of the layout described in README.md of this room; raised when a reader must know.
-constexpr int schema_version = 1;
+/// Versions of the layouts described in README.md of this room; raised when a reader must know.
+constexpr int result_schema_version = 2;
+constexpr int campaign_schema_version = 1;
 
 /// Writes result.h5 under a temporary name, syncs and renames it. @throws MissingError when the disk refuses
 void write_result(std::filesystem::path const& path, CaseRecord const& record);
 
 /// Reads result.h5 back. Reading `scenario` uses the stored TOML text.
-/// @throws InputError naming the file when it is damaged, is no result file, or has a newer schema
+/// @throws InputError naming the file when it is damaged, is no result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
 /// Writes campaign.h5: one table of all cases, a column per dataset, in the order given; atomically.

@@ -98,7 +98,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     }
     auto const rows = static_cast<std::size_t>(map.y.count), columns = static_cast<std::size_t>(map.x.count);
     auto const write = [&](char const* name, Values const& values, char const* meaning) {
-        file.table(name, values, rows, columns, "1", meaning);
+        file.grid(name, values, rows, columns, "1", meaning);
     };
     write("velocity_efficiency", efficiency, "Velocity efficiency eta; infinite where the mass runs away");
     write("half_width", half_width, "Half-width of eta at 95 % confidence where there is no period, else 0");

@@ -38,6 +38,8 @@ void check_ranges(Conveyor const& c) {
     require_range(c.restitution >= 0 && c.restitution < 1, "restitution", c.restitution, "[0, 1)");
     require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
                   "[1e-9, 1]");
+    require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
+                  "landing_friction", c.landing_friction.value_or(0), "[0, 1e6]");
     require_range(c.air_drag >= 0 && c.air_drag <= 1e3, "air_drag", c.air_drag, "[0, 1000]");
     require_range(std::abs(c.along_ratio) <= 1e3, "along_ratio", c.along_ratio, "[-1000, 1000]");
     require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
@@ -71,6 +73,7 @@ std::string described(Conveyor const& c) {
     };
     return detail::described(c.point) + number("static_friction", c.static_friction) +
            number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
+           (c.landing_friction ? number("landing_friction", *c.landing_friction) : "") +
            number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
            number("along_phase", c.along_phase) + harmonics("along", c.along) +
            harmonics("normal", c.normal) + number("wall_friction", c.wall_friction) +
@@ -299,7 +302,8 @@ ConveyorMotion Solver::solve() {
     ConveyorMotion result;
     if (gravity_wins()) {
         result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
-    } else if (model_->kinetic_tangent() == 0 && tan_alpha == 0 && model_->drag() == 0) {
+    } else if (std::max(model_->kinetic_tangent(), model_->landing_tangent()) == 0 && tan_alpha == 0 &&
+               model_->drag() == 0) {
         result.motion = no_motion(Outcome::indifferent, 0);
     } else {
         int const normal = find_normal_period();
@@ -319,7 +323,8 @@ ConveyorMotion Solver::solve() {
 EffectiveFriction effective_friction(Conveyor const& c) {
     double const wall = c.wall_pressure_ratio * c.wall_friction * c.height_over_width;
     double const kinetic = c.point.friction;
-    return {kinetic + wall, std::max(kinetic, c.static_friction) + wall};
+    return {kinetic + wall, std::max(kinetic, c.static_friction) + wall,
+            c.landing_friction.value_or(kinetic) + wall};
 }
 
 ConveyorMotion solve(Conveyor const& conveyor) {

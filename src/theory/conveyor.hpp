@@ -3,6 +3,7 @@
 #include "theory/point_mass.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,12 @@ struct Conveyor {
     double static_friction = 0;     ///< mu_s >= mu (Nedderman & Harding); 0: the same as kinetic
     double restitution = 0;         ///< e in [0, 1), normal (Eq. 23): friction impulse with mu (1 + e)
     double slowest_rebound = 1e-6;  ///< slower rebounds are contact, in omega r sin(beta)
-    double air_drag = 0;            ///< kappa >= 0: drag force = m omega kappa times velocity, air at rest
-    double along_ratio = 1;         ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
-    double along_phase = 0;         ///< rad
+    /// Instead of mu in the impulse of a landing (Eqs. 17, 18), >= 0. Not in the paper: grains that roll give
+    /// way to a short landing, but not to a long slide (validation/why_theory_fails).
+    std::optional<double> landing_friction;
+    double air_drag = 0;     ///< kappa >= 0: drag force = m omega kappa times velocity, air at rest
+    double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
+    double along_phase = 0;  ///< rad
     std::vector<Harmonic> along, normal;  ///< further parts of the acceleration of X and of Y
     double wall_friction = 0;             ///< of the layer on the two side walls, >= 0
     double wall_pressure_ratio = 0.5;     ///< Janssen's k: horizontal over vertical stress, in [0, 1]
@@ -44,7 +48,7 @@ struct Conveyor {
 
 /// Friction coefficients that stand for floor and walls together.
 struct EffectiveFriction {
-    double kinetic, standing;
+    double kinetic, standing, landing;
 };
 
 /// Side walls by Janssen's stress ratio: the walls carry the horizontal stress k sigma_v, sigma_v = N(t) z /

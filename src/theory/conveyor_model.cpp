@@ -77,6 +77,7 @@ ConveyorModel::ConveyorModel(Conveyor const& conveyor)
     auto const friction = effective_friction(conveyor);
     kinetic_ = friction.kinetic * conveyor.point.tan_vibration_angle;
     standing_ = friction.standing * conveyor.point.tan_vibration_angle;
+    landing_ = friction.landing * conveyor.point.tan_vibration_angle;
     normal_ = y_.differentiated(1, drag_);
     needed_ = x_.differentiated(1, drag_);
     positive_ = make_slide(+1);

@@ -41,6 +41,7 @@ class ConveyorModel {
     double gravity() const { return gravity_; }  ///< tan(alpha) tan(beta) / Gamma
     double drag() const { return drag_; }
     double kinetic_tangent() const { return kinetic_; }  ///< mu tan(beta), walls included
+    double landing_tangent() const { return landing_; }  ///< the same of a landing's impulse
 
     /// N(t) in contact: 1/Gamma + Y'' + kappa Y'.
     double normal_force(double t) const { return weight_ + normal_(t); }
@@ -82,7 +83,7 @@ class ConveyorModel {
 
     Conveyor conveyor_;
     detail::Trigonometric x_, y_, vx_, vy_, ax_, ay_;
-    double weight_, gravity_, drag_, kinetic_, standing_;
+    double weight_, gravity_, drag_, kinetic_, standing_, landing_;
     detail::Trigonometric normal_, needed_;
     Slide positive_, negative_;
     Shifted hold_positive_, hold_negative_;

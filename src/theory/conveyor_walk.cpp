@@ -49,12 +49,12 @@ void Walk::fly(WalkState& s, double end, Passage& passage, Keep keep) const {
     if (landing < end) land(s, std::max(-s.gap_rate, 0.0), passage, keep);
 }
 
-// Eqs. 17, 18 and 23: impulse mu (1 + e) times the approach, at most what stops the slip.
+// Eqs. 17, 18 and 23: impulse mu (1 + e) times the approach (mu of landings), at most what stops the slip.
 void Walk::land(WalkState& s, double approach, Passage& passage, Keep keep) const {
     Conveyor const& conveyor = model_.conveyor();
     double const bounce = conveyor.restitution * approach;
     double const rebound = bounce > conveyor.slowest_rebound ? bounce : 0;
-    double const before = s.v, most = model_.kinetic_tangent() * (approach + rebound);
+    double const before = s.v, most = model_.landing_tangent() * (approach + rebound);
     if (std::abs(s.v) <= most) {
         s.v = 0;
         s.slope = 0;

@@ -13,7 +13,8 @@ constexpr double zero_vibration_tangent = 1e-12;
 constexpr std::array<std::string_view, input_count> names{
     "throw_number",    "machine_number",  "vibration_angle_deg", "tan_vibration_angle", "inclination_deg",
     "tan_inclination", "friction",        "static_friction",     "restitution",         "air_drag",
-    "along_ratio",     "along_phase_deg", "wall_friction",       "wall_pressure_ratio", "height_over_width"};
+    "along_ratio",     "along_phase_deg", "wall_friction",       "wall_pressure_ratio", "height_over_width",
+    "landing_friction"};
 
 }  // namespace
 
@@ -74,6 +75,7 @@ Conveyor Inputs::conveyor() const {
     c.point = point();
     if (auto const v = get(Input::static_friction)) c.static_friction = *v;
     if (auto const v = get(Input::restitution)) c.restitution = *v;
+    if (auto const v = get(Input::landing_friction)) c.landing_friction = *v;
     if (auto const v = get(Input::air_drag)) c.air_drag = *v;
     if (auto const v = get(Input::along_ratio)) c.along_ratio = *v;
     if (auto const v = get(Input::along_phase_deg)) c.along_phase = *v * degree;

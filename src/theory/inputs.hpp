@@ -27,8 +27,9 @@ enum class Input : std::size_t {
     wall_friction,
     wall_pressure_ratio,
     height_over_width,
+    landing_friction,
 };
-inline constexpr std::size_t input_count = 15;
+inline constexpr std::size_t input_count = 16;
 
 /// The name in text: that of the enumerator.
 std::string_view name_of(Input input);

@@ -66,7 +66,7 @@ class CampaignFolder : public testing::Test {
         overwrite(planned.packing_folder(packing) / "in.liggghts", fmt::format("# deck {}\n", packing));
         overwrite(planned.packing_folder(packing) / "cycles.csv", cycles);
         write_layer(planned.packing_folder(packing), scenario, 60);
-        write_finished_packing(planned, packing, marker);
+        write_finished_packing(planned, packing, marker, read_outputs(planned.packing_folder(packing)));
     }
 
     std::string campaign_text = with("packings = 3", "packings = 2");

@@ -62,10 +62,10 @@ class Block(EndToEndTest):
         return self.table()
 
     def test_a_point_moves_as_the_theory_says(self):
-        # Away from Gamma = 1.7, where the theory has a knee; one percent is what the contact's stiffness allows
-        # (300 contacts per cycle), 0.035 was the worst seen on the facts sheet.
-        for row in self.run_blocks("point", [0.8, 1.3, 2.5]):
-            self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.02, msg=str(row))
+        # Throw number 2 is where a contact that bounces or springs along the trough is up to 0.1 too fast; 0.0064 is the
+        # worst of the whole grid with this contact (validation/rigid_block).
+        for row in self.run_blocks("point", [0.8, 2.0, 2.5]):
+            self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.01, msg=str(row))
 
     def test_a_plate_moves_as_the_theory_says(self):
         for row in self.run_blocks("plate", [0.8]):

@@ -140,6 +140,18 @@ TEST_F(ResultFile, SameRecordGivesSameBytes) {
     EXPECT_EQ(read_file(path), read_file(folder / "again.h5"));
 }
 
+// HDF5's files in memory have names, too: whatever lies in the folder where the program is started must not
+// matter.
+TEST_F(ResultFile, FilesInTheCurrentFolderDoNotMatter) {
+    auto const before = std::filesystem::current_path();
+    std::filesystem::current_path(folder);
+    std::ofstream("vibrotrough") << "the program itself";
+    write_result(path, sample_record());
+    EXPECT_NO_THROW(expect_equal(read_result(path), sample_record()));
+    std::filesystem::current_path(before);
+    EXPECT_EQ(read_file(folder / "vibrotrough"), "the program itself");
+}
+
 TEST_F(ResultFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
     write_result(path, sample_record());
     std::string const whole = read_file(path);
@@ -167,16 +179,54 @@ TEST_F(ResultFile, ForeignFilesAreRefused) {
     EXPECT_THROW(read_result(folder / "none.h5"), MissingError);
 }
 
-TEST_F(ResultFile, NewerSchemaIsRefused) {
-    std::string bytes;
-    {
+TEST_F(ResultFile, OtherSchemasAreRefused) {
+    auto const of_version = [](int version) {
         ImageWriter image;
         image.attribute("format", "vibrotrough result");
-        image.attribute("schema_version", schema_version + 1);
+        image.attribute("schema_version", version);
         image.attribute("program_version", "9.9.9");
-        bytes = image.bytes();
+        return image.bytes();
+    };
+    EXPECT_THAT(refusal(of_version(result_schema_version + 1)),
+                AllOf(HasSubstr(path.string()), HasSubstr("a newer"), HasSubstr("9.9.9")));
+    EXPECT_THAT(refusal(of_version(result_schema_version - 1)),
+                AllOf(HasSubstr(path.string()), HasSubstr("an older"), HasSubstr("vibrotrough run")));
+}
+
+/// A file with one table of one column, as an attacker might make it, with a right seal.
+class ForeignTable : public testing::Test {
+  protected:
+    static std::string refusal(std::vector<Column> const& columns, Rank rank, std::string const& column) {
+        std::string bytes;
+        {
+            ImageWriter image;
+            image.table("group/rows", columns, Rank::array);
+            image.dataset("plain", std::vector<double>{1}, Rank::scalar, "1", "no table");
+            bytes = image.bytes();
+        }
+        try {
+            ImageReader const image(std::move(bytes));
+            image.table(column == "plain" ? "plain" : "group/rows", rank).values<double>(column);
+        } catch (Hdf5Error const& error) {
+            return error.what();
+        }
+        return "no error";
     }
-    EXPECT_THAT(refusal(bytes), AllOf(HasSubstr(path.string()), HasSubstr("newer"), HasSubstr("9.9.9")));
+};
+
+TEST_F(ForeignTable, ColumnsOfAnotherKindAreRefused) {
+    std::vector<Column> const columns{{"number", "1", "n", std::vector<double>{1, 2}},
+                                      {"count", "1", "c", std::vector<int>{1, 2}},
+                                      {"text", "1", "t", std::vector<std::string>{"a", "bc"}}};
+    EXPECT_EQ(refusal(columns, Rank::array, "number"), "no error");
+    EXPECT_EQ(refusal(columns, Rank::array, "none"), "cannot find the column none of group/rows");
+    EXPECT_THAT(refusal(columns, Rank::array, "count"), HasSubstr("another type"));
+    EXPECT_THAT(refusal(columns, Rank::array, "text"), HasSubstr("another type"));
+    EXPECT_THAT(refusal(columns, Rank::scalar, "number"), HasSubstr("another shape"));
+    EXPECT_THAT(refusal(columns, Rank::array, "plain"), HasSubstr("no table"));
+    EXPECT_THROW(refusal({{"a", "1", "", std::vector<double>{1}}, {"b", "1", "", std::vector<double>{}}},
+                         Rank::array, "a"),
+                 Hdf5Error);
 }
 
 TEST_F(ResultFile, SaysWhenTheDiskRefuses) {

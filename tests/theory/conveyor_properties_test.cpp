@@ -26,6 +26,7 @@ Conveyor extreme_conveyor() {
     c.point = {gamma, std::tan(beta), *rc::gen::element(-1.5, -1.0, -0.3, 0.0, 0.3, 1.0) * mu, mu};
     if (maybe()) c.static_friction = mu * *rc::gen::element(1.0, 1.3, 10.0);
     if (maybe()) c.restitution = *rc::gen::element(0.01, 0.3, 0.9);
+    if (maybe()) c.landing_friction = mu * *rc::gen::element(0.0, 0.3, 2.0);
     if (maybe()) c.air_drag = *rc::gen::element(1e-12, 1e-3, 1.0, 100.0);
     if (maybe()) c.along_ratio = *rc::gen::element(0.0, -1.0, 3.0), c.along_phase = between(-4, 4);
     if (maybe()) c.normal = {{*rc::gen::inRange(1, 12), between(-2, 2), between(-4, 4)}};

@@ -72,7 +72,7 @@ TEST(Conveyor, Table1NeedsTheNamedRule) {
 // a step moves the mass by less than h^3 = 1e-8.
 TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     Conveyor const base = plastic(1.7, 0.5, -0.05, 0.3);
-    std::vector<Conveyor> cases(8, base);
+    std::vector<Conveyor> cases(10, base);
     cases[1].static_friction = 0.45;
     cases[2].air_drag = 0.1;
     cases[3].along_ratio = 0.8, cases[3].along_phase = 0.7;
@@ -81,6 +81,8 @@ TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     cases[6].restitution = 0.1;  // more has long periods at the larger throw number
     cases[7].static_friction = 0.4, cases[7].air_drag = 0.05, cases[7].along_phase = -0.4;
     cases[7].normal = {{2, 0.1, 0.2}}, cases[7].wall_friction = 0.2, cases[7].height_over_width = 0.3;
+    cases[8].landing_friction = 0.1;
+    cases[9].landing_friction = 0, cases[9].wall_friction = 0.2, cases[9].height_over_width = 0.3;
     for (Conveyor const& conveyor : cases) {
         for (double const throw_number : {0.8, 1.7, 2.6}) {
             Conveyor at = conveyor;
@@ -102,6 +104,20 @@ TEST(Conveyor, WallsAddToFriction) {
     EXPECT_NEAR(effective_friction(walls).kinetic, 0.33, 1e-15);
     EXPECT_NEAR(solve(walls).motion.velocity_efficiency,
                 solve(PointMass{2, 0.5, 0, 0.33}).velocity_efficiency, 1e-9);
+}
+
+// A landing that brakes by mu is the plain theory. One that does not brake keeps the mass faster where it
+// lands ahead of the trough and is not stopped (1.7: FP'N); below Gamma = 1 nothing lands.
+TEST(Conveyor, LandingFrictionIsThatOfLandingsOnly) {
+    auto const eta = [](double throw_number, std::optional<double> landing) {
+        Conveyor conveyor = plastic(throw_number, 0.5, 0, 0.23);
+        conveyor.landing_friction = landing;
+        return solve(conveyor).motion.velocity_efficiency;
+    };
+    EXPECT_DOUBLE_EQ(eta(1.7, 0.23), eta(1.7, {}));
+    EXPECT_GT(eta(1.7, 0.0), eta(1.7, 0.1) + 0.1);
+    EXPECT_GT(eta(1.7, 0.1), eta(1.7, {}) + 0.1);
+    EXPECT_DOUBLE_EQ(eta(0.8, 0.0), eta(0.8, {}));
 }
 
 // Without a period: the mean of two halves of the run lies within the stated interval of the whole, most
@@ -150,6 +166,7 @@ TEST(Conveyor, RefusesWhatIsOutOfRange) {
     };
     refused([](Conveyor& c) { c.restitution = 1; });
     refused([](Conveyor& c) { c.static_friction = 0.2; });
+    refused([](Conveyor& c) { c.landing_friction = -0.1; });
     refused([](Conveyor& c) { c.air_drag = -1; });
     refused([](Conveyor& c) { c.along = {{0, 0.1, 0}}; });
     refused([](Conveyor& c) { c.wall_pressure_ratio = 2; });

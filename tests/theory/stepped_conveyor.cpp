@@ -24,6 +24,7 @@ class Stepper {
         double const wall = c_.wall_pressure_ratio * c_.wall_friction * c_.height_over_width;
         kinetic_ = (p.friction + wall) * p.tan_vibration_angle;
         standing_ = (std::max(p.friction, c_.static_friction) + wall) * p.tan_vibration_angle;
+        landing_ = (c_.landing_friction.value_or(p.friction) + wall) * p.tan_vibration_angle;
         weight_ = 1 / p.throw_number;
         pull_ = p.tan_inclination * p.tan_vibration_angle * weight_;
         enter_contact();
@@ -104,7 +105,7 @@ class Stepper {
             double const approach = -s_[2];
             double const bounce = c_.restitution * approach,
                          rebound = bounce > c_.slowest_rebound ? bounce : 0;
-            double const most = kinetic_ * (approach + rebound);
+            double const most = landing_ * (approach + rebound);
             s_[0] = std::abs(s_[0]) <= most ? 0 : s_[0] - std::copysign(most, s_[0]);
             s_[1] = 0;
             s_[2] = rebound;
@@ -127,7 +128,7 @@ class Stepper {
     }
 
     Conveyor c_;
-    double kinetic_, standing_, weight_, pull_;
+    double kinetic_, standing_, landing_, weight_, pull_;
     Phase phase_ = Phase::stick;
     double t_ = 0;
     State s_{};

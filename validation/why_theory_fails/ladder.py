@@ -1,0 +1,45 @@
+"""The rungs: from the point mass that the theory speaks of to the layer, one change at a time."""
+
+ALL = [1.5, 1.7, 2.0, 2.25, 2.5, 3.0]
+PAIR = [1.7, 2.0]
+BLOCKED = {"grains.rotation": "blocked"}
+
+
+def grains(count):
+    return {"layer.height": None, "layer.grains": count}
+
+
+def deep(height):
+    return {"layer.height": height}
+
+
+def varied(**keys):
+    return {name.replace("_", ".", 1): value for name, value in keys.items()} | {"measure.packings": 2}
+
+
+# name: (changes of base.toml, throw numbers)
+RUNGS = {
+    "block": ({"layer.height": None, "layer.block": "point", "measure.packings": 1, "grains.diameter_spread": None}, ALL),
+    "grain, blocked": (BLOCKED | grains(1), ALL),
+    "grain, free": (grains(1), ALL),
+    "monolayer, blocked": (BLOCKED | deep("3 mm"), ALL),
+    "monolayer, free": (deep("3 mm"), ALL),
+    "4 deep, blocked": (BLOCKED, ALL),
+    "4 deep, free": ({}, ALL),
+    "restitution 0.1": (varied(grains_restitution=0.1, trough_restitution=0.1), PAIR),
+    "restitution 0.9": (varied(grains_restitution=0.9, trough_restitution=0.9), PAIR),
+    "cubes": (varied(grains_shape="cube", grains_diameter_spread=None), PAIR),
+    "rolling friction 0.5": (varied(grains_rotation="rolling", grains_rolling_friction=0.5), PAIR),
+    "grain friction 0.1": (varied(grains_friction=0.1), PAIR),
+    "2 deep, blocked": (varied(grains_rotation="blocked", layer_height="6 mm"), PAIR),
+    "2 deep, free": (varied(layer_height="6 mm"), PAIR),
+    "8 deep, blocked": (varied(grains_rotation="blocked", layer_height="24 mm"), PAIR),
+    "8 deep, free": (varied(layer_height="24 mm"), PAIR),
+    "trough friction 0.1": (varied(trough_friction=0.1), PAIR),
+    "rolling friction 0.1": (varied(grains_rotation="rolling", grains_rolling_friction=0.1), PAIR),
+}
+
+
+def campaign_name(rung):
+    return "".join(letter if letter.isalnum() or letter == "." else "-" for letter in rung)
+
