@@ -37,6 +37,16 @@ def slide_conveyors(run, grid):
                     + f"; layer - theory from {min(off):+.2f} to {max(off):+.2f}, median {statistics.median(off):+.2f}")
 
 
+def softness(run, grid, stiff):
+    """Not the paper's: why the blocked layer is a little slower than the theory below throw number 1."""
+    at = next(row for row in grid if is_at(row, "blocked", 0.046, 1.0, 0.95))
+    values = {5.0: at["efficiency"], **{row["youngs_modulus_mpa"]: row["efficiency"] for row in stiff}}
+    told = ", ".join(f"{modulus:g} MPa: {eta - at['theory']:+.3f}" for modulus, eta in sorted(values.items()) if eta is not None)
+    off = [abs(eta - at["theory"]) for _, eta in sorted(values.items()) if eta is not None]
+    run.finding("ours: what a blocked layer is slower than the theory below throw number 1 is the softness of its grains",
+                off[-1] < off[0] / 2, f"layer - theory at tan(alpha) 0.046, tan(beta) 1, Gamma 0.95: {told}")
+
+
 def spread(rows, key):
     return max(row[key] for row in rows) - min(row[key] for row in rows)
 

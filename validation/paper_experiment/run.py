@@ -2,16 +2,16 @@
 import math
 import pathlib
 import sys
-import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import draw  # noqa: E402
 import findings  # noqa: E402
+import theory_batch  # noqa: E402
 from campaigns import FREE, FRICTION, GRID  # noqa: E402
 from measure import measure  # noqa: E402
-from validation_case import ValidationCase, read_table  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
 
 STEADY = ("finished", "not-precise")
 
@@ -30,12 +30,9 @@ class Theory:
 
     def efficiencies(self, points):
         """Of many points (tan_inclination, tan_vibration_angle, throw_number) at once."""
-        with tempfile.TemporaryDirectory() as folder:
-            asked, told = (pathlib.Path(folder) / name for name in ("points.csv", "answers.csv"))
-            lines = [f"{self.sign * slope},{tangent},{gamma},{FRICTION}" for slope, tangent, gamma in points]
-            asked.write_text("tan_inclination,tan_vibration_angle,throw_number,friction\n" + "\n".join(lines) + "\n", encoding="utf-8")
-            self.run.theory("batch", asked, "--output", told)
-            return [float(row["velocity_efficiency"]) for row in read_table(told)]
+        columns = ["tan_inclination", "tan_vibration_angle", "throw_number", "friction"]
+        asked = [(self.sign * slope, tangent, gamma, FRICTION) for slope, tangent, gamma in points]
+        return list(theory_batch.efficiencies(self.run, "theory_points", columns, asked))
 
 
 def numbers(rows):
@@ -68,6 +65,7 @@ def main():
     findings.side_walls(run, walls)
     findings.wiggles(run, waves)
     findings.noise(run, theory, grid, noise)
+    findings.softness(run, grid, numbers(run.table("stiff.csv")))
     findings.shake_test(run, friction)
     draw.efficiency(run, theory, grid)
     draw.layer(run, walls, waves, numbers(run.table("surfaces.csv")))
