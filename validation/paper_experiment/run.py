@@ -83,7 +83,7 @@ def criteria(run, grid, walls, friction):
     for row in slides:
         where = f"tan(alpha) {row['tan_inclination']}, tan(beta) {row['tan_vibration_angle']}, Gamma {row['throw_number']}"
         run.check(f"blocked, {where}: eta", row["efficiency"], row["theory"], max(0.2 * abs(row["theory"]), 0.04),
-                  because="no flight and no rolling: a block with Coulomb's friction; 20 % as in the paper, 0.04 near zero")
+                  because="no flight and no rolling: a block with Coulomb's friction; 20 % as in the paper, 0.04 near zero for soft grains")
     for row in friction:
         if row["what"] == "block":
             run.check(f"shake test of a block, mu = {row['friction_put_in']}", row["friction"], row["friction_put_in"],
