@@ -80,6 +80,10 @@ class ValidationCase:
     def csv(self, *words):
         return list(csv.DictReader(io.StringIO(self.theory(*words))))
 
+    def probes(self):
+        """What `vibrotrough probe-engine` measured and expected, by the probes' names."""
+        return {probe["name"]: probe for probe in json.loads(self._ask("probe-engine", "--json"))["probes"]}
+
     def _ask(self, *words):
         answer = subprocess.run([self.program, *words], capture_output=True, text=True, check=False)
         if answer.returncode != 0:
@@ -106,8 +110,9 @@ class ValidationCase:
         return read_table(path)
 
     def write_table(self, name, header, rows):
-        lines = [f"# {self.provenance()}", ",".join(header)] + [",".join(map(str, row)) for row in rows]
-        (self.output / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        with open(self.output / name, "w", encoding="utf-8", newline="") as file:
+            file.write(f"# {self.provenance()}\n")
+            csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
     def figure(self, name):
         """Where to save a figure; a twin's goes where nobody takes it for the case's."""
