@@ -110,8 +110,9 @@ class ValidationCase:
         return read_table(path)
 
     def write_table(self, name, header, rows):
-        lines = [f"# {self.provenance()}", ",".join(header)] + [",".join(map(str, row)) for row in rows]
-        (self.output / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        with open(self.output / name, "w", encoding="utf-8", newline="") as file:
+            file.write(f"# {self.provenance()}\n")
+            csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
     def figure(self, name):
         """Where to save a figure; a twin's goes where nobody takes it for the case's."""

@@ -92,7 +92,7 @@ void PackingRun::start_on(Settled const& settled) {
         return;
     }
     remove_content(folder_);
-    deck::write_deck(deck_, folder_);
+    deck::write_deck(deck_, folder_, engine_.ranks);
     link_file(settled.restart, folder_ / deck::settled_file);
     start_engine({});
 }
@@ -105,7 +105,8 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         started_ = checkpoint->started;
         earlier_wall_time_ = checkpoint->wall_time;
         sealed_cycle_ = checkpoint->cycle;
-        replace_file(folder_ / deck::control_file, deck::control_go_on);
+        // Perhaps on another number of ranks than before.
+        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
     start_ = std::chrono::steady_clock::now();
     process_ = std::make_unique<engine::EngineProcess>(
@@ -194,6 +195,7 @@ PackingOutcome PackingRun::judge_outputs(PackingOutputs const& outputs, long las
                   std::string(program_commit()), host_name(), engine_certificate_},
                  measure_packing(scenario, deck_, outputs, series, phases)};
     measured_->record.wall_time = measured_->run.wall_time;
+    measured_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
     return {true, {}, {}};
 }
 

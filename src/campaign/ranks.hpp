@@ -5,9 +5,14 @@
 
 namespace vibrotrough::campaign {
 
-/// MPI ranks for one packing: what [run] ranks says, else one rank, or more when cores would stand idle and
-/// the case is big enough. Two ranks never paid below 20,000 grains (measured, LIGGGHTS 3.8.0), so that each
-/// rank gets at least 10,000.
+/// Time on one rank over (ranks times time on several), by the number of grains that each rank has: measured
+/// on two ranks (README.md of this room), interpolated over the logarithm, constant beyond the largest
+/// measured; 0 below the smallest, where nothing was measured.
+double parallel_efficiency(double grains_per_rank);
+
+/// MPI ranks for one packing: what [run] ranks says; else the most, up to `cores`, that leave each rank at
+/// least 1000 grains and an efficiency of 0.6. Several ranks give the numbers of one up to rounding, and then
+/// chaos: the same statistics, other digits.
 /// @param cores  that this packing may use, at least 1
 int choose_ranks(RunSettings const& settings, Scenario const& scenario, int cores);
 

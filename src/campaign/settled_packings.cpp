@@ -115,7 +115,7 @@ void SettledPackings::obtain(deck::Deck const& deck, Ready ready) {
     making->weight = deck.weight;
     making->waiting.push_back(std::move(ready));
     fs::remove_all(making->folder);
-    deck::write_files(deck.settle_files, making->folder);
+    deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), making->folder);
     making->process = std::make_unique<engine::EngineProcess>(
         context_, engine_, making->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});

@@ -101,13 +101,25 @@ std::string checkpoint_file(int cycle) {
     return fmt::format("checkpoint.{}.restart", cycle);
 }
 
+std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> files, int ranks) {
+    if (ranks == 1) return files;
+    constexpr std::string_view before = "\ncommunicate ";
+    constexpr std::string_view line =
+        "\nprocessors      * * 1                      # the floor is shared out, not the height";
+    for (auto& [name, content] : files) {
+        auto const at = content.find(before);
+        if (at != std::string::npos) content.insert(at, line);
+    }
+    return files;
+}
+
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {
     make_folder(folder);
     for (auto const& [name, content] : files) replace_file(folder / name, content);
 }
 
-void write_deck(Deck const& deck, std::filesystem::path const& folder) {
-    write_files(deck.files, folder);
+void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks) {
+    write_files(for_ranks(deck.files, ranks), folder);
     // The engine makes no folders.
     if (deck.files.at(drive_file).find(" dump/") != std::string::npos) make_folder(folder / "dump");
 }

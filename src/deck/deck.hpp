@@ -44,12 +44,17 @@ Deck make_deck(Scenario const& scenario, int packing);
 /// Name of the restart file that the deck writes after this cycle.
 std::string checkpoint_file(int cycle);
 
+/// The same files for several MPI ranks: each gets a piece of the floor. The engine would cut the box where
+/// its faces are smallest; it is tall and empty above, so that all grains would be one rank's. Files for one
+/// rank are as they were.
+std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> files, int ranks);
+
 /// Writes files into the folder, which is made.
 /// @throws MissingError when the disk refuses
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder);
 
 /// Writes the deck's files into the folder, which is made.
 /// @throws MissingError when the disk refuses
-void write_deck(Deck const& deck, std::filesystem::path const& folder);
+void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks = 1);
 
 }  // namespace vibrotrough::deck

@@ -178,6 +178,9 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                 std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
+    // Boost opens the file without cutting it: the end of an earlier, interrupted run's output would follow.
+    std::error_code ignored;
+    fs::remove(folder / output_file, ignored);
     try {
         state_->process = bp::child(
             bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),

@@ -1,55 +1,82 @@
 #include "scenario/shake_test.hpp"
 
-#include "core/atomic_file.hpp"
 #include "core/hash.hpp"
 
-#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
 #include <sstream>
-#include <string_view>
+#include <vector>
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 namespace vibrotrough {
 namespace {
 
-/// Keys that say how the trough moves and how it stands.
-constexpr std::array drive_keys{
-    "trough.inclination",  "trough.tan_inclination", "trough.vibration_angle", "trough.tan_vibration_angle",
-    "trough.throw_number", "trough.machine_number",  "trough.frequency",       "output.frames_per_cycle"};
-
-void erase(toml::table& root, std::string_view path) {
-    std::size_t const dot = path.find('.');
-    if (toml::table* const section = root[path.substr(0, dot)].as_table())
-        section->erase(path.substr(dot + 1));
-    if (toml::table* const sweep = root["sweep"].as_table()) sweep->erase(path);
+/// The layer as it is, on a level trough that shakes along itself as a sinusoid.
+Scenario shaken(Scenario scenario, double machine_number) {
+    Trough& trough = scenario.trough;
+    trough.inclination = 0;
+    trough.vibration_angle = 0;
+    trough.along_phase = 0;
+    trough.harmonics.clear();
+    trough.waveform.reset();
+    trough.frequency = std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
+    scenario.output.frames_per_cycle = 0;
+    return scenario;
 }
 
-/// The first of the amplitudes that were swept takes the place of the sweep.
-void keep_one_amplitude(toml::table& root, toml::table& trough) {
-    toml::table* const sweep = root["sweep"].as_table();
-    toml::node const* const swept = sweep ? sweep->get("trough.amplitude") : nullptr;
-    if (!swept) return;
-    toml::array const* const list = swept->as_array();
-    toml::node const* const first = list ? list->get(0) : swept->as_table()->get("from");
-    trough.insert_or_assign("amplitude", *first->as_string());
-    sweep->erase("trough.amplitude");
+/// The keys of a campaign of one case, "section.key", with their values as TOML.
+using Keys = std::map<std::string, std::string>;
+
+Keys keys_of(Scenario const& scenario) {
+    Keys keys;
+    toml::table const root = toml::parse(to_toml(scenario));
+    for (auto const& [section, content] : root) {
+        for (auto const& [key, value] : *content.as_table()) {
+            std::ostringstream text;
+            value.visit([&](auto const& node) { text << node; });
+            keys.emplace(std::string(section.str()) + "." + std::string(key.str()), text.str());
+        }
+    }
+    keys.emplace("grains.shape", "\"sphere\"");  // what is not said of single spheres
+    return keys;
+}
+
+/// Keys that differ between the layers. All have the same ones: a design sets a key in every case or in none.
+std::set<std::string> differing(std::vector<Keys> const& layers) {
+    std::set<std::string> names;
+    for (Keys const& one : layers) {
+        for (auto const& [name, value] : one) {
+            if (layers.front().at(name) != value) names.insert(name);
+        }
+    }
+    return names;
 }
 
 }  // namespace
 
 std::string shake_test_campaign(std::filesystem::path const& campaign_file, double machine_number) {
-    read_campaign(campaign_file);  // from here on the file is known to be right
-    toml::table root = toml::parse(read_file(campaign_file));
-    toml::table& trough = *root["trough"].as_table();
-    keep_one_amplitude(root, trough);
-    for (char const* const key : drive_keys) erase(root, key);
-    trough.insert_or_assign("tan_inclination", 0.0);
-    trough.insert_or_assign("tan_vibration_angle", 0.0);
-    trough.insert_or_assign("machine_number", machine_number);
-    std::ostringstream text;
-    text << "# The layers of " << campaign_file.filename().string() << " shaken along a level trough\n"
-         << root << "\n";
-    return text.str();
+    std::string const name = campaign_file.filename().string();
+    std::set<std::string> known;
+    std::vector<Keys> layers;
+    std::string text;
+    for (Scenario const& one : read_campaign(campaign_file).cases) {
+        if (!known.insert(layer_key(one)).second) continue;
+        Scenario const test = shaken(one, machine_number);
+        if (layers.empty())
+            text = fmt::format("# The layers of {} shaken along a level trough\n{}", name, to_toml(test));
+        layers.push_back(keys_of(test));
+    }
+    std::set<std::string> const names = differing(layers);
+    for (Keys const& layer : layers) {
+        if (names.empty()) break;
+        text += "\n[[points]]\n";
+        for (std::string const& key : names) text += fmt::format("\"{}\" = {}\n", key, layer.at(key));
+    }
+    return text;
 }
 
 std::string layer_key(Scenario const& scenario) {

@@ -7,9 +7,9 @@
 
 namespace vibrotrough {
 
-/// The campaign's layers on a level trough that shakes along itself: the campaign file with alpha = beta = 0,
-/// the machine number K, plain sinusoidal drive, and no sweep over the drive (of a swept amplitude the first
-/// value). Everything else stays, sweeps over grains, layer and friction too.
+/// The campaign's layers, whatever design they come from, on a level trough that shakes along itself: one
+/// case for each layer, with alpha = beta = 0, the machine number K, a plain sinusoid, and the amplitude of
+/// the first case with that layer; a point for each where there are several.
 /// @param machine_number  K = omega^2 r / g
 /// @throws as read_campaign
 std::string shake_test_campaign(std::filesystem::path const& campaign_file, double machine_number);

@@ -1,5 +1,6 @@
 """A private Slurm of one node, from Debian's packages, without systemd: munged, slurmctld and slurmd in a short
-temporary folder (the munge socket's path may have 108 characters), on loopback, without accounting.
+temporary folder (the munge socket's path may have 108 characters), on loopback. With accounting when asked: mariadbd and
+slurmdbd in the same folder.
 """
 
 import getpass
@@ -44,11 +45,33 @@ ReturnToService=2
 KillWait=5
 MinJobAge=3600
 MaxArraySize={max_array}
-AccountingStorageType=accounting_storage/none
+{accounting}
 JobAcctGatherType=jobacct_gather/none
 NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={node_port} CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=main Nodes=n1 Default=YES MaxTime=INFINITE DefaultTime=60 State=UP
 PartitionName=short Nodes=n1 MaxTime=5 State=UP
+"""
+
+NO_ACCOUNTING = "AccountingStorageType=accounting_storage/none"
+ACCOUNTING = """\
+AccountingStorageType=accounting_storage/slurmdbd
+AccountingStorageHost=127.0.0.1
+AccountingStoragePort={port}
+AccountingStoragePass={folder}/munge.sock"""
+DATABASE_DAEMON = """\
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.sock
+DbdHost=localhost
+DbdAddr=127.0.0.1
+DbdPort={port}
+SlurmUser={user}
+PidFile={folder}/slurmdbd.pid
+LogFile={folder}/slurmdbd.log
+StorageType=accounting_storage/mysql
+StorageHost=127.0.0.1
+StoragePort={database_port}
+StorageUser=root
+StorageLoc=accounting
 """
 
 
@@ -56,6 +79,11 @@ def free_port():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+def answers(port):
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
 def resolves_to_loopback(host):
@@ -83,8 +111,9 @@ def wait_for(question, what, patience=60):
 class PrivateSlurm:
     """Use as a context; `environment` leads Slurm's commands to it."""
 
-    def __init__(self, cpus=4, max_array=1001):
-        for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue"):
+    def __init__(self, cpus=4, max_array=1001, accounting=False):
+        self.accounting = accounting
+        for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue", *(("slurmdbd", "mariadbd") if accounting else ())):
             if shutil.which(program) is None:
                 raise AssertionError(f"{program} is not installed: ./setup packages lists what the tests need")
         self.folder = Path(tempfile.mkdtemp(prefix="vt", dir="/tmp"))
@@ -95,9 +124,15 @@ class PrivateSlurm:
         for name in ("state", "spool"):
             (self.folder / name).mkdir()
         listen = "CommunicationParameters=NoCtldInAddrAny,NoInAddrAny" if resolves_to_loopback(host) else ""
+        self.database_port, port = free_port(), free_port()
+        told = (ACCOUNTING if accounting else NO_ACCOUNTING).format(folder=self.folder, port=port)
+        (self.folder / "slurmdbd.conf").write_text(
+            DATABASE_DAEMON.format(folder=self.folder, port=port, user=getpass.getuser(), database_port=self.database_port)
+        )
+        (self.folder / "slurmdbd.conf").chmod(0o600)
         (self.folder / "slurm.conf").write_text(
             CONFIGURATION.format(host=host, user=getpass.getuser(), folder=self.folder, listen=listen, controller_port=free_port(), node_port=free_port(),
-                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array)  # fmt: skip
+                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array, accounting=told)  # fmt: skip
         )
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         (self.folder / "plugstack.conf").write_text("")
@@ -108,6 +143,8 @@ class PrivateSlurm:
     def __enter__(self):
         try:
             self.start_munge()
+            if self.accounting:
+                self.start_accounting()
             self.start_controller()
             self.start_node()
             return self
@@ -156,8 +193,29 @@ class PrivateSlurm:
                    f"--pid-file={folder}/munged.pid", f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed")  # fmt: skip
         wait_for(lambda: self.command("munge", "-n", "-S", folder / "munge.sock").returncode == 0, "munge answered")
 
-    def start_controller(self):
-        self.start("slurmctld", "-D", "-f", self.folder / "slurm.conf")
+    def start_accounting(self):
+        """A database that lets anybody in, on loopback and for as long as the test runs."""
+        data = self.folder / "database"
+        user = getpass.getuser()
+        data.mkdir()
+        own = ["mariadbd", "--no-defaults", f"--datadir={data}", f"--user={user}", "--innodb-buffer-pool-size=16M",
+               "--innodb-flush-log-at-trx-commit=0"]  # fmt: skip
+        # What mariadb-install-db does, which wants another package.
+        tables = "CREATE DATABASE mysql;\nUSE mysql;\n" + Path("/usr/share/mysql/mysql_system_tables.sql").read_text()
+        made = subprocess.run([*own, "--bootstrap"], input=tables, capture_output=True, text=True, timeout=60)
+        if made.returncode != 0:
+            raise AssertionError((made.stdout + made.stderr)[-2000:])
+        self.start(*own, "--bind-address=127.0.0.1", f"--port={self.database_port}", f"--socket={self.folder}/database.sock",
+                   f"--pid-file={self.folder}/database.pid", "--skip-grant-tables", "--skip-networking=0")  # fmt: skip
+        wait_for(lambda: answers(self.database_port), "mariadbd answered")
+        self.environment["SLURMDBD_CONF"] = str(self.folder / "slurmdbd.conf")
+        self.start("slurmdbd", "-D")
+        wait_for(lambda: self.command("sacctmgr", "-n", "show", "cluster").returncode == 0, "slurmdbd answered")
+        self.command("sacctmgr", "-i", "add", "cluster", "vibrotrough")
+
+    def start_controller(self, forgetful=False):
+        """`forgetful`: it knows no job of before, as after a job's MinJobAge."""
+        self.start("slurmctld", "-D", *(["-c"] if forgetful else []), "-f", self.folder / "slurm.conf")
         wait_for(lambda: "is UP" in self.command("scontrol", "ping").stdout, "slurmctld answered")
 
     def start_node(self):

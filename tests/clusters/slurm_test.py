@@ -1,6 +1,7 @@
 """A real small campaign through a real Slurm: submitted, watched, with tasks killed on the way, and finished."""
 
 import os
+import re
 import signal
 import sys
 import unittest
@@ -139,6 +140,33 @@ class Slurm(EndToEndTest):
         self.run_campaign(campaign)
         status = self.wait_for_the_end()
         self.assertEqual(status["finished"], 1, status)
+
+    def test_what_the_controller_forgot_is_in_the_accounting(self):
+        slurm = self.start_slurm(cpus=1, accounting=True)
+        # Nobody would stop these for an hour: one runs, one waits.
+        changes = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000}
+        campaign = self.write_slurm_campaign(changes=changes, sweep={"layer.grains": [60, 70]})
+        job = re.search(r"submitted as job (\d+)\n", self.run_campaign(campaign).stdout)[1]
+        engine = wait_until(self.simulations, "an engine ran")[0]
+        slurm.command("scancel", f"{job}_1")
+        work = parent_of(engine)
+        os.kill(parent_of(work), signal.SIGKILL)  # the task's shell: no last word of its own
+        os.kill(work, signal.SIGKILL)
+
+        def told():
+            return slurm.command("sacct", "-n", "-P", "-X", "-j", job, "-o", "JobID,State").stdout.splitlines()
+
+        wanted = [f"{job}_0|FAILED", f"{job}_1|CANCELLED by {os.getuid()}"]
+        wait_until(lambda: sorted(told()) == wanted, "the accounting knew both tasks")
+        slurm.stop("slurmctld")
+        slurm.start_controller(forgetful=True)
+        self.assertIn("Invalid job id", slurm.command("squeue", "-h", "-j", job).stderr)
+
+        status = self.status()
+        self.assertEqual([case["outcome"] for case in status["cases"]], ["interrupted"] * 2)
+        found = sorted(case["message"] for case in status["cases"])
+        self.assertRegex(found[0], rf"Slurm says CANCELLED.* of task {job}_1")
+        self.assertRegex(found[1], rf"Slurm says FAILED.* of task {job}_0")
 
     def test_what_slurm_refuses_is_said_in_one_line(self):
         self.start_slurm(cpus=1)

@@ -27,10 +27,10 @@ class Checkpoint(EndToEndTest):
                 return int(line.split()[-1])
         return None
 
-    def kill_in_the_middle(self, campaign):
+    def kill_in_the_middle(self, campaign, how=signal.SIGKILL, cycle=10):
         driver = self.start_campaign(campaign)
-        wait_until(lambda: self.sealed_cycle() >= 10, "a checkpoint was sealed", driver)
-        driver.send_signal(signal.SIGKILL)
+        wait_until(lambda: self.sealed_cycle() >= cycle, "a checkpoint was sealed", driver)
+        driver.send_signal(how)
         self.finish(driver)
         wait_until(lambda: not processes_in(self.output), "the engine was gone")
 
@@ -55,6 +55,15 @@ class Checkpoint(EndToEndTest):
         self.assertEqual(self.numbers((self.packing() / "cycles.csv").read_text()), self.numbers(cycles))
         # What a finished packing needs no more is gone.
         self.assertEqual(list(self.packing().glob("checkpoint*")), [])
+
+    def test_a_run_that_was_told_to_stop_near_its_end_goes_on(self):
+        # The engine says that it caught a signal. What it writes after going on is shorter: nothing may be left of that.
+        campaign = self.write_campaign(LONG)
+        table, _ = self.undisturbed(campaign)
+        self.kill_in_the_middle(campaign, signal.SIGINT, 45)
+        self.run_campaign(campaign, wanted=1)
+        self.assertGreaterEqual(self.begun(), 45)
+        self.assertEqual(without_wall_time(self.table()), table)
 
     def test_a_checkpoint_is_verified_before_it_is_trusted(self):
         campaign = self.write_campaign(LONG)

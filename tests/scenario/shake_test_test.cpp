@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,6 +60,67 @@ TEST_F(ShakeTestCampaign, KeepsSweepsOverTheLayerOnly) {
             campaign.cases, [&](Scenario const& test) { return layer_key(test) == layer_key(one); });
         EXPECT_EQ(same, 1) << "each case has its test";
     }
+}
+
+/// The layers of a campaign, each once.
+std::set<std::string> layers_of(Campaign const& campaign) {
+    std::set<std::string> keys;
+    for (Scenario const& one : campaign.cases) keys.insert(layer_key(one));
+    return keys;
+}
+
+TEST_F(ShakeTestCampaign, FollowsEveryDesign) {
+    for (std::string const design : {
+             R"([zip]
+"trough.throw_number" = [1.5, 2.0, 3.0]
+"trough.friction" = [0.2, 0.3, 0.2]
+)",
+             R"([[points]]
+"trough.throw_number" = 1.7
+"layer.height" = "9 mm"
+[[points]]
+"trough.throw_number" = 2.7
+"layer.height" = "9 mm"
+[[points]]
+"trough.throw_number" = 2.7
+"layer.height" = "6 mm"
+)",
+             R"([sample]
+method = "sobol"
+count = 8
+"trough.throw_number" = { from = 1, to = 3 }
+"grains.friction" = { from = 0.2, to = 0.6 }
+)",
+             R"([sweep]
+"trough.throw_number" = [1.5, 2.0]
+"grains.shape" = ["sphere", "cube"]
+)",
+             R"([sweep]
+"trough.throw_number" = [1.5, 2.0, 3.0]
+"trough.friction" = [0.2, 0.3]
+[[exclude]]
+"trough.friction" = { above = 0.25 }
+)"}) {
+        // Clumps come in one size only.
+        std::string const text = with("diameter_spread = 0.1", "diameter_spread = 0") + "\n" + design;
+        Campaign const original = parse_campaign(text, "test.toml");
+        Campaign const made = made_from(text);
+        EXPECT_EQ(layers_of(made), layers_of(original)) << design;
+        EXPECT_EQ(made.cases.size(), layers_of(made).size()) << "one test per layer\n" << design;
+        for (Scenario const& test : made.cases) {
+            EXPECT_NEAR(machine_number(test.trough), 0.67, 1e-12);
+            EXPECT_EQ(test.trough.vibration_angle, 0);
+        }
+    }
+}
+
+// The theory that is turned around afterwards knows a sinusoid along the trough.
+TEST_F(ShakeTestCampaign, LeavesOutWhatTheDriveHasBesideItsSinusoid) {
+    Campaign const made =
+        made_from(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\""));
+    ASSERT_EQ(made.cases.size(), 1u);
+    EXPECT_EQ(made.cases.front().trough.along_phase, 0);
+    EXPECT_TRUE(made.cases.front().trough.harmonics.empty());
 }
 
 }  // namespace

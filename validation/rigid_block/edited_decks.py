@@ -17,6 +17,10 @@ def get_property(deck, name):
     return float(re.search(SAME.format(name=name).replace(" .*", r" (\S+)"), deck)[3])
 
 
+def steps_per_cycle(folder):
+    return int(re.search(r"variable\s+n equal (\d+)", pathlib.Path(folder, "in.liggghts").read_text(encoding="utf-8"))[1])
+
+
 def edit(deck, law):
     """`law`: a contact_law.Law. The deck's own law has k = m / t_c^2 and c = 10 m / t_c."""
     duration = 10 / get_property(deck, "gamman")

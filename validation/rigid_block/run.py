@@ -5,6 +5,7 @@ import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -33,9 +34,9 @@ PLASTIC = Law("the decks' law", 1, 10)
 FORMER = Law("former law", math.pi**2, 3 * math.pi, pulls=True, tangential_stiffness=4 * math.pi**2)
 LAWS = [PLASTIC, Law("may pull", 1, 10, pulls=True), Law("damped 2 times the critical", 25 / 4, 10),
         Law("damped 1.5 times the critical", 100 / 9, 10), Law("critically damped", 25, 10),
-        Law("spring along, kt = 10 kn", 1, 10, tangential_stiffness=10), Law("spring along, kt = 40 kn", 1, 10, tangential_stiffness=40),
-        Law("spring along, kt = 160 kn", 1, 10, tangential_stiffness=160), FORMER]
-CONTACTS, STEPS = 300, 6000  # per cycle, as in the decks
+        Law("spring along of 10 kn", 1, 10, tangential_stiffness=10), Law("spring along of 40 kn", 1, 10, tangential_stiffness=40),
+        Law("spring along of 160 kn", 1, 10, tangential_stiffness=160), FORMER]
+CONTACTS = 300  # per cycle, as in the decks
 LAW_CYCLES, KEPT, START_CYCLES = 100, 20, 160
 STEADY = 0.001  # largest spread of a motion's last cycles, in efficiency
 STIFFNESSES = [100, 300, 1000]
@@ -88,7 +89,7 @@ def stiffness(run):
 
 
 def engine_cycles(run, name, point, law, cycles):
-    """Velocity efficiency of each cycle of the engine with `law` written into the decks."""
+    """Velocity efficiency of each cycle of the engine with `law` written into the decks, and their steps per cycle."""
     base = tomllib.loads((FOLDER / "base.toml").read_text(encoding="utf-8"))
     text = campaign_text(base, {"campaign.name": name, **deck_changes(point), "measure.max_cycles": cycles}, {})
     folder = run.runs / name
@@ -105,20 +106,23 @@ def engine_cycles(run, name, point, law, cycles):
     along = base["trough"]["amplitude"].split()
     assert along[1] == "mm"
     unit = 2 * math.pi * float(along[0]) / 1000 / math.hypot(1, point.tan_vibration_angle)
-    return [(after - before) / unit for before, after in zip(x, x[1:])]
+    return [(after - before) / unit for before, after in zip(x, x[1:])], edited_decks.steps_per_cycle(folder / "case-001/packing-1")
 
 
 def laws(run):
     """Other contact laws, by the engine and by an integration of our own."""
     chosen = [(point, law) for law in (LAWS[:2] if run.quick else LAWS) for point in (HARD[:1] if run.quick else HARD)]
     cycles = 20 if run.quick else LAW_CYCLES
-    own = contact_law.efficiency(chosen, CONTACTS, STEPS, cycles)[-KEPT:]
+    engine = [engine_cycles(run, f"law-{number + 1}", point, law, cycles) for number, (point, law) in enumerate(chosen)]
+    own = {}
+    for steps in sorted({steps for _, steps in engine}):
+        here = [pair for pair, (_, its_steps) in zip(chosen, engine) if its_steps == steps]
+        own.update(zip(here, contact_law.efficiency(here, CONTACTS, steps, cycles)[-KEPT:].T))
     rows = []
-    for number, ((point, law), integrated, spread) in enumerate(zip(chosen, own.mean(axis=0), own.std(axis=0))):
-        engine = statistics.mean(engine_cycles(run, f"law-{number + 1}", point, law, cycles)[-KEPT:])
-        rows.append([law.name, "" if law.pulls else f"{law.restitution:.4f}", *values(point), f"{engine:.6f}", f"{integrated:.6f}",
-                     f"{spread:.6f}"])
-        print(f"{law.name}, throw number {point.throw_number}: engine {engine:.4f}, own integration {integrated:.4f}", flush=True)
+    for (point, law), (series, _) in zip(chosen, engine):
+        integrated = own[point, law]
+        rows.append([law.name, "" if law.pulls else f"{law.restitution:.4f}", *values(point), f"{statistics.mean(series[-KEPT:]):.6f}",
+                     f"{integrated.mean():.6f}", f"{integrated.std():.6f}"])
     run.write_table("contact.csv", ["law", "restitution", *POINT_COLUMNS, "efficiency_engine", "efficiency_integrated",
                                     "spread_of_cycles"], rows)
 
@@ -126,8 +130,8 @@ def laws(run):
 def starts(run):
     """How long the block remembers its start, from rest and from two speeds."""
     cycles = 20 if run.quick else START_CYCLES
-    engine = engine_cycles(run, "start", SLOW, PLASTIC, cycles)
-    own = contact_law.efficiency([(SLOW, PLASTIC)] * 3, CONTACTS, STEPS, cycles, [0, -1, 1])
+    engine, steps = engine_cycles(run, "start", SLOW, PLASTIC, cycles)
+    own = contact_law.efficiency([(SLOW, PLASTIC)] * 3, CONTACTS, steps, cycles, [0, -1, 1])
     rows = [[cycle + 1, *(f"{value:.6f}" for value in (engine[cycle], *own[cycle]))] for cycle in range(cycles)]
     run.write_table("start.csv", ["cycle", "engine_from_rest", "integrated_from_rest", "integrated_from_minus_1", "integrated_from_plus_1"],
                     rows)
@@ -137,17 +141,16 @@ def starts(run):
 
 def theories(run, points, restitution=None):
     """The theory's answers at many points; the wrong twin's friction is 30 % too high."""
-    table, answers = run.output / "points.csv", run.output / "answers.csv"
     lines = [",".join(POINT_COLUMNS + ["restitution"])]
     for index, p in enumerate(points):
         mu = p.friction * (1.3 if run.wrong else 1)
         e = restitution[index] if restitution else 0
         lines.append(",".join(map(repr, [p.throw_number, p.tan_vibration_angle, p.tan_inclination, mu, e])))
-    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    run.theory("batch", table, "--output", answers)
-    rows = read_table(answers)
-    table.unlink()
-    answers.unlink()
+    with tempfile.TemporaryDirectory() as folder:
+        table, answers = pathlib.Path(folder, "points.csv"), pathlib.Path(folder, "answers.csv")
+        table.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        run.theory("batch", table, "--output", answers)
+        rows = read_table(answers)
     return [(float(row["velocity_efficiency"]), row["mode"]) for row in rows]
 
 
@@ -160,7 +163,7 @@ def near_a_change(around):
 
 
 def judge_grid(run):
-    rows = [row for row in run.table("result.csv")]
+    rows = run.table("result.csv")
     points = [point_of(row) for row in rows]
     shifted = [Point(p.throw_number * (1 + shift), *values(p)[1:]) for p in points for shift in SHIFTS]
     answers = theories(run, shifted)
@@ -205,8 +208,8 @@ def judge_laws(run):
     rebounding = theories(run, points, [float(row["restitution"] or 0) for row in rows])
     steady = [row for row in rows if float(row["spread_of_cycles"]) < STEADY]
     apart = max(abs(float(row["efficiency_engine"]) - float(row["efficiency_integrated"])) for row in steady)
-    run.between(f"engine against our own integration, {len(steady)} of {len(rows)} motions that repeat: largest |difference|", apart, 0, 0.001,
-                "the same law in two codes; the engine starts from a settled overlap and has 1 % more steps")
+    run.between(f"engine against our own integration, {len(steady)} of {len(rows)} motions that repeat: largest |difference|", apart, 0, 1e-4,
+                "the same law in two codes: only their starts differ")
     errors = {}
     for row, (theory, _), (rebound, _) in zip(rows, plastic, rebounding):
         engine = float(row["efficiency_engine"])
@@ -249,8 +252,9 @@ def draw(run, judged, stiff, contact):
     for index, marker in enumerate("osDv"):
         if all(len(errors) > index for errors in stiff.values()):
             point = HARD[index]
-            axes[2].loglog(list(stiff), [abs(errors[index]) for errors in stiff.values()], marker + "-", ms=4,
+            axes[2].loglog(list(stiff), [abs(errors[index]) for errors in stiff.values()], marker, ms=5,
                            label=f"Γ {point.throw_number}, tan β {point.tan_vibration_angle}, tan α {point.tan_inclination}, μ {point.friction}")
+    axes[2].plot(list(stiff), [max(map(abs, errors)) for errors in stiff.values()], "-", color="#999999", lw=1, label="largest of them")
     if FORMER.name in contact:
         axes[2].plot([CONTACTS] * len(contact[FORMER.name]), [plain for plain, _ in contact[FORMER.name]], "k*", ms=7, label="former contact law")
     axes[2].set(xlabel="contacts per cycle", ylabel="|block - theory|")

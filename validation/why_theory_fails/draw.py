@@ -1,0 +1,60 @@
+"""The figure that answers why the theory fails."""
+
+import math
+
+import ladder
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+THEORY, BLOCKED, FREE = "#000000", "#0072B2", "#D55E00"  # Okabe and Ito
+STEPS = [("theory", None, THEORY), ("rigid block", "block", "#999999"), ("one sphere, no rotation", "grain, blocked", BLOCKED),
+         ("layer, no rotation", "4 deep, blocked", BLOCKED), ("point mass, layer's normal force", "normal force", "#009E73"),
+         ("layer, free rotation", "4 deep, free", FREE)]
+
+
+def theory_line(run, *options):
+    rows = [(g / 100, run.json("point", "--throw-number", g / 100, "--tan-vibration-angle", 0.5, "--friction", 0.23, *options))
+            for g in range(140, 311, 5)]
+    return [(gamma, row["velocity_efficiency"]) for gamma, row in rows if row["velocity_efficiency"] is not None]
+
+
+def lines(run, rungs, axes):
+    plain, smooth = theory_line(run), theory_line(run, "--landing-friction", 0)
+    axes.fill_between([g for g, _ in plain], [e for _, e in plain], [e for _, e in smooth], color="#DDDDDD",
+                      label="theory, from a landing without friction (top) to μ (bottom)")
+    axes.plot(*zip(*plain), color=THEORY, lw=1.5, label="theory")
+    for rung, colour, marker in (("4 deep, blocked", BLOCKED, "s"), ("4 deep, free", FREE, "o")):
+        numbers = rungs.numbers(rung)
+        axes.errorbar(numbers, [rungs.number(rung, g) for g in numbers], [rungs.number(rung, g, "half_width") for g in numbers],
+                      color=colour, marker=marker, ls="", capsize=3, label=f"simulated layer, rotation {rung.split()[-1]}")
+    axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05))
+    axes.legend(frameon=False, fontsize=8, loc="lower right")
+
+
+def steps(rungs, axes, gamma):
+    for place, (_, rung, colour) in enumerate(STEPS):
+        if rung is None:
+            value, width = rungs.number("4 deep, free", gamma, "efficiency_theory"), 0
+        elif rung == "normal force":
+            value, width = rungs.number("4 deep, free", gamma, "efficiency_normal_force"), 0
+        else:
+            value, width = rungs.number(rung, gamma), rungs.number(rung, gamma, "half_width")
+        width = 0 if math.isnan(width) else width
+        axes.barh(place, value, xerr=width or None, color=colour, height=0.65, error_kw={"capsize": 3})
+        if not math.isnan(value):
+            axes.text(0.02, place, f"{value:.2f}", va="center", color="white", fontsize=8)
+    axes.set_yticks(range(len(STEPS)), [name for name, _, _ in STEPS])
+    axes.invert_yaxis()
+    axes.set(xlabel="velocity efficiency η", xlim=(0, 1), title=f"Γ = {gamma}")
+
+
+def figure(run, rungs):
+    drawing, axes = plt.subplots(1, 3, figsize=(13, 4), layout="constrained", width_ratios=[1.5, 1, 1])
+    lines(run, rungs, axes[0])
+    for place, gamma in zip(axes[1:], ladder.PAIR):
+        steps(rungs, place, gamma)
+    axes[2].set_yticklabels([])
+    drawing.savefig(run.figure("ladder.png"), dpi=110)
+    plt.close(drawing)
