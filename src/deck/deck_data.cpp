@@ -124,7 +124,9 @@ void describe_contact(mustache::data& data, Scenario const& s, DeckNumbers const
     bool const block = s.layer.block != Block::none, rolls = s.grains.rotation == Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
     std::string const model = block ? "hooke/stiffness tangential no_history" : "hertz tangential history";
-    std::string const options = fmt::format("limitForce on tangential_damping {}", block ? "on" : "off");
+    std::string const options =
+        fmt::format("limitForce {} tangential_damping {}", s.layer.block == Block::plate ? "off" : "on",
+                    block ? "on" : "off");
     std::string const wall_model = model + (rolls ? " rolling_friction epsd2" : "");
     double const wall_friction = s.trough.side_wall_friction.value_or(0);
     data.set("block", block);

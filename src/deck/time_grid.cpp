@@ -17,8 +17,9 @@ constexpr double pi = std::numbers::pi;
 constexpr double fewest_steps = 500;   ///< per cycle
 constexpr double harmonic_steps = 50;  ///< per period of the highest harmonic
 constexpr double most_steps = 1e8;
-constexpr double block_steps = 20;  ///< per contact, 2 per time constant of a landing
-constexpr double block_damping_ratio = 5;
+constexpr double block_steps = 20;    ///< per contact, 2 per time constant of a landing
+constexpr double block_damping = 10;  ///< m / contact's duration
+constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 
 double smallest_radius(Scenario const& s) {
     if (!is_clump(s.grains)) return smallest_diameter(s.grains) / 2;
@@ -75,7 +76,10 @@ double settling_time_step(Scenario const& s, double fall_height) {
 
 BlockContact block_contact(Scenario const& s, double mass, int spheres) {
     double const duration = block_duration(s);
-    return {duration, mass / (duration * duration) / spheres, 2 * block_damping_ratio / duration / spheres};
+    bool const plate = spheres > 1;
+    double const ratio = plate ? plate_damping_ratio : point_damping_ratio;
+    double const stiffness = mass * std::pow(block_damping / (2 * ratio * duration), 2);
+    return {duration, stiffness / spheres, block_damping / duration / spheres, plate};
 }
 
 }  // namespace vibrotrough::deck

@@ -39,10 +39,13 @@ double settling_time_step(Scenario const& scenario, double fall_height);
 /// in a landing, so that its tangential impulse is exactly what Coulomb allows or what stops the slip,
 /// whichever is less; a spring instead would give its energy back. The price is a creep of a t_c / 10
 /// where a block rests under the acceleration a. See validation/rigid_block.
+/// A plate of several spheres has 1.5 times the critical damping (k = 11 m / t_c^2) and a force that may
+/// pull: a tilt relaxes ten times as fast, where a plate that leaves tilted would spin and land on its edges.
 struct BlockContact {
     double duration;   ///< s
     double stiffness;  ///< N/m, of one of its spheres
     double damping;    ///< 1/s: the damping force is damping * m * v, both ways, of one of its spheres
+    bool pulls;        ///< whether the normal force may be negative
 };
 
 /// @param spheres  that the block stands on

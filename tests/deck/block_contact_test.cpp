@@ -55,7 +55,7 @@ TEST(BlockContact, ALandingHasCoulombsImpulseOrStops) {
 
 TEST(BlockContact, SpheresOfAPlateShareIt) {
     BlockContact const whole = block_contact(block(), 2e-5, 1), ninth = block_contact(block(), 2e-5, 9);
-    EXPECT_DOUBLE_EQ(ninth.stiffness, whole.stiffness / 9);
+    EXPECT_DOUBLE_EQ(ninth.stiffness, whole.stiffness * (5 / 1.5) * (5 / 1.5) / 9);
     EXPECT_DOUBLE_EQ(ninth.damping, whole.damping / 9);
     EXPECT_EQ(ninth.duration, whole.duration);
 }
@@ -87,6 +87,19 @@ TEST(BlockContact, IsWhatTheDecksSay) {
     TimeGrid const time = choose_time_step(s);
     EXPECT_LE(time.time_step, duration / 20);
     EXPECT_GE(time.time_step, duration / 20 * 0.98);  // 6000 steps are made a multiple of 100
+}
+
+// A plate that leaves the trough tilted spins and lands on its edges; a force that may pull keeps it flat.
+TEST(BlockContact, APlateMayPull) {
+    Scenario plate = block();
+    plate.layer.block = Block::plate;
+    plate.grains.rotation = Rotation::free;
+    Deck const deck = make_deck(plate, 1);
+    for (auto const& name : {"settle.liggghts", "in.liggghts"})
+        EXPECT_NE(deck.files.at(name).find("no_history limitForce off tangential_damping on\n"),
+                  std::string::npos);
+    EXPECT_TRUE(block_contact(plate, 1, 9).pulls);
+    EXPECT_FALSE(block_contact(block(), 1, 1).pulls);
 }
 
 }  // namespace

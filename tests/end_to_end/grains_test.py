@@ -68,7 +68,7 @@ class Block(EndToEndTest):
             self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.01, msg=str(row))
 
     def test_a_plate_moves_as_the_theory_says(self):
-        for row in self.run_blocks("plate", [0.8]):
+        for row in self.run_blocks("plate", [0.8, 3.0]):
             self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.02, msg=str(row))
 
     def test_a_block_needs_one_packing(self):

@@ -17,6 +17,8 @@ GRAVITY = 9.81
 LIKELY = (0.2, 0.6)  # friction of bulk goods on steel
 FRICTIONS = np.round(np.arange(0.02, 1.2, 0.01), 3)
 STATIC = 1.5  # times the kinetic friction, for the second curve
+LAYER_FRICTIONS, ROTATIONS = [0.3, 0.5], ["free", "blocked"]
+LAYER_COLUMNS = ["rotation", "friction", "speed_cm_per_s", "speed_half_width", "theory_cm_per_s", "cycles", "outcome"]
 AGREEMENT = 0.2  # of layers with the theory below throw number 1, Sloot & Kruyt
 
 
@@ -25,6 +27,30 @@ def speeds(run, k, beta, unit, static):
     columns = ["machine_number", "vibration_angle_deg", "friction", "static_friction"]
     points = [(k, beta, mu, static * mu) for mu in FRICTIONS]
     return 100 * unit * theory_batch.efficiencies(run, f"static_{static:g}_{k:.3f}", columns, points)
+
+
+def simulate(run):
+    """A layer of 3 mm spheres on the example's machine, with and without rotation."""
+    lines = []
+    for rotation in ROTATIONS:
+        for answer in run.campaign(rotation, {"grains.rotation": rotation}, {"trough.friction": LAYER_FRICTIONS}):
+            unit = 100 * 2 * math.pi * float(answer["frequency_hz"]) * float(answer["amplitude_m"])
+            unit *= math.cos(math.radians(float(answer["vibration_angle_deg"])))
+            names = ("efficiency_dem", "efficiency_dem_half_width", "efficiency_theory")
+            lines.append([rotation, answer["friction"], *(f"{float(answer[name]) * unit:.3f}" for name in names), answer["cycles_measured"],
+                          answer["outcome"]])
+    run.write_table("result.csv", LAYER_COLUMNS, lines)
+
+
+def judge_layer(run, reference, layers):
+    chart, error = reference["speed"]
+    texts = [f"{one['rotation']} {float(one['speed_cm_per_s']):.1f} +- {float(one['speed_half_width']):.1f} at mu = {one['friction']}" for one in layers]
+    for one in layers:
+        if one["rotation"] == "blocked":
+            run.check(f"simulated layer without rotation over the theory, mu = {one['friction']}", float(one["speed_cm_per_s"]) / float(one["theory_cm_per_s"]),
+                      1, AGREEMENT, because="layers follow the theory to 20 % below throw number 1 (Sloot & Kruyt)")
+    reached = [one for one in layers if float(one["speed_cm_per_s"]) + float(one["speed_half_width"]) >= chart - error]
+    run.finding("a simulated layer of 3 mm spheres reaches the chart's speed", bool(reached), f"rotation {'; '.join(texts)} cm/s")
 
 
 def judge_machine(run, reference, k, omega, amplitude):
@@ -53,13 +79,18 @@ def judge_speed(run, reference, plain, static):
                 f"friction alone changes it by a factor {high / low:.1f}; 30 % of slip, 14 cm/s, is friction {slipping:.2f}")
 
 
-def draw(run, reference, plain, static):
+def draw(run, reference, plain, static, layers):
     figure, axes = figure_style.new_figure(size=(7.2, 4.4), layout="constrained")
     axes.plot(FRICTIONS, plain, color=figure_style.COLOURS[0], label="theory")
     axes.plot(FRICTIONS, static, "--", color=figure_style.COLOURS[2], label=f"theory, static friction {STATIC:g} times the kinetic")
     chart, error = reference["speed"]
     axes.axhspan(chart - error, chart + error, color=figure_style.COLOURS[1], alpha=0.25, label="ROSTA's chart, with its reading error")
     axes.axhline(0.7 * chart, color=figure_style.COLOURS[1], ls=":", label="30 % of slip")
+    for i, rotation in enumerate(ROTATIONS):
+        these = [one for one in layers if one["rotation"] == rotation]
+        axes.errorbar([float(one["friction"]) for one in these], [float(one["speed_cm_per_s"]) for one in these],
+                      yerr=[float(one["speed_half_width"]) for one in these], fmt=figure_style.MARKERS[i + 1], color=figure_style.COLOURS[3 + i],
+                      fillstyle="none", capsize=2, label=f"simulated layer, rotation {rotation}")
     axes.axvspan(*LIKELY, color="#eeeeee", zorder=0)
     axes.text(sum(LIKELY) / 2, 0.5, "bulk goods on steel", ha="center", fontsize=8, color=figure_style.GREY)
     axes.set(xlabel="friction \u03bc (kinetic)  [-]", ylabel="conveying speed  [cm/s]", xlim=(0, 1.2), ylim=(0, None))
@@ -70,6 +101,8 @@ def draw(run, reference, plain, static):
 
 def main():
     run = ValidationCase(FOLDER)
+    if run.long:
+        simulate(run)
     reference = {row["name"]: (float(row["value"]), float(row["reading_error"])) for row in run.reference()}
     radius = reference["eccentric_radius"][0] / 1000
     amplitude = radius / 2 if run.wrong else radius
@@ -78,7 +111,10 @@ def main():
     judge_machine(run, reference, k, omega, amplitude)
     plain, static = (speeds(run, k, beta, unit, factor) for factor in (1, STATIC))
     judge_speed(run, reference, plain, static)
-    draw(run, reference, plain, static)
+    if not run.wrong:
+        layers = run.table("result.csv")
+        judge_layer(run, reference, layers)
+        draw(run, reference, plain, static, layers)
     run.finish()
 
 
