@@ -5,7 +5,8 @@ SLOPES = [-0.051, 0.046]
 TANGENTS = [0.25, 0.5, 1.0]
 NUMBERS = [0.6, 0.8, 0.95, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0]
 GRID = {"trough.tan_inclination": SLOPES, "trough.tan_vibration_angle": TANGENTS, "trough.throw_number": NUMBERS}
-FREE = {**GRID, "trough.throw_number": [gamma for gamma in NUMBERS if gamma not in (0.95, 2.5)]}
+FREE = {**GRID, "trough.throw_number": [gamma for gamma in NUMBERS if gamma in (0.6, 0.8, 1.25, 3.0)]}
+MODERATE = {**GRID, "trough.throw_number": [1.5, 1.75, 2.0]}
 NEAR = {**GRID, "trough.throw_number": [2.5]}
 # Every cycle is wanted of these, not only as many as their mean needs.
 WHOLE = {"measure.packings": 1, "measure.half_width": 0.0005}
@@ -14,6 +15,7 @@ WIDE = {**WHOLE, "layer.width": "200 mm", "layer.length": "28 mm", "layer.height
 
 CAMPAIGNS = {
     "free": ({}, FREE),
+    "free_1.5_to_2": ({"measure.packings": 4}, MODERATE),
     "free_near_2.5": ({"measure.packings": 4}, NEAR),
     "blocked": ({"grains.rotation": "blocked"}, GRID),
     "cube": ({"grains.shape": "cube", "grains.diameter_spread": 0, "layer.height": "10.5 mm", "measure.max_cycles": 40},

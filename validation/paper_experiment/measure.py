@@ -31,7 +31,7 @@ def cases_of(run, name):
 
 
 def measure(run):
-    grid(run, "result.csv", ["free", "free_near_2.5", "blocked", "cube"])
+    grid(run, "result.csv", ["free", "free_1.5_to_2", "free_near_2.5", "blocked", "cube"])
     grid(run, "noise.csv", ["noise"])
     walls(run)
     surface(run)
