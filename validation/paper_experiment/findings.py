@@ -38,7 +38,9 @@ def slide_conveyors(run, grid):
 
 def softness(run, grid, stiff):
     """Not the paper's: why the blocked layer is a little slower than the theory below throw number 1."""
-    at = next(row for row in grid if is_at(row, "blocked", 0.046, 1.0, 0.95))
+    at = next((row for row in grid if is_at(row, "blocked", 0.046, 1.0, 0.95)), None)
+    if at is None:  # a quick run
+        return
     values = {5.0: at["efficiency"], **{row["youngs_modulus_mpa"]: row["efficiency"] for row in stiff}}
     told = ", ".join(f"{modulus:g} MPa: {eta - at['theory']:+.3f}" for modulus, eta in sorted(values.items()) if eta is not None)
     off = [abs(eta - at["theory"]) for _, eta in sorted(values.items()) if eta is not None]
@@ -108,7 +110,7 @@ def profile_of(walls, rotation, gamma, wall_friction):
 def middle_of(walls, rotation, gamma, wall_friction=0.23):
     """eta more than 40 mm from either wall, over the grains that were seen there."""
     rows = [row for row in profile_of(walls, rotation, gamma, wall_friction) if row["from_mm"] >= 40]
-    return sum(row["efficiency"] * row["seen"] for row in rows) / sum(row["seen"] for row in rows)
+    return sum(row["efficiency"] * row["seen"] for row in rows) / sum(row["seen"] for row in rows) if rows else math.nan
 
 
 def profiles(walls):
@@ -132,6 +134,8 @@ def side_walls(run, walls):
 def wiggles(run, waves):
     told = [f"{row['throw_number']:g}: {row['highest_mm']:.2f} mm ({row['turnover']:+.2f})" for row in waves]
     low = [row for row in waves if row["throw_number"] <= 1.5]
+    if not low:  # a quick run
+        return
     high = [row for row in waves if row["throw_number"] >= 2.5]
     calm = max(row["highest_mm"] for row in low)
     present = all(row["highest_mm"] > 2 * calm and row["turnover"] < -0.5 for row in high)
