@@ -10,8 +10,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 THEORY, BLOCKED, FREE = "#000000", "#0072B2", "#D55E00"  # Okabe and Ito
 STEPS = [("theory", None, THEORY), ("rigid block", "block", "#999999"), ("one sphere, no rotation", "grain, blocked", BLOCKED),
-         ("layer, no rotation", "4 deep, blocked", BLOCKED), ("point mass, layer's normal force", "normal force", "#009E73"),
-         ("layer, free rotation", "4 deep, free", FREE)]
+         ("layer of spheres, no rotation", "4 deep, blocked", BLOCKED), ("point mass, layer's normal force", "normal force", "#009E73"),
+         ("layer of cubes, free rotation", "cubes", "#E69F00"), ("layer of spheres, free rotation", "4 deep, free", FREE)]
 
 
 def theory_line(run, *options):
@@ -29,8 +29,8 @@ def lines(run, rungs, axes):
         numbers = rungs.numbers(rung)
         axes.errorbar(numbers, [rungs.number(rung, g) for g in numbers], [rungs.number(rung, g, "half_width") for g in numbers],
                       color=colour, marker=marker, ls="", capsize=3, label=f"simulated layer, rotation {rung.split()[-1]}")
-    axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05))
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05), xlim=(1.4, 3.1))
+    axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14))
 
 
 def steps(rungs, axes, gamma):
@@ -51,7 +51,7 @@ def steps(rungs, axes, gamma):
 
 
 def figure(run, rungs):
-    drawing, axes = plt.subplots(1, 3, figsize=(13, 4), layout="constrained", width_ratios=[1.5, 1, 1])
+    drawing, axes = plt.subplots(1, 3, figsize=(13, 4.6), layout="constrained", width_ratios=[1.5, 1, 1])
     lines(run, rungs, axes[0])
     for place, gamma in zip(axes[1:], ladder.PAIR):
         steps(rungs, place, gamma)
