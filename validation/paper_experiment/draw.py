@@ -36,15 +36,18 @@ def points(panel, grid, grains, slope, tangent, i):
             and abs(row["tan_vibration_angle"] - tangent) < 1e-3]
     known = [row for row in rows if row["efficiency"] is not None]
     bars(panel, known, style.MARKERS[i], style.COLOURS[i], f"tan β = {tangent:g}")
+    vague = [row for row in rows if row["efficiency"] is None and findings.packings(row)]
+    panel.plot([row["throw_number"] for row in vague], [findings.best_known(row) for row in vague], style.MARKERS[i],
+               color=style.COLOURS[i], mfc="none", ms=6)
 
 
 def bars(panel, rows, marker, colour, label):
-    """Thin: the 95 % interval, wide because of two packings only; thick: from one packing's mean to the other's."""
+    """Thin: the 95 % interval, wide because of few packings; thick: from the lowest packing's mean to the highest."""
     gamma = [row["throw_number"] for row in rows]
     panel.errorbar(gamma, [row["efficiency"] for row in rows], [row["half_width"] for row in rows], fmt="none", ecolor=colour,
                    alpha=0.35, capsize=2, lw=0.8)
-    means = [[float(text) for text in str(row["packings"]).split()] for row in rows]
-    panel.vlines(gamma, [min(two) for two in means], [max(two) for two in means], color=colour, lw=2.5)
+    means = [findings.packings(row) for row in rows]
+    panel.vlines(gamma, [min(all_of) for all_of in means], [max(all_of) for all_of in means], color=colour, lw=2.5)
     panel.plot(gamma, [row["efficiency"] for row in rows], marker, color=colour, ms=5, label=label)
 
 
