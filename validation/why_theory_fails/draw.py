@@ -20,6 +20,13 @@ def theory_line(run, *options):
     return [(gamma, row["velocity_efficiency"]) for gamma, row in rows if row["velocity_efficiency"] is not None]
 
 
+def theory_with(run, rungs, gamma):
+    """The theory with the landing friction measured in the layer of free spheres."""
+    friction = max(rungs.number("4 deep, free", gamma, "landing_friction"), 0.0)
+    return run.json("point", "--throw-number", gamma, "--tan-vibration-angle", 0.5, "--friction", 0.23, "--landing-friction",
+                    f"{friction:.6f}")["velocity_efficiency"]
+
+
 def lines(run, rungs, axes):
     plain, smooth = theory_line(run), theory_line(run, "--landing-friction", 0)
     axes.fill_between([g for g, _ in plain], [e for _, e in plain], [e for _, e in smooth], color="#DDDDDD",
@@ -29,6 +36,9 @@ def lines(run, rungs, axes):
         numbers = rungs.numbers(rung)
         axes.errorbar(numbers, [rungs.number(rung, g) for g in numbers], [rungs.number(rung, g, "half_width") for g in numbers],
                       color=colour, marker=marker, ls="", capsize=3, label=f"simulated layer, rotation {rung.split()[-1]}")
+    numbers = rungs.numbers("4 deep, free")
+    axes.plot(numbers, [theory_with(run, rungs, g) for g in numbers], "D", mfc="none", color="#009E73",
+              label="theory, with the landing friction measured in the free layer")
     axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05), xlim=(1.4, 3.1))
     axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14))
 

@@ -69,6 +69,13 @@ def judge(run, rungs):
                     0.02, 0.3, "the cause: grains that roll give way to the landing")
 
 
+    for gamma in ladder.PAIR:
+        order = ["4 deep, blocked", "rolling friction 0.5", "rolling friction 0.1", "4 deep, free"]
+        values = [rungs.number(name, gamma) for name in order]
+        run.between(f"least step from no rotation over rolling friction 0.5 and 0.1 to free rotation, Gamma {gamma}",
+                    min(b - a for a, b in zip(values, values[1:])), 0, 0.5, "the freer the rotation, the faster")
+
+
 def spread(rungs, names, gamma):
     values = [rungs.number(name, gamma) for name in names]
     return max(values) - min(values)
@@ -82,6 +89,17 @@ def findings(run, rungs):
     run.finding("Sloot & Kruyt: partial elasticity may be why the layer is faster between 1.5 and 2", elastic > rotation / 2 and point[1] > point[0],
                 f"at 2.0, restitution from 0.1 to 0.9 changes the layer's efficiency by {elastic:.3f}, free rotation by {rotation:.3f}; the "
                 f"point mass becomes slower with restitution, {point[0]:.3f} to {point[1]:.3f} at e = 0.3")
+    shares = []
+    for gamma in GAP:
+        theory = rungs.number("4 deep, free", gamma, "efficiency_theory")
+        explained = draw.theory_with(run, rungs, gamma) - theory
+        shares.append(explained / (rungs.number("4 deep, free", gamma) - theory))
+    run.finding("A landing that brakes less than mu makes the gap: the theory with the landing friction measured in the layer gives two fifths of it or more",
+                min(shares) > 0.4, "it gives " + ", ".join(f"{share:.0%} at {gamma}" for share, gamma in zip(shares, GAP)))
+    cubes = [(rungs.step("cubes", "4 deep, blocked", gamma), rungs.number("cubes", gamma, "half_width")) for gamma in ladder.PAIR]
+    run.finding("Grains that are no spheres show the gap, too (cubes of eight spheres)", all(step > width for step, width in cubes),
+                ", ".join(f"{rungs.number('cubes', gamma):.3f} +- {width:.3f} at {gamma} (theory {rungs.number('cubes', gamma, 'efficiency_theory'):.3f})"
+                          for gamma, (_, width) in zip(ladder.PAIR, cubes)))
     free = rungs.step("4 deep, free", "4 deep, blocked", 1.7)
     run.finding("The layer's depth makes the gap", spread(rungs, ["2 deep, free", "4 deep, free", "8 deep, free"], 1.7) > free / 2,
                 "at 1.7: " + ", ".join(f"{rungs.number(f'{n} deep, free', 1.7):.3f} ({n} diameters)" for n in (2, 4, 8)))
