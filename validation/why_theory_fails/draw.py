@@ -34,8 +34,9 @@ def lines(run, rungs, axes):
     axes.plot(*zip(*plain), color=THEORY, lw=1.5, label="theory")
     for rung, colour, marker in (("4 deep, blocked", BLOCKED, "s"), ("4 deep, free", FREE, "o")):
         numbers = rungs.numbers(rung)
-        axes.errorbar(numbers, [rungs.number(rung, g) for g in numbers], [rungs.number(rung, g, "half_width") for g in numbers],
-                      color=colour, marker=marker, ls="", capsize=3, label=f"simulated layer, rotation {rung.split()[-1]}")
+        eta = [rungs.number(rung, g) for g in numbers]
+        axes.errorbar(numbers, eta, [rungs.number(rung, g, "half_width") for g in numbers], color=colour, ls="", lw=0.8, alpha=0.5, capsize=3)
+        axes.errorbar(numbers, eta, list(zip(*[rungs.span(rung, g) for g in numbers])), color=colour, marker=marker, ls="", lw=3, label=f"simulated layer, rotation {rung.split()[-1]}")
     numbers = rungs.numbers("4 deep, free")
     axes.plot(numbers, [theory_with(run, rungs, g) for g in numbers], "D", mfc="none", color="#009E73",
               label="theory, with the landing friction measured in the free layer")
@@ -51,8 +52,9 @@ def steps(rungs, axes, gamma):
             value, width = rungs.number("4 deep, free", gamma, "efficiency_normal_force"), 0
         else:
             value, width = rungs.number(rung, gamma), rungs.number(rung, gamma, "half_width")
+            axes.errorbar(value, place, xerr=[[part] for part in rungs.span(rung, gamma)], color="black", lw=3, zorder=3)
         width = 0 if math.isnan(width) else width
-        axes.barh(place, value, xerr=width or None, color=colour, height=0.65, error_kw={"capsize": 3})
+        axes.barh(place, value, xerr=width or None, color=colour, height=0.65, error_kw={"capsize": 3, "lw": 0.8})
         if not math.isnan(value):
             axes.text(0.02, place, f"{value:.2f}", va="center", color="white", fontsize=8)
     axes.set_yticks(range(len(STEPS)), [name for name, _, _ in STEPS])

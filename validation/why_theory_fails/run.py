@@ -8,10 +8,11 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import draw  # noqa: E402
 import ladder  # noqa: E402
+import vibrotrough  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficiency", "half_width", "efficiency_theory", "mode_theory",
-           "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "outcome"]
+           "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome"]
 NAMES = {"efficiency": "efficiency_dem", "half_width": "efficiency_dem_half_width"}
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 
@@ -20,8 +21,16 @@ def measure(run):
     rows = []
     for rung, (changes, numbers) in ladder.RUNGS.items():
         table = run.campaign(ladder.campaign_name(rung), changes, {"trough.throw_number": numbers[:1] if run.quick else numbers})
+        for row in table:
+            row["packing_efficiencies"] = packing_efficiencies(run.runs / ladder.campaign_name(rung), row["case"])
         rows += [[rung] + [row[NAMES.get(name, name)] for name in COLUMNS[1:]] for row in table]
         run.write_table("result.csv", COLUMNS, rows)  # after each rung: what there is can be judged
+
+
+def packing_efficiencies(folder, case):
+    """Means of the packings: the case's interval is never narrower than that of its widest single run."""
+    path = folder / "cases" / case / "result.h5"
+    return " ".join(f"{value:.4f}" for value in vibrotrough.open_result(path)["packings/efficiency"]) if path.exists() else ""
 
 
 class Rungs:
@@ -39,6 +48,13 @@ class Rungs:
     def number(self, rung, gamma, column="efficiency"):
         row = self.rows.get((rung, gamma))
         return float(row[column]) if row and row[column] else math.nan
+
+    def span(self, rung, gamma):
+        """The lowest and the highest mean of a packing, as distances from the mean of all."""
+        row = self.rows.get((rung, gamma))
+        values = [float(value) for value in row["packing_efficiencies"].split()] if row else []
+        mean = self.number(rung, gamma)
+        return (max(mean - min(values), 0), max(max(values) - mean, 0)) if values and not math.isnan(mean) else (0, 0)
 
     def numbers(self, rung):
         return sorted(gamma for name, gamma in self.rows if name == rung)
