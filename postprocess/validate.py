@@ -167,3 +167,6 @@ if __name__ == "__main__":
         main()
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    except OSError as failure:
+        print(f"validate: {failure}; choose another folder with --output", file=sys.stderr)
+        sys.exit(MISSING)

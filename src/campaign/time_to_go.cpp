@@ -22,8 +22,11 @@ void TimeToGo::done(Scenario const& scenario, int cycles) {
 }
 
 double TimeToGo::work(Scenario const& scenario, double cycles) const {
-    return scenario.layer.grains * static_cast<double>(deck::choose_time_step(scenario).steps_per_cycle) *
-           cycles;
+    // A clump costs what its spheres cost.
+    double const spheres =
+        is_clump(scenario.grains) ? static_cast<double>(shape_spheres(scenario.grains).size()) : 1;
+    return scenario.layer.grains * spheres *
+           static_cast<double>(deck::choose_time_step(scenario).steps_per_cycle) * cycles;
 }
 
 double TimeToGo::elapsed() const {

@@ -16,6 +16,14 @@ TEST_F(TimeToGoTest, WorkIsGrainSteps) {
     EXPECT_EQ(time.work(scenario, 0), 0);
 }
 
+// A cube of eight spheres costs eight spheres.
+TEST_F(TimeToGoTest, AClumpCostsItsSpheres) {
+    TimeToGo const time;
+    scenario.grains.shape = "cube";
+    double const steps = deck::choose_time_step(scenario).steps_per_cycle;
+    EXPECT_DOUBLE_EQ(time.work(scenario, 10), 8 * scenario.layer.grains * steps * 10);
+}
+
 TEST_F(TimeToGoTest, IsUnknownAtFirst) {
     TimeToGo time;
     EXPECT_LT(time.seconds(0), 0);
