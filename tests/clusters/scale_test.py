@@ -7,8 +7,10 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -19,7 +21,8 @@ from trough_program import PROGRAM, EndToEndTest  # noqa: E402
 
 CASES = 10_000
 # So many are really run by the driver, with the stub, to time it; the results of the ten thousand are made from one.
-RUN_CASES = 196
+RUN_CASES = 100
+RUN_MEGABYTES = 55  # what they write
 # Processor time, not the clock on the wall: other tests run beside this one.
 MOST_SECONDS = 2.0
 MOST_MEGABYTES = 200
@@ -34,6 +37,14 @@ def campaign_of(cases):
         "trough.throw_number": [round(1.2 + 2 * i / side, 6) for i in range(side)],
         "trough.amplitude": [f"{3 + 3 * i / side:.5g} mm" for i in range(side)],
     }
+
+
+def folder_in_memory():
+    """Where files cost no search for a free inode. On ext4 that search takes up to 5 ms per case in the minutes after other
+    tests have removed their folders, and counts as the driver's. None, the usual place, where there is no such memory."""
+    memory = Path("/dev/shm")
+    there = memory.is_dir() and os.access(memory, os.W_OK)
+    return memory if there and shutil.disk_usage(memory).free > RUN_MEGABYTES * 1e6 else None
 
 
 class Scale(EndToEndTest):
@@ -94,12 +105,12 @@ class Scale(EndToEndTest):
         """
         campaign = self.write_campaign(*campaign_of(RUN_CASES))
         least = math.inf
-        for number in range(6):
-            least = min(least, self.measure_run(campaign, RUN_CASES))
+        for _ in range(6):
+            with tempfile.TemporaryDirectory(dir=folder_in_memory()) as folder:
+                self.output = Path(folder) / "runs"
+                least = min(least, self.measure_run(campaign, RUN_CASES))
             if least < MOST_DRIVER_SECONDS:
                 break
-            # Aside, not away: ext4 looks long for a place where files were removed a moment ago.
-            self.output.rename(self.folder / f"aside-{number}")
         self.assertLess(least, MOST_DRIVER_SECONDS)
 
     def test_ten_thousand_cases(self):
