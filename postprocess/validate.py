@@ -167,6 +167,9 @@ if __name__ == "__main__":
         main()
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has seen enough
+        sys.stdout = None
+        sys.exit(0)
     except OSError as failure:
         print(f"validate: {failure}; choose another folder with --output", file=sys.stderr)
         sys.exit(MISSING)
