@@ -55,7 +55,8 @@ class Resume(EndToEndTest):
         victims = self.random.choice(("driver", "engine", "both"))
         killed = False
         if victims != "driver":
-            for number in self.random.sample(engines_in(self.output), k=min(1, len(engines_in(self.output)))):
+            engines = engines_in(self.output)  # looked at once: the next look may find others
+            for number in self.random.sample(engines, k=min(1, len(engines))):
                 try:
                     os.kill(number, signal.SIGKILL)
                     killed = True
