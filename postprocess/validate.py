@@ -114,7 +114,7 @@ def page(cases):
         verdict = case.stored_verdict()
         if not verdict:
             continue
-        lines.append(f"\n## {case.name}\n\n{case.question}\n\n`{verdict['command']}`, {verdict['seconds']:.0f} s. {verdict['made_by']}.\n\n")
+        lines.append(f"\n## {case.name}\n\n{case.question}\n\n`{verdict['command']}`, judged in {verdict['seconds']:.0f} s. {verdict['made_by']}.\n\n")
         broken = [criterion for criterion in verdict["criteria"] if not criterion["holds"]]
         lines += [f"- **fails**: {one['what']}: {one['value']:.4g}, wanted {one['least']:.4g} to {one['most']:.4g}\n" for one in broken]
         lines.append(findings_text(verdict["findings"]))

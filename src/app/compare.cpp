@@ -97,7 +97,7 @@ void add_compare(CLI::App& program, int& exit_code) {
         "layer's own normal "
         "force:\nhow it differs from the theory is due to how the layer presses; how the layer differs from "
         "it, "
-        "to how its grains pass\nfriction on, by rolling above all. In colour: yellow where the layer is "
+        "to how its grains pass\nfriction on, to 0.05. In colour: yellow where the layer is "
         "faster than the "
         "theory, "
         "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n"

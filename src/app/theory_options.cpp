@@ -73,7 +73,7 @@ void TheoryOptions::add_extensions(CLI::App& command) {
         "Slower rebounds are contact, in omega r sin(beta); 1e-6 when not given");
     add("--static-friction", static_friction_, "At least --friction, which is then the kinetic one");
     add("--landing-friction", landing_friction_,
-        "mu in the impulse of a landing, as --friction when not given; below it for grains that roll");
+        "mu in the impulse of a landing, as --friction when not given");
     add("--air-drag", air_drag_, "kappa: drag force = m omega kappa times velocity");
     add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along over r cos(beta)");
     add("--along-phase", along_phase_,

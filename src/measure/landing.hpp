@@ -6,7 +6,7 @@ namespace vibrotrough::measure {
 
 /// Tangential over normal impulse of the layer on the trough while it lands: from the end of its longest
 /// flight until its centre of mass no longer falls against the trough. Positive where the landing brakes the
-/// layer, at most mu; below mu where grains give way by rolling, or where slip stops or turns before the
+/// layer, at most mu; below mu where grains roll as well as where slip stops or turns before the
 /// landing is over.
 /// @return NaN without a flight
 double landing_friction(LayerMotion const& motion);

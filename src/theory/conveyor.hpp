@@ -33,8 +33,8 @@ struct Conveyor {
     double static_friction = 0;     ///< mu_s >= mu (Nedderman & Harding); 0: the same as kinetic
     double restitution = 0;         ///< e in [0, 1), normal (Eq. 23): friction impulse with mu (1 + e)
     double slowest_rebound = 1e-6;  ///< slower rebounds are contact, in omega r sin(beta)
-    /// Instead of mu in the impulse of a landing (Eqs. 17, 18), >= 0. Not in the paper: grains that roll give
-    /// way to a short landing, but not to a long slide (validation/why_theory_fails).
+    /// Instead of mu in the impulse of a landing (Eqs. 17, 18), >= 0. Not in the paper; what it explains of
+    /// layers and what it does not is in validation/why_theory_fails.
     std::optional<double> landing_friction;
     double air_drag = 0;     ///< kappa >= 0: drag force = m omega kappa times velocity, air at rest
     double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t

@@ -20,9 +20,9 @@ def theory_line(run, *options):
     return [(gamma, row["velocity_efficiency"]) for gamma, row in rows if row["velocity_efficiency"] is not None]
 
 
-def theory_with(run, rungs, gamma):
-    """The theory with the landing friction measured in the layer of free spheres."""
-    friction = max(rungs.number("4 deep, free", gamma, "landing_friction"), 0.0)
+def theory_with(run, rungs, rung, gamma):
+    """The theory with the landing friction measured in a layer."""
+    friction = max(rungs.number(rung, gamma, "landing_friction"), 0.0)
     return run.json("point", "--throw-number", gamma, "--tan-vibration-angle", 0.5, "--friction", 0.23, "--landing-friction",
                     f"{friction:.6f}")["velocity_efficiency"]
 
@@ -38,7 +38,7 @@ def lines(run, rungs, axes):
         axes.errorbar(numbers, eta, [rungs.number(rung, g, "half_width") for g in numbers], color=colour, ls="", lw=0.8, alpha=0.5, capsize=3)
         axes.errorbar(numbers, eta, list(zip(*[rungs.span(rung, g) for g in numbers])), color=colour, marker=marker, ls="", lw=3, label=f"simulated layer, rotation {rung.split()[-1]}")
     numbers = rungs.numbers("4 deep, free")
-    axes.plot(numbers, [theory_with(run, rungs, g) for g in numbers], "D", mfc="none", color="#009E73",
+    axes.plot(numbers, [theory_with(run, rungs, "4 deep, free", g) for g in numbers], "D", mfc="none", color="#009E73",
               label="theory, with the landing friction measured in the free layer")
     axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05), xlim=(1.4, 3.1))
     axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14))
