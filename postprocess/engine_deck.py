@@ -24,6 +24,11 @@ def flat_floor(length, width, cell):
     return "\n".join(text + ["endsolid floor"]) + "\n"
 
 
+def screen_text(screen):
+    """What the engine wrote. Its error messages may hold bytes that are no text."""
+    return screen.read_text(encoding="utf-8", errors="replace")
+
+
 def run_deck(folder, deck, variables=None, wanted="VIBROTROUGH DONE", resume=False):
     """Runs `deck` in `folder` with the variables that it names as ${name}, and returns what the engine wrote; ends when it did
     not write `wanted`. `resume`: takes what an earlier run of the same deck wrote."""
@@ -32,15 +37,15 @@ def run_deck(folder, deck, variables=None, wanted="VIBROTROUGH DONE", resume=Fal
         raise SystemExit("there is no liggghts on the PATH; install the package liggghts")
     folder, deck = pathlib.Path(folder), pathlib.Path(deck)
     screen = folder / f"{deck.stem}.screen"
-    if resume and screen.exists() and screen.stat().st_mtime >= (folder / deck).stat().st_mtime and wanted in screen.read_text():
-        return screen.read_text(encoding="utf-8")
+    if resume and screen.exists() and screen.stat().st_mtime >= (folder / deck).stat().st_mtime and wanted in screen_text(screen):
+        return screen_text(screen)
     command = [program, "-in", str(deck), "-log", f"{deck.stem}.log"]
     for name, value in (variables or {}).items():
         command += ["-var", name, str(value)]
     environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder), "OMP_NUM_THREADS": "1"}
     with open(screen, "w", encoding="utf-8") as file:
         code = subprocess.run(command, cwd=folder, stdout=file, stderr=subprocess.STDOUT, env=environment, check=False).returncode
-    text = screen.read_text(encoding="utf-8")
+    text = screen_text(screen)
     if code != 0 or wanted not in text:
         raise SystemExit(f"{' '.join(command)} ended with {code}; see {screen}")
     return text

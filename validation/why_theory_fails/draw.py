@@ -37,9 +37,10 @@ def lines(run, rungs, axes):
         eta = [rungs.number(rung, g) for g in numbers]
         axes.errorbar(numbers, eta, [rungs.number(rung, g, "half_width") for g in numbers], color=colour, ls="", lw=0.8, alpha=0.5, capsize=3)
         axes.errorbar(numbers, eta, list(zip(*[rungs.span(rung, g) for g in numbers])), color=colour, marker=marker, ls="", lw=3, label=f"simulated layer, rotation {rung.split()[-1]}")
-    numbers = rungs.numbers("4 deep, free")
-    axes.plot(numbers, [theory_with(run, rungs, "4 deep, free", g) for g in numbers], "D", mfc="none", color="#009E73",
-              label="theory, with the landing friction measured in the free layer")
+    for rung, colour, marker in (("4 deep, blocked", BLOCKED, "s"), ("4 deep, free", FREE, "o")):
+        numbers = rungs.numbers(rung)
+        axes.plot(numbers, [theory_with(run, rungs, rung, g) for g in numbers], marker, mfc="none", ms=9, color=colour,
+                  label=f"theory, with the landing friction of the layer, rotation {rung.split()[-1]}")
     axes.set(xlabel="throw number Γ", ylabel="velocity efficiency η", ylim=(0, 1.05), xlim=(1.4, 3.1))
     axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14))
 
