@@ -51,9 +51,9 @@ std::string CheckReport::first_error() const {
     return {};
 }
 
-CheckReport check_campaign(Campaign const& campaign) {
+CheckReport check_campaign(scenario::Campaign const& campaign) {
     CheckReport report;
-    for (Scenario const& scenario : campaign.cases) {
+    for (scenario::Scenario const& scenario : campaign.cases) {
         ++report.cases;
         for (deck::Finding const& finding : deck::check(scenario)) add(report, finding, report.cases);
         report.grain_steps += deck::expected_work(scenario);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "deck/check.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <string>
 #include <vector>
@@ -27,7 +27,7 @@ struct CheckReport {
 };
 
 /// Checks every case.
-CheckReport check_campaign(Campaign const& campaign);
+CheckReport check_campaign(scenario::Campaign const& campaign);
 
 /// One line for people: item, measured number, limit, where, what to change.
 std::string describe(CheckRow const& row, int cases);

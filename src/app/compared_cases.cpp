@@ -1,7 +1,7 @@
 #include "app/compared_cases.hpp"
 
 #include "campaign/friction_test.hpp"
-#include "scenario/shake_test.hpp"
+#include "scenario/reader/shake_test.hpp"
 
 #include <optional>
 

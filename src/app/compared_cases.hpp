@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/overview.hpp"
+#include "campaign/state/overview.hpp"
 #include "compare/comparison.hpp"
 
 #include <vector>

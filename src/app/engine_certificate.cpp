@@ -60,7 +60,7 @@ bool certify(engine::Engine& engine, bool accept_failed_probes) {
     auto const certificate = certificate_of(engine);
     if (!certificate) return false;
     if (!certificate->passed() && !accept_failed_probes) {
-        throw MissingError(fmt::format(
+        throw core::MissingError(fmt::format(
             "{} is not to be trusted: {}; give another engine with --liggghts PATH, look closer with "
             "'vibrotrough probe-engine', or go on with --accept-failed-probes",
             engine.program.string(), verdict_of(*certificate)));

@@ -67,8 +67,8 @@ int run(int argc, char** argv) {
     CLI::App program{
         "How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
     program.name("vibrotrough");
-    program.set_version_flag("--version",
-                             fmt::format("vibrotrough {} ({})", program_version(), program_commit()));
+    program.set_version_flag(
+        "--version", fmt::format("vibrotrough {} ({})", core::program_version(), core::program_commit()));
     program.require_subcommand(1);
     int exit_code = all_well;
     add_commands(program, exit_code);
@@ -77,7 +77,7 @@ int run(int argc, char** argv) {
     } catch (CLI::Success const& help_or_version) {
         program.exit(help_or_version);
     } catch (CLI::ParseError const& error) {
-        throw InputError(describe(error, program, argc, argv));
+        throw core::InputError(describe(error, program, argc, argv));
     }
     return exit_code;
 }
@@ -85,8 +85,8 @@ int run(int argc, char** argv) {
 /// A table that did not arrive, because its disk is full, must not end in exit code 0.
 void flush_output() {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-    throw MissingError(fmt::format("cannot write the output ({}); free disk space or choose another place",
-                                   std::strerror(errno)));
+    throw core::MissingError(fmt::format(
+        "cannot write the output ({}); free disk space or choose another place", std::strerror(errno)));
 }
 
 }  // namespace
@@ -98,9 +98,9 @@ int main(int argc, char** argv) {
         int const exit_code = app::run(argc, argv);
         app::flush_output();
         return exit_code;
-    } catch (Error const& error) {
+    } catch (core::Error const& error) {
         fmt::print(stderr, "vibrotrough: {}\n", error.what());
-        return error.kind() == ErrorKind::input ? app::wrong_input : app::something_missing;
+        return error.kind() == core::ErrorKind::input ? app::wrong_input : app::something_missing;
     } catch (std::system_error const& error) {
         fmt::print(stderr, "vibrotrough: {}; check the disk and its permissions\n", error.what());
         return app::something_missing;

@@ -8,8 +8,8 @@
 namespace vibrotrough::app {
 namespace {
 
-std::optional<DriveTerm> fundamental(std::vector<DriveTerm> const& terms) {
-    for (DriveTerm const& term : terms) {
+std::optional<scenario::DriveTerm> fundamental(std::vector<scenario::DriveTerm> const& terms) {
+    for (scenario::DriveTerm const& term : terms) {
         if (term.order == 1) return term;
     }
     return {};
@@ -17,14 +17,14 @@ std::optional<DriveTerm> fundamental(std::vector<DriveTerm> const& terms) {
 
 }  // namespace
 
-std::optional<view::TheoryMotion> point_mass_beside(Scenario const& scenario) {
-    Trough const& trough = scenario.trough;
+std::optional<view::TheoryMotion> point_mass_beside(scenario::Scenario const& scenario) {
+    scenario::Trough const& trough = scenario.trough;
     theory::Conveyor const conveyor = compare::conveyor_of(scenario, trough.friction);
     theory::ConveyorMotion motion = theory::solve(conveyor);
     if (motion.motion.outcome != theory::Outcome::periodic) return {};
     // Its time starts, as compare::conveyor_of has it, where the normal motion's fundamental passes its mean
     // upwards.
-    DriveMotion const drive = drive_motion(trough);
+    scenario::DriveMotion const drive = drive_motion(trough);
     auto const along = fundamental(drive.along), normal = fundamental(drive.normal);
     double const length_x = trough.amplitude * std::cos(trough.vibration_angle);
     return view::TheoryMotion{.motion = std::move(motion),

@@ -42,7 +42,7 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
     Json engines = Json::array();
     for (auto const& one : progress.engines) engines.push_back(describe(one));
     Json const json{{"event", "progress"},
-                    {"time", utc_now()},
+                    {"time", core::utc_now()},
                     {"finished", progress.finished},
                     {"failed", progress.failed},
                     {"running", progress.running},
@@ -60,7 +60,7 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
 void JsonProgress::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
                               std::string const& message) {
     Json const json{{"event", "case_ended"},
-                    {"time", utc_now()},
+                    {"time", core::utc_now()},
                     {"case", planned.id},
                     {"outcome", outcome},
                     {"message", message}};
@@ -81,11 +81,11 @@ CampaignLog::CampaignLog(std::filesystem::path const& folder) {
 }
 
 void CampaignLog::info(std::string const& line) const {
-    if (logger_) logger_->info("{}", printable(line, 1000));
+    if (logger_) logger_->info("{}", core::printable(line, 1000));
 }
 
 void CampaignLog::warn(std::string const& line) const {
-    if (logger_) logger_->warn("{}", printable(line, 1000));
+    if (logger_) logger_->warn("{}", core::printable(line, 1000));
 }
 
 LoggingObserver::LoggingObserver(campaign::Observer& next, std::filesystem::path folder)
@@ -94,8 +94,8 @@ LoggingObserver::LoggingObserver(campaign::Observer& next, std::filesystem::path
 CampaignLog const& LoggingObserver::log() {
     if (!log_) {
         log_ = std::make_unique<CampaignLog>(folder_);
-        log_->info(fmt::format("run starts: vibrotrough {} ({}) on {}, process {}", program_version(),
-                               program_commit(), host_name(), ::getpid()));
+        log_->info(fmt::format("run starts: vibrotrough {} ({}) on {}, process {}", core::program_version(),
+                               core::program_commit(), core::host_name(), ::getpid()));
     }
     return *log_;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/local_executor.hpp"
+#include "campaign/execute/local_executor.hpp"
 
 #include <filesystem>
 #include <memory>

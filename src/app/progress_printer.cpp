@@ -84,7 +84,7 @@ void ProgressPrinter::progressed(campaign::Progress const& progress) {
 void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
                                  std::string const& message) {
     clear_lines();
-    Trough const& trough = planned.scenario.trough;
+    scenario::Trough const& trough = planned.scenario.trough;
     constexpr double degrees = 180 / std::numbers::pi;
     fmt::print(stderr,
                "case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",

@@ -52,7 +52,7 @@ std::string find_python(std::string const& asked_for, std::vector<std::string> c
     }
     std::string packages;
     for (std::string const& module : modules) packages += " python3-" + module;
-    throw MissingError(
+    throw core::MissingError(
         fmt::format("{} has not all of the modules {}; install them (Debian: apt-get install python3{}) or "
                     "name a Python that has "
                     "them with --python",
@@ -69,7 +69,7 @@ fs::path script_folder() {
          {program.parent_path().parent_path() / installed_scripts, fs::path(source_scripts)}) {
         if (fs::exists(folder / "figures.py", failure)) return folder;
     }
-    throw MissingError(
+    throw core::MissingError(
         fmt::format("the scripts that draw figures are neither in {} nor in {}; install Vibrotrough again",
                     (program.parent_path().parent_path() / installed_scripts).string(), source_scripts));
 }
@@ -87,9 +87,9 @@ void run_script(std::string const& script, std::vector<std::string> const& argum
                 std::string const& python, std::vector<std::string> const& modules) {
     int const code = script_exit_code(script, arguments, python, modules);
     if (code == 130 || code == 128 + 2)
-        throw MissingError(fmt::format("{} was interrupted; start it again", script));
+        throw core::MissingError(fmt::format("{} was interrupted; start it again", script));
     if (code != 0) {
-        throw MissingError(
+        throw core::MissingError(
             fmt::format("{} ended with exit code {}; what it said above tells why", script, code));
     }
 }

@@ -14,7 +14,8 @@ namespace vibrotrough::app {
 void run_script(std::string const& script, std::vector<std::string> const& arguments,
                 std::string const& python, std::vector<std::string> const& modules);
 
-/// As run_script, but gives the script's exit code (128 + n when signal n ended it) instead of throwing for it.
+/// As run_script, but gives the script's exit code (128 + n when signal n ended it) instead of throwing for
+/// it.
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
                      std::string const& python, std::vector<std::string> const& modules);
 

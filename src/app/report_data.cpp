@@ -2,7 +2,7 @@
 
 #include "app/compared_cases.hpp"
 #include "app/point_mass.hpp"
-#include "campaign/overview.hpp"
+#include "campaign/state/overview.hpp"
 #include "compare/comparison.hpp"
 #include "core/atomic_file.hpp"
 #include "core/time.hpp"
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// One period of the point mass; none when its motion has no period.
-std::string point_mass_csv(Scenario const& scenario) {
+std::string point_mass_csv(scenario::Scenario const& scenario) {
     auto const found = point_mass_beside(scenario);
     if (!found) return {};
     auto const& [motion, along, normal, phase_at_start] = *found;
@@ -75,18 +75,21 @@ void renew_campaign_file(campaign::Plan const& plan) {
 int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
     renew_campaign_file(plan);
     auto const [cases, rows] = compared_cases(plan);
-    make_folder(folder / "point_mass");
+    core::make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
-        write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
-                              point_mass_csv(one.planned->scenario));
+        core::write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
+                                    point_mass_csv(one.planned->scenario));
     }
-    Json const json{{"campaign", plan.name},          {"program_version", program_version()},
-                    {"git_commit", program_commit()}, {"engine_version", plan.engine_version},
-                    {"written", utc_now()},           {"input", read_file(plan.folder / "campaign.toml")},
+    Json const json{{"campaign", plan.name},
+                    {"program_version", core::program_version()},
+                    {"git_commit", core::program_commit()},
+                    {"engine_version", plan.engine_version},
+                    {"written", core::utc_now()},
+                    {"input", core::read_file(plan.folder / "campaign.toml")},
                     {"cases", case_list(cases, rows)}};
     constexpr auto replace = Json::error_handler_t::replace;  // what users write need not be UTF-8
-    write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
-    write_file_atomically(folder / "theory_curves.csv", compare::theory_curves_csv(rows));
+    core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
+    core::write_file_atomically(folder / "theory_curves.csv", compare::theory_curves_csv(rows));
     return static_cast<int>(
         std::ranges::count_if(cases, [](auto const& one) { return one.record.has_value(); }));
 }

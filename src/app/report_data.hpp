@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/plan.hpp"
+#include "campaign/state/plan.hpp"
 
 #include <filesystem>
 

@@ -23,7 +23,8 @@ std::string outcome_of(std::vector<measure::PackingEstimate> const& packings) {
 MeasuredPacking obtain(PlannedCase const& planned, int packing, MeasuredPackings& known) {
     if (auto const found = known.find(packing); found != known.end()) return std::move(found->second);
     auto read = read_measured_packing(planned, packing);
-    if (!read) throw InputError(fmt::format("packing {} of case {} is not finished", packing, planned.id));
+    if (!read)
+        throw core::InputError(fmt::format("packing {} of case {} is not finished", packing, planned.id));
     return std::move(*read);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "campaign/measured_packing.hpp"
-#include "campaign/plan.hpp"
+#include "campaign/state/plan.hpp"
 #include "store/case_record.hpp"
 
 namespace vibrotrough::campaign {

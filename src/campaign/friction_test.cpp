@@ -1,11 +1,11 @@
 #include "campaign/friction_test.hpp"
 
-#include "campaign/case_state.hpp"
 #include "campaign/layer.hpp"
+#include "campaign/state/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "measure/shake_test.hpp"
-#include "scenario/shake_test.hpp"
+#include "scenario/reader/shake_test.hpp"
 #include "theory/friction_test.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Pen {
 
 Pen read_pen(PlannedCase const& planned, store::PackingRecord const& packing, int number) {
     auto const series = packing_phases(planned.scenario, deck::make_deck(planned.scenario, number),
-                                       read_text_file(planned.packing_folder(number) / "phases.csv"));
+                                       core::read_text_file(planned.packing_folder(number) / "phases.csv"));
     int const first = std::max(packing.estimate.discarded, 1);
     int const last = packing.estimate.discarded + packing.estimate.measured;
     double const r = planned.scenario.trough.amplitude;
@@ -46,7 +46,7 @@ Pen read_pen(PlannedCase const& planned, store::PackingRecord const& packing, in
 
 /// Displacement, interval and creep of a finished test.
 void add_displacement(LayerFriction& test, PlannedCase const& planned, store::CaseRecord const& record) {
-    MeasurementPlan const& wanted = planned.scenario.measure;
+    scenario::MeasurementPlan const& wanted = planned.scenario.measure;
     std::vector<measure::PackingEstimate> estimates;
     for (int number = 1; number <= wanted.packings; ++number) {
         Pen const pen = read_pen(planned, record.packings[static_cast<std::size_t>(number - 1)], number);
@@ -127,9 +127,9 @@ std::optional<double> number(Json const& value) {
 
 }  // namespace
 
-double default_machine_number(Campaign const& campaign) {
+double default_machine_number(scenario::Campaign const& campaign) {
     double friction = 0;
-    for (Scenario const& one : campaign.cases) friction = std::max(friction, one.trough.friction);
+    for (scenario::Scenario const& one : campaign.cases) friction = std::max(friction, one.trough.friction);
     return std::max(0.67, 1.2 * friction * std::hypot(1, std::numbers::pi / 2));
 }
 
@@ -159,7 +159,7 @@ void write_friction(std::filesystem::path const& campaign_folder, std::vector<La
                         {"mode", test.mode},
                         {"message", test.message}});
     }
-    write_file_atomically(friction_file(campaign_folder), list.dump(2) + "\n");
+    core::write_file_atomically(friction_file(campaign_folder), list.dump(2) + "\n");
 }
 
 std::map<std::string, LayerFriction> read_friction(std::filesystem::path const& campaign_folder) {
@@ -167,7 +167,7 @@ std::map<std::string, LayerFriction> read_friction(std::filesystem::path const& 
     std::map<std::string, LayerFriction> tests;
     if (!std::filesystem::is_regular_file(path)) return tests;
     try {
-        for (Json const& one : Json::parse(read_file(path))) {
+        for (Json const& one : Json::parse(core::read_file(path))) {
             LayerFriction test{one.at("layer"),
                                one.at("case"),
                                one.at("grain_friction"),
@@ -183,7 +183,7 @@ std::map<std::string, LayerFriction> read_friction(std::filesystem::path const& 
             if (test.friction && test.low && test.high) tests[test.layer] = test;
         }
     } catch (Json::exception const&) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("{} is damaged; run 'vibrotrough friction-test' again or delete it", path.string()));
     }
     return tests;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/plan.hpp"
+#include "campaign/state/plan.hpp"
 
 #include <filesystem>
 #include <map>
@@ -30,7 +30,7 @@ struct LayerFriction {
 
 /// K when none is asked for: the paper's 0.67, or a fifth more than what makes a point mass with the largest
 /// grain friction slide both ways without a rest, K > mu sqrt(1 + pi^2 / 4).
-double default_machine_number(Campaign const& campaign);
+double default_machine_number(scenario::Campaign const& campaign);
 
 /// Measures the tests that are finished.
 /// @param plan  of a campaign made by shake_test_campaign and run

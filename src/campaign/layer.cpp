@@ -12,10 +12,10 @@
 namespace vibrotrough::campaign {
 namespace {
 
-measure::LayerFacts facts_of(store::PackingRecord const& record, Scenario const& s) {
+measure::LayerFacts facts_of(store::PackingRecord const& record, scenario::Scenario const& s) {
     return {record.mass,
-            -gravity * std::sin(s.trough.inclination),
-            -gravity * std::cos(s.trough.inclination),
+            -scenario::gravity * std::sin(s.trough.inclination),
+            -scenario::gravity * std::cos(s.trough.inclination),
             s.trough.frequency,
             record.estimate.discarded,
             record.estimate.discarded + record.estimate.measured};
@@ -36,7 +36,7 @@ void add_trough(measure::ProfileFacts& facts, measure::PhaseSeries const& series
 /// The engine gives every sphere of a clump the clump's whole mass, and counts the room behind side walls as
 /// the layer's. Then the profile's own sum, which is the layer's mass, says by how much its densities are
 /// off.
-void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double mass) {
+void scale_solid_fraction(measure::Profiles& profiles, scenario::Scenario const& s, double mass) {
     std::size_t bins = 0;
     double sum = 0;
     while (bins < profiles.phase.size() && profiles.phase[bins] == profiles.phase[0])
@@ -48,29 +48,31 @@ void scale_solid_fraction(measure::Profiles& profiles, Scenario const& s, double
 
 /// What the difference to the theory is made of; side walls carry a part that the floor's force does not
 /// tell.
-void explain(measure::LayerMotion& motion, Scenario const& s, double mass) {
+void explain(measure::LayerMotion& motion, scenario::Scenario const& s, double mass) {
     if (s.trough.side_wall_friction) return;
     motion.landing_friction = measure::landing_friction(motion);
     motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
-        motion.curves, {mass, s.trough.friction, -gravity * std::sin(s.trough.inclination),
+        motion.curves, {mass, s.trough.friction, -scenario::gravity * std::sin(s.trough.inclination),
                         s.trough.frequency, velocity_scale(s.trough)});
 }
 
 }  // namespace
 
-measure::PhaseSeries packing_phases(Scenario const& s, deck::Deck const& deck, TextFile const& file) {
+measure::PhaseSeries packing_phases(scenario::Scenario const& s, deck::Deck const& deck,
+                                    core::TextFile const& file) {
     auto series = measure::parse_phases(file, deck.time.steps_per_cycle);
-    if (!is_clump(s.grains) && s.layer.block != Block::plate) return series;
+    if (!is_clump(s.grains) && s.layer.block != scenario::Block::plate) return series;
     return measure::with_integrated_places(std::move(series),
                                            1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
 
-void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck const& deck,
+void measure_layer(store::PackingRecord& record, scenario::Scenario const& s, deck::Deck const& deck,
                    PackingOutputs const& outputs, measure::PhaseSeries const& series) {
     static_assert(deck::phases_per_cycle == measure::PhaseSeries::per_cycle);
     measure::LayerFacts const facts = facts_of(record, s);
     if (series.cycles() < facts.used) {
-        throw InputError(fmt::format("{} ends before cycle {}", outputs.phases.path.string(), facts.used));
+        throw core::InputError(
+            fmt::format("{} ends before cycle {}", outputs.phases.path.string(), facts.used));
     }
     // Damaged ones are noticed also where they are not needed.
     auto const profiles = measure::parse_snapshots(outputs.snapshots, outputs.folder, "profiles");
@@ -89,7 +91,7 @@ void measure_layer(store::PackingRecord& record, Scenario const& s, deck::Deck c
                                   record.estimate.mean * velocity_scale(s.trough)};
     add_trough(profile, series, record.motion.curves);
     record.profiles = measure::layer_profiles(profiles, profile);
-    if (is_clump(s.grains) || s.layer.block != Block::none || s.trough.side_wall_friction)
+    if (is_clump(s.grains) || s.layer.block != scenario::Block::none || s.trough.side_wall_friction)
         scale_solid_fraction(record.profiles, s, record.mass);
     record.surface = measure::layer_surface(surface, profile);
 }

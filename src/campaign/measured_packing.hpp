@@ -1,7 +1,7 @@
 #pragma once
 
-#include "campaign/case_state.hpp"
 #include "campaign/packing_outputs.hpp"
+#include "campaign/state/case_state.hpp"
 #include "deck/deck.hpp"
 #include "measure/estimate.hpp"
 #include "measure/phase_series.hpp"
@@ -23,17 +23,18 @@ struct MeasuredPacking {
 using MeasuredPackings = std::map<int, MeasuredPacking>;
 
 /// The velocity efficiency of a series, measured as the scenario asks.
-measure::SequentialEstimate estimate_series(Scenario const& scenario, measure::CycleSeries const& series);
+measure::SequentialEstimate estimate_series(scenario::Scenario const& scenario,
+                                            measure::CycleSeries const& series);
 
 /// Whether the mean is known as well as the scenario asks, so that the run may end.
-bool enough_cycles(Scenario const& scenario, measure::CycleSeries const& series);
+bool enough_cycles(scenario::Scenario const& scenario, measure::CycleSeries const& series);
 
 /// Measures a packing whose engine ended well, but for its wall time.
 /// @param all     its cycles
 /// @param phases  and within them, as packing_phases gives them
 /// @throws InputError when its snapshots are damaged, or phases and cycles do not go together
 /// @throws MissingError when there are none
-store::PackingRecord measure_packing(Scenario const& scenario, deck::Deck const& deck,
+store::PackingRecord measure_packing(scenario::Scenario const& scenario, deck::Deck const& deck,
                                      PackingOutputs const& outputs, measure::CycleSeries const& all,
                                      measure::PhaseSeries const& phases);
 

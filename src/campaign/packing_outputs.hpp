@@ -11,8 +11,8 @@ namespace vibrotrough::campaign {
 /// What a packing's run wrote, read once: what is measured is what the digests are of.
 struct PackingOutputs {
     std::filesystem::path folder;
-    TextFile cycles, phases;          ///< empty when there is no such file
-    std::vector<TextFile> snapshots;  ///< of profiles and surface, by name
+    core::TextFile cycles, phases;          ///< empty when there is no such file
+    std::vector<core::TextFile> snapshots;  ///< of profiles and surface, by name
 
     /// Of cycles.csv; empty without it.
     std::string digest_of_cycles() const;

@@ -21,17 +21,17 @@ double rounded(double value) {
     return std::round(value * scale) / scale;
 }
 
-void add_theory(Row& row, Scenario const& scenario) {
+void add_theory(Row& row, scenario::Scenario const& scenario) {
     theory::Motion const motion = point_mass_motion(scenario, scenario.trough.friction);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
-void add_layer_theory(Row& row, Scenario const& scenario, MeasuredFriction const& measured) {
+void add_layer_theory(Row& row, scenario::Scenario const& scenario, MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
-    Scenario without_walls = scenario;  // what they do is in the measured friction
+    scenario::Scenario without_walls = scenario;  // what they do is in the measured friction
     without_walls.trough.side_wall_friction.reset();
     theory::Motion const motion = point_mass_motion(without_walls, measured.friction);
     row.mode_theory_layer = motion.mode;
@@ -108,9 +108,10 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     return text;
 }
 
-Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
-            std::string const& outcome, std::optional<MeasuredFriction> const& friction) {
-    Trough const& trough = scenario.trough;
+Row compare(std::string const& id, scenario::Scenario const& scenario,
+            std::optional<store::CaseRecord> const& record, std::string const& outcome,
+            std::optional<MeasuredFriction> const& friction) {
+    scenario::Trough const& trough = scenario.trough;
     Row row{};
     row.id = id;
     row.throw_number = rounded(throw_number(trough));

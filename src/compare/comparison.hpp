@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 #include "store/case_record.hpp"
 
 #include <optional>
@@ -24,10 +24,10 @@ struct Row {
     std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta)
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
     std::string mode_theory;
-    std::optional<std::string> mode_layer;  ///< the bulk's mode in the theory's letters
+    std::optional<std::string> mode_layer;          ///< the bulk's mode in the theory's letters
     std::optional<double> efficiency_normal_force;  ///< of a point mass under the layer's own normal force
     std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
-    std::optional<double> friction_layer;   ///< of the layer as a whole, from a friction test
+    std::optional<double> friction_layer;           ///< of the layer as a whole, from a friction test
     std::optional<double> friction_layer_low, friction_layer_high;  ///< its interval
     std::optional<double> efficiency_theory_layer;                  ///< theory at the layer's friction
     std::optional<std::string> mode_theory_layer;
@@ -47,8 +47,9 @@ struct MeasuredFriction {
 /// @param record    the case's result, when it has one
 /// @param outcome   what to say of a case without a result, e.g. "lost-grains" or "open"
 /// @param friction  of the layer, when a friction test has measured it
-Row compare(std::string const& id, Scenario const& scenario, std::optional<store::CaseRecord> const& record,
-            std::string const& outcome, std::optional<MeasuredFriction> const& friction = {});
+Row compare(std::string const& id, scenario::Scenario const& scenario,
+            std::optional<store::CaseRecord> const& record, std::string const& outcome,
+            std::optional<MeasuredFriction> const& friction = {});
 
 /// The theory's velocity efficiency over a fine grid of throw numbers, for every vibration angle, inclination
 /// and friction among the rows, from a little below their smallest throw number to a little above their

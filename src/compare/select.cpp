@@ -35,8 +35,8 @@ std::string known_column(std::string_view option, std::string_view name) {
     for (auto const& [column, value] : columns.items()) names += column + ", ";
     names += difference_column;
     if (columns.contains(name) || name == difference_column) return std::string(name);
-    throw InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
-                                 printable(name, longest_shown), names));
+    throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
+                                       core::printable(name, longest_shown), names));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -71,9 +71,9 @@ Json number_in(std::string_view text, std::string_view condition) {
     double number = 0;
     auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("--filter '{}': '{}' is no number; write e.g. --filter 'throw_number>1.5'",
-                        printable(condition, longest_shown), printable(text, longest_shown)));
+                        core::printable(condition, longest_shown), core::printable(text, longest_shown)));
     }
     return number;
 }
@@ -84,10 +84,10 @@ Condition parse(std::string_view text) {
     std::size_t const value_at = at == text.npos ? at : text.find_first_not_of(signs, at);
     auto const relation = at == text.npos ? std::nullopt : relation_of(text.substr(at, value_at - at));
     if (!relation || value_at == text.npos) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("--filter '{}' is no condition; write a column, one of > >= < <= = !=, and a "
                         "value, e.g. 'throw_number>1.5'",
-                        printable(text, longest_shown)));
+                        core::printable(text, longest_shown)));
     }
     std::string_view const value = trimmed(text.substr(value_at));
     Condition condition{known_column("--filter", trimmed(text.substr(0, at))), *relation, nullptr};
@@ -96,8 +96,8 @@ Condition parse(std::string_view text) {
     } else if (*relation == Relation::equal || *relation == Relation::different) {
         condition.value = std::string(value);
     } else {
-        throw InputError(fmt::format("--filter '{}': '{}' is a text; compare it with = or !=",
-                                     printable(text, longest_shown), condition.column));
+        throw core::InputError(fmt::format("--filter '{}': '{}' is a text; compare it with = or !=",
+                                           core::printable(text, longest_shown), condition.column));
     }
     return condition;
 }
@@ -140,9 +140,9 @@ std::vector<Row> sorted(std::vector<Row> rows, std::string_view key) {
     std::string const column = known_column("--sort", key.substr(0, colon));
     std::string_view const order = colon == key.npos ? "asc" : key.substr(colon + 1);
     if (order != "asc" && order != "desc") {
-        throw InputError(
+        throw core::InputError(
             fmt::format("--sort '{}': the order '{}' is neither asc nor desc; write e.g. --sort {}:desc",
-                        printable(key, longest_shown), printable(order, longest_shown), column));
+                        core::printable(key, longest_shown), core::printable(order, longest_shown), column));
     }
     std::ranges::stable_sort(rows, [&](Row const& a, Row const& b) {
         Json const left = value_of(a, column), right = value_of(b, column);

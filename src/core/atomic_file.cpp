@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -136,4 +136,4 @@ void replace_file(fs::path const& path, std::string_view content) {
     write_and_rename(path, [&](fs::path const& temporary) { write_whole(path, temporary, content, false); });
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

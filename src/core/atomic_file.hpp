@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 /// Reads a whole file. @throws MissingError when it cannot be opened or read.
 std::string read_file(std::filesystem::path const& path);
@@ -37,4 +37,4 @@ void write_file_atomically(std::filesystem::path const& path, std::string_view c
 /// use.
 void replace_file(std::filesystem::path const& path, std::string_view content);
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

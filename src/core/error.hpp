@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 /// What the user can do about an error; `app` turns it into the exit code.
 enum class ErrorKind {
@@ -33,4 +33,4 @@ class MissingError : public Error {
     explicit MissingError(std::string const& message) : Error(ErrorKind::missing, message) {}
 };
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

@@ -6,7 +6,7 @@
 
 #include <openssl/evp.h>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 std::string sha256_hex(std::string_view bytes) {
     return sha256_hex(std::span(&bytes, 1));
@@ -31,4 +31,4 @@ std::string sha256_hex(std::span<std::string_view const> pieces) {
     return hex;
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 namespace {
 
 struct FreeSystem {
@@ -102,4 +102,4 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     return result;
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

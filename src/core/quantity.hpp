@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 /// The text is not a quantity of the wanted dimension. The message is plain words, without file or key.
 class QuantityError : public std::runtime_error {
@@ -19,4 +19,4 @@ class QuantityError : public std::runtime_error {
 /// @throws QuantityError when there is no number, no unit, an unknown unit, or another dimension
 double parse_quantity(std::string_view text, std::string const& unit);
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

@@ -1,6 +1,6 @@
 #include "core/shell.hpp"
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 std::string shell_word(std::filesystem::path const& path) {
     constexpr char const* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:,@%";
@@ -11,4 +11,4 @@ std::string shell_word(std::filesystem::path const& path) {
     return quoted + "'";
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 std::string printable(std::string_view text, std::size_t longest) {
     std::string line(text.substr(0, longest));
@@ -11,4 +11,4 @@ std::string printable(std::string_view text, std::size_t longest) {
     return text.size() > longest ? line + "..." : line;
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

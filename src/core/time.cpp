@@ -6,7 +6,7 @@
 #include <fmt/chrono.h>
 #include <unistd.h>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 std::string utc_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
@@ -18,4 +18,4 @@ std::string host_name() {
     return name.data();
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

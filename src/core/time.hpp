@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 /// Now, as ISO 8601 in UTC to the second, e.g. "2026-11-21T13:05:00Z".
 std::string utc_now();
@@ -10,4 +10,4 @@ std::string utc_now();
 /// Name of this machine.
 std::string host_name();
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

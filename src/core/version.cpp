@@ -2,7 +2,7 @@
 
 #include "version_data.hpp"
 
-namespace vibrotrough {
+namespace vibrotrough::core {
 
 std::string_view program_version() {
     return VIBROTROUGH_VERSION;
@@ -12,4 +12,4 @@ std::string_view program_commit() {
     return VIBROTROUGH_COMMIT;
 }
 
-}  // namespace vibrotrough
+}  // namespace vibrotrough::core

@@ -30,18 +30,18 @@ Finding least(std::string item, std::string key, double measured, double limit, 
             true,     limit,           hard_limit,     std::move(advice)};
 }
 
-bool is_block(Scenario const& s) {
-    return s.layer.block != Block::none;
+bool is_block(scenario::Scenario const& s) {
+    return s.layer.block != scenario::Block::none;
 }
 
 /// What sets the duration of a contact.
-char const* stiffness_key(Scenario const& s) {
+char const* stiffness_key(scenario::Scenario const& s) {
     return is_block(s) ? "solver.block_stiffness" : "grains.youngs_modulus";
 }
 
 /// eta was measured to be the same at 10, 20, 30 and 40 % of the Rayleigh time. A contact of fewer than ten
 /// steps is not integrated but guessed (the engine's certificate: e is off by 0.02 at 14 steps).
-void look_at_time(std::vector<Finding>& findings, Scenario const& s, TimeGrid const& time) {
+void look_at_time(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
     char const* const key = stiffness_key(s);
     if (!is_block(s)) {
         findings.push_back(most("time step / Rayleigh time", "solver.rayleigh_fraction",
@@ -61,7 +61,7 @@ void look_at_time(std::vector<Finding>& findings, Scenario const& s, TimeGrid co
 /// A soft grain saves time steps, but overlaps of some percent change the packing, and above some ten percent
 /// Hertz's law has no meaning. eta changes by 0.03 between E = 1 and 20 MPa where the impact overlap goes
 /// from 8 to 2 % of the diameter.
-void look_at_overlaps(std::vector<Finding>& findings, Scenario const& s, TimeGrid const& time) {
+void look_at_overlaps(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
     double const diameter = s.grains.diameter;
     char const* const stiffen = "raise it: the overlap goes with its power -2/3 at rest, -2/5 at impact";
     findings.push_back(most("overlap under the layer's own weight / diameter", "grains.youngs_modulus",
@@ -73,7 +73,7 @@ void look_at_overlaps(std::vector<Finding>& findings, Scenario const& s, TimeGri
 
 /// An impact is meant to be short against what happens between impacts. The layer's collision passes
 /// through it grain by grain: the height in diameters times a grain's contact time.
-void look_at_contact_time(std::vector<Finding>& findings, Scenario const& s, TimeGrid const& time) {
+void look_at_contact_time(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
     double const speed = time.impact_speed / 2;
     double const contact = impact_duration(s, speed), cycle = 1 / s.trough.frequency;
     double const layers = is_block(s) ? 1 : std::max(1.0, layer_height(s) / s.grains.diameter);
@@ -92,7 +92,7 @@ void look_at_contact_time(std::vector<Finding>& findings, Scenario const& s, Tim
 }
 
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
-void look_at_box(std::vector<Finding>& findings, Scenario const& s) {
+void look_at_box(std::vector<Finding>& findings, scenario::Scenario const& s) {
     double const diameter = s.grains.diameter;
     findings.push_back(least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
                              "lengthen the box: a grain should not meet its own image's neighbours"));
@@ -106,14 +106,14 @@ void look_at_box(std::vector<Finding>& findings, Scenario const& s) {
 }
 
 /// The periodic mesh moves in the box; its nodes go round.
-void look_at_stroke(std::vector<Finding>& findings, Scenario const& s) {
+void look_at_stroke(std::vector<Finding>& findings, scenario::Scenario const& s) {
     double const stroke = 2 * s.trough.amplitude * std::cos(s.trough.vibration_angle);
     findings.push_back(most("stroke along the trough / periodic length", "layer.length",
                             stroke / s.layer.length, 1, 2,
                             "lengthen the box: the mesh moves by more than a whole image of itself"));
 }
 
-void look_at_engine(std::vector<Finding>& findings, Scenario const& s, TimeGrid const& time) {
+void look_at_engine(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
                              "grains.diameter", steps_between_rebuilds(s, time.impact_speed), 5, 1,
                              "shorten the time step: grains outrun their neighbour lists"));
@@ -137,7 +137,7 @@ std::string to_string(Severity severity) {
     return "unknown";
 }
 
-std::vector<Finding> check(Scenario const& scenario) {
+std::vector<Finding> check(scenario::Scenario const& scenario) {
     TimeGrid const time = choose_time_step(scenario);
     std::vector<Finding> findings;
     look_at_time(findings, scenario, time);

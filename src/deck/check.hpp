@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <string>
 #include <vector>
@@ -33,6 +33,6 @@ std::string to_string(Severity severity);
 /// per cycle and contact, overlaps, contact against flight time, the box, neighbour lists, disk. All items
 /// are given, fine ones too, always in the same order. The formulas are in `estimates.hpp`.
 /// @throws InputError when there is no usable time step (see choose_time_step)
-std::vector<Finding> check(Scenario const& scenario);
+std::vector<Finding> check(scenario::Scenario const& scenario);
 
 }  // namespace vibrotrough::deck

@@ -21,9 +21,9 @@ struct Moments {
 using Intervals = std::vector<std::pair<double, double>>;
 
 /// Where the line (y, z) is inside any sphere, without overlaps.
-void cut(std::vector<Sphere> const& spheres, double y, double z, Intervals& intervals) {
+void cut(std::vector<scenario::Sphere> const& spheres, double y, double z, Intervals& intervals) {
     intervals.clear();
-    for (Sphere const& s : spheres) {
+    for (scenario::Sphere const& s : spheres) {
         double const square = s.radius * s.radius - (y - s.y) * (y - s.y) - (z - s.z) * (z - s.z);
         if (square > 0) intervals.emplace_back(s.x - std::sqrt(square), s.x + std::sqrt(square));
     }
@@ -54,10 +54,10 @@ void add(Moments& m, std::pair<double, double> const& interval, double y, double
     m.yz += y * z * length;
 }
 
-Moments integrate(std::vector<Sphere> const& spheres) {
+Moments integrate(std::vector<scenario::Sphere> const& spheres) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double low_y = infinity, high_y = -infinity, low_z = infinity, high_z = -infinity;
-    for (Sphere const& s : spheres) {
+    for (scenario::Sphere const& s : spheres) {
         low_y = std::min(low_y, s.y - s.radius), high_y = std::max(high_y, s.y + s.radius);
         low_z = std::min(low_z, s.z - s.radius), high_z = std::max(high_z, s.z + s.radius);
     }
@@ -74,7 +74,7 @@ Moments integrate(std::vector<Sphere> const& spheres) {
     return moments;
 }
 
-Clump clump_of(std::vector<Sphere> spheres, double volume) {
+Clump clump_of(std::vector<scenario::Sphere> spheres, double volume) {
     Moments const m = integrate(spheres);
     double const scale = std::cbrt(volume / m.one), fifth = std::pow(scale, 5);
     double const x = m.x / m.one, y = m.y / m.one, z = m.z / m.one;
@@ -89,7 +89,7 @@ Clump clump_of(std::vector<Sphere> spheres, double volume) {
     for (std::size_t const product : {1U, 2U, 4U}) {
         if (std::abs(clump.inertia[product]) < 1e-9 * clump.inertia[0]) clump.inertia[product] = 0;
     }
-    for (Sphere& s : spheres) {
+    for (scenario::Sphere& s : spheres) {
         s = {(s.x - x) * scale, (s.y - y) * scale, (s.z - z) * scale, s.radius * scale};
         clump.bounding_radius = std::max(clump.bounding_radius, std::hypot(s.x, s.y, s.z) + s.radius);
         clump.smallest_radius = std::min(clump.smallest_radius, s.radius);
@@ -100,12 +100,12 @@ Clump clump_of(std::vector<Sphere> spheres, double volume) {
 
 }  // namespace
 
-Clump make_clump(Grains const& grains) {
+Clump make_clump(scenario::Grains const& grains) {
     return clump_of(shape_spheres(grains), std::numbers::pi / 6 * std::pow(grains.diameter, 3));
 }
 
 Clump make_plate(double diameter) {
-    std::vector<Sphere> spheres;
+    std::vector<scenario::Sphere> spheres;
     for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j)
             spheres.push_back({2 * i * diameter, 2 * j * diameter, 0, diameter / 2});

@@ -64,7 +64,7 @@ std::string render(char const* name, mustache::data const& data) {
     return tidy(result);
 }
 
-std::map<std::string, std::string> meshes(Scenario const& scenario, DeckNumbers const& numbers) {
+std::map<std::string, std::string> meshes(scenario::Scenario const& scenario, DeckNumbers const& numbers) {
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * scenario.grains.diameter;
     std::map<std::string, std::string> files{{"trough.stl", flat_trough_stl(length, width, edge)}};
@@ -78,7 +78,7 @@ std::map<std::string, std::string> meshes(Scenario const& scenario, DeckNumbers 
 
 }  // namespace
 
-Deck make_deck(Scenario const& scenario, int packing) {
+Deck make_deck(scenario::Scenario const& scenario, int packing) {
     if (packing < 1 || packing > 1000)
         throw std::invalid_argument(fmt::format("no packing number {}", packing));
     DeckNumbers const numbers = make_numbers(scenario);
@@ -86,7 +86,7 @@ Deck make_deck(Scenario const& scenario, int packing) {
     deck.time = numbers.time;
     deck.seed = seed_number(3 * (packing - 1));
     deck.mass = numbers.mass;
-    deck.weight = deck.mass * gravity * std::cos(scenario.trough.inclination);
+    deck.weight = deck.mass * scenario::gravity * std::cos(scenario.trough.inclination);
     mustache::data data = describe(scenario, numbers, packing);
     for (auto const& [name, value] : phase_sampling(scenario, numbers.time)) data.set(name, value);
     deck.settle_files = meshes(scenario, numbers);
@@ -114,14 +114,14 @@ std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> 
 }
 
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {
-    make_folder(folder);
-    for (auto const& [name, content] : files) replace_file(folder / name, content);
+    core::make_folder(folder);
+    for (auto const& [name, content] : files) core::replace_file(folder / name, content);
 }
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks) {
     write_files(for_ranks(deck.files, ranks), folder);
     // The engine makes no folders.
-    if (deck.files.at(drive_file).find(" dump/") != std::string::npos) make_folder(folder / "dump");
+    if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
 }
 
 }  // namespace vibrotrough::deck

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "deck/time_grid.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <filesystem>
 #include <map>
@@ -39,7 +39,7 @@ constexpr char const* control_stop = "variable stop equal 1\n";
 /// The deck of packing number `packing` (from 1). Different packings differ by their seeds only.
 /// @throws std::invalid_argument when `packing` is below 1 or above 1000
 /// @throws InputError when the scenario cannot be cut into steps
-Deck make_deck(Scenario const& scenario, int packing);
+Deck make_deck(scenario::Scenario const& scenario, int packing);
 
 /// Name of the restart file that the deck writes after this cycle.
 std::string checkpoint_file(int cycle);

@@ -24,26 +24,26 @@ std::string rounded(double number) {
     return fmt::format("{:.6g}", number);
 }
 
-bool is_body(Scenario const& s) {
-    return is_clump(s.grains) || s.layer.block == Block::plate;
+bool is_body(scenario::Scenario const& s) {
+    return is_clump(s.grains) || s.layer.block == scenario::Block::plate;
 }
 
-std::string template_of(Scenario const& s, DeckNumbers const& n, double diameter, int index) {
+std::string template_of(scenario::Scenario const& s, DeckNumbers const& n, double diameter, int index) {
     std::string const start =
         fmt::format("{} {} atom_type 1 density constant {}", is_body(s) ? "multisphere" : "sphere",
                     seed_number(4000 + index), s.grains.density);
     if (!n.clump) return fmt::format("{} radius constant {}", start, diameter / 2);
     std::vector<std::string> spheres, inertia;
-    for (Sphere const& sphere : n.clump->spheres)
+    for (scenario::Sphere const& sphere : n.clump->spheres)
         spheres.push_back(fmt::format("{} {} {} {}", sphere.x, sphere.y, sphere.z, sphere.radius));
     for (double const moment : n.clump->inertia) inertia.push_back(text(moment * s.grains.density));
-    bool const turns = s.grains.rotation != Rotation::blocked;
+    bool const turns = s.grains.rotation != scenario::Rotation::blocked;
     return fmt::format("{} nspheres {} ntry 100000 spheres {} type 1 mass {} inertia_tensor {} use_density{}",
                        start, spheres.size(), fmt::join(spheres, " "), n.clump->volume * s.grains.density,
                        fmt::join(inertia, " "), turns ? "" : " tflag off off off");
 }
 
-mustache::list describe_classes(Scenario const& s, DeckNumbers const& n, int packing) {
+mustache::list describe_classes(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
     mustache::list list;
     int index = 0;
     int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
@@ -65,13 +65,13 @@ mustache::list describe_classes(Scenario const& s, DeckNumbers const& n, int pac
     return list;
 }
 
-std::string grain_words(Scenario const& s) {
-    if (s.layer.block == Block::point) return "block, a sphere that does not rotate,";
-    if (s.layer.block == Block::plate) return "block, a plate of nine spheres,";
+std::string grain_words(scenario::Scenario const& s) {
+    if (s.layer.block == scenario::Block::point) return "block, a sphere that does not rotate,";
+    if (s.layer.block == scenario::Block::plate) return "block, a plate of nine spheres,";
     return is_clump(s.grains) ? fmt::format("clumps of shape {}", s.grains.shape) : "spheres";
 }
 
-void describe_inputs(mustache::data& data, Scenario const& s) {
+void describe_inputs(mustache::data& data, scenario::Scenario const& s) {
     data.set("inclination_deg", rounded(s.trough.inclination * degrees));
     data.set("trough_friction", text(s.trough.friction));
     data.set("trough_restitution", text(s.trough.restitution));
@@ -88,7 +88,7 @@ void describe_inputs(mustache::data& data, Scenario const& s) {
     data.set("rotation", std::string(name_of(s.grains.rotation)));
     data.set("length", text(s.layer.length));
     data.set("width", text(s.layer.width));
-    data.set("gravity", text(gravity));
+    data.set("gravity", text(scenario::gravity));
     data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
 }
@@ -111,7 +111,8 @@ std::string repeated(int times, double value) {
         "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
 }
 
-void describe_block_contact(mustache::data& data, Scenario const& s, DeckNumbers const& n, int types) {
+void describe_block_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n,
+                            int types) {
     BlockContact const contact =
         block_contact(s, n.mass, n.clump ? static_cast<int>(n.clump->spheres.size()) : 1);
     auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
@@ -120,13 +121,14 @@ void describe_block_contact(mustache::data& data, Scenario const& s, DeckNumbers
     data.set("contact_dampings", everywhere(contact.damping));
 }
 
-void describe_contact(mustache::data& data, Scenario const& s, DeckNumbers const& n) {
-    bool const block = s.layer.block != Block::none, rolls = s.grains.rotation == Rotation::rolling;
+void describe_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
+    bool const block = s.layer.block != scenario::Block::none,
+               rolls = s.grains.rotation == scenario::Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
     std::string const model = block ? "hooke/stiffness tangential no_history" : "hertz tangential history";
     std::string const options =
-        fmt::format("limitForce {} tangential_damping {}", s.layer.block == Block::plate ? "off" : "on",
-                    block ? "on" : "off");
+        fmt::format("limitForce {} tangential_damping {}",
+                    s.layer.block == scenario::Block::plate ? "off" : "on", block ? "on" : "off");
     std::string const wall_model = model + (rolls ? " rolling_friction epsd2" : "");
     double const wall_friction = s.trough.side_wall_friction.value_or(0);
     data.set("block", block);
@@ -146,12 +148,12 @@ void describe_contact(mustache::data& data, Scenario const& s, DeckNumbers const
     if (block) describe_block_contact(data, s, n, types);
 }
 
-std::string integrator(Scenario const& s) {
+std::string integrator(scenario::Scenario const& s) {
     if (is_body(s)) return "multisphere allow_group_and_set yes";
-    return s.grains.rotation == Rotation::blocked ? "nve" : "nve/sphere";
+    return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
 }
 
-void describe_drive(mustache::data& data, Scenario const& s, TimeGrid const& time) {
+void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time) {
     data.set("vibration_angle_deg", rounded(s.trough.vibration_angle * degrees));
     data.set("amplitude", text(s.trough.amplitude));
     data.set("frequency", text(s.trough.frequency));
@@ -161,13 +163,13 @@ void describe_drive(mustache::data& data, Scenario const& s, TimeGrid const& tim
     if (s.trough.waveform) remark = fmt::format(",\n#             waveform of {}", s.trough.waveform->name);
     if (s.trough.along_phase != 0)
         remark += fmt::format(",\n#             x ahead of z by {:.6g} deg", s.trough.along_phase * degrees);
-    for (DriveHarmonic const& harmonic : s.trough.harmonics) {
+    for (scenario::DriveHarmonic const& harmonic : s.trough.harmonics) {
         remark += fmt::format(
             ",\n#             harmonic of order {} with {} times the acceleration, phase {:.6g} deg",
             harmonic.order, harmonic.ratio, harmonic.phase * degrees);
     }
     data.set("drive_remark", remark);
-    DriveMotion const motion = drive_motion(s.trough);
+    scenario::DriveMotion const motion = drive_motion(s.trough);
     mustache::list lines;
     for (auto const& [axis, terms] : {std::pair{"x", &motion.along}, std::pair{"z", &motion.normal}}) {
         DriveFormula const formula = drive_formula(*terms, axis);
@@ -184,11 +186,11 @@ void describe_drive(mustache::data& data, Scenario const& s, TimeGrid const& tim
     data.set("steps_per_cycle", std::to_string(time.steps_per_cycle));
     data.set("rayleigh_percent", fmt::format("{:.3g}", 100 * time.rayleigh_fraction));
     data.set("hertz_percent", fmt::format("{:.3g}", 100 * time.contact_fraction));
-    data.set("contact_name", s.layer.block == Block::none ? "Hertz" : "block's");
+    data.set("contact_name", s.layer.block == scenario::Block::none ? "Hertz" : "block's");
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
-void describe_output(mustache::data& data, Scenario const& s, TimeGrid const& time, int packing) {
+void describe_output(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time, int packing) {
     bool const frames = packing == 1 && s.output.frames_per_cycle > 0;  // frames show the first packing
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
@@ -198,15 +200,16 @@ void describe_output(mustache::data& data, Scenario const& s, TimeGrid const& ti
 }
 
 /// Where the grains are poured from, and how long that may take.
-void describe_packing(mustache::data& data, Scenario const& s, DeckNumbers const& n) {
+void describe_packing(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
     bool const walls = s.trough.side_wall_friction.has_value();
     double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
-    double const fall_time = std::sqrt(2 * n.fill_top / gravity);
-    double const chunk_time = std::sqrt(diameter / gravity);
+    double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
+    double const chunk_time = std::sqrt(diameter / scenario::gravity);
     double const mean_mass = n.mass / s.layer.grains;
     int const spheres = n.clump ? static_cast<int>(n.clump->spheres.size()) : 1;
     data.set("integrator", integrator(s));
-    data.set("orientation", is_body(s) && s.layer.block == Block::none ? "orientation random " : "");
+    data.set("orientation",
+             is_body(s) && s.layer.block == scenario::Block::none ? "orientation random " : "");
     data.set("spheres_per_grain", std::to_string(spheres));
     data.set("settle_time_step", text(step));
     data.set("skin", text(0.3 * diameter));
@@ -219,11 +222,11 @@ void describe_packing(mustache::data& data, Scenario const& s, DeckNumbers const
     data.set("fill_right", text(s.layer.width - (walls ? extent / 2 : 0)));
     data.set("fill_bottom", text(n.fill_bottom));
     data.set("fill_top", text(n.fill_top));
-    data.set("fill_speed", rounded(0.5 * std::sqrt(gravity * diameter)));
+    data.set("fill_speed", rounded(0.5 * std::sqrt(scenario::gravity * diameter)));
     data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / step))));
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
-    data.set("settled_energy", rounded(1e-7 * n.mass * gravity * diameter));
+    data.set("settled_energy", rounded(1e-7 * n.mass * scenario::gravity * diameter));
     data.set("mass", text(n.mass));
 }
 
@@ -234,7 +237,7 @@ int seed_number(int index) {
     return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
 }
 
-mustache::data describe(Scenario const& s, DeckNumbers const& n, int packing) {
+mustache::data describe(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
     mustache::data data;
     mustache::list const classes = describe_classes(s, n, packing);
     data.set("title",

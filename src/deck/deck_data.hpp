@@ -2,7 +2,7 @@
 
 #include "deck/clump.hpp"
 #include "deck/time_grid.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <optional>
 #include <vector>
@@ -29,12 +29,12 @@ struct DeckNumbers {
     TimeGrid time;
 };
 
-DeckNumbers make_numbers(Scenario const& scenario);
+DeckNumbers make_numbers(scenario::Scenario const& scenario);
 
 /// The engine's seeds are primes above 10000.
 int seed_number(int index);
 
 /// What both decks show.
-kainjow::mustache::data describe(Scenario const& scenario, DeckNumbers const& numbers, int packing);
+kainjow::mustache::data describe(scenario::Scenario const& scenario, DeckNumbers const& numbers, int packing);
 
 }  // namespace vibrotrough::deck

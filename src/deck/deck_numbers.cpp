@@ -9,11 +9,11 @@ namespace {
 
 /// Counts whose running sums are the nearest to the fractions': the mean stays the mean, and a single grain
 /// is of the middle size.
-std::vector<ClassCount> count_classes(Grains const& grains, int count) {
+std::vector<ClassCount> count_classes(scenario::Grains const& grains, int count) {
     std::vector<ClassCount> classes;
     double fraction = 0;
     int so_far = 0;
-    for (SizeClass const& size : size_classes(grains)) {
+    for (scenario::SizeClass const& size : size_classes(grains)) {
         fraction += size.number_fraction;
         int const target = static_cast<int>(std::lround(fraction * count));
         if (target > so_far) classes.push_back({size.diameter, target - so_far});
@@ -30,10 +30,10 @@ double in_powers_of_four(double unit, double needed) {
 
 }  // namespace
 
-DeckNumbers make_numbers(Scenario const& s) {
+DeckNumbers make_numbers(scenario::Scenario const& s) {
     DeckNumbers n{};
     n.classes = count_classes(s.grains, s.layer.grains);
-    if (s.layer.block == Block::plate) n.clump = make_plate(s.grains.diameter);
+    if (s.layer.block == scenario::Block::plate) n.clump = make_plate(s.grains.diameter);
     if (is_clump(s.grains)) n.clump = make_clump(s.grains);
     double const ratio = n.clump ? 2 * n.clump->bounding_radius / s.grains.diameter : 1;
     double bounding_volume = 0;
@@ -51,9 +51,9 @@ DeckNumbers make_numbers(Scenario const& s) {
     n.settle_time_step = settling_time_step(s, n.fill_top);
     n.time = choose_time_step(s);
     // A grain at ten times the height that the trough's largest speed throws it to is still in the box.
-    DriveMotion const motion = drive_motion(s.trough);
+    scenario::DriveMotion const motion = drive_motion(s.trough);
     double const speed = largest_speed(motion, angular_frequency(s.trough));
-    double const flight = speed * speed / (2 * gravity * std::cos(s.trough.inclination));
+    double const flight = speed * speed / (2 * scenario::gravity * std::cos(s.trough.inclination));
     double const excursion = largest_excursion(motion);
     n.box_top = in_powers_of_four(8 * (n.fill_top + 5 * n.largest_extent),
                                   n.fill_top + 10 * flight + 5 * n.largest_extent);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t harmonics_per_line = 5;
 
-std::string sine(DriveTerm const& term, char const* angle) {
+std::string sine(scenario::DriveTerm const& term, char const* angle) {
     std::string argument =
         term.order == 1 ? fmt::format("v_{}", angle) : fmt::format("{}*v_{}", term.order, angle);
     // The engine reads no minus sign after a plus.
@@ -18,7 +18,7 @@ std::string sine(DriveTerm const& term, char const* angle) {
 
 }  // namespace
 
-DriveFormula drive_formula(std::vector<DriveTerm> const& terms, std::string const& axis) {
+DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
     DriveFormula formula;
     for (std::size_t first = 0; first < terms.size(); first += harmonics_per_line) {
         Formula line{fmt::format("step_{}{}", axis, first / harmonics_per_line + 1), {}};

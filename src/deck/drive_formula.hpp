@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/drive.hpp"
+#include "scenario/model/drive.hpp"
 
 #include <string>
 #include <vector>
@@ -21,6 +21,6 @@ struct DriveFormula {
 };
 
 /// @param axis  "x" or "z", part of the variables' names
-DriveFormula drive_formula(std::vector<DriveTerm> const& terms, std::string const& axis);
+DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
 
 }  // namespace vibrotrough::deck

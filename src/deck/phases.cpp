@@ -7,7 +7,7 @@
 
 namespace vibrotrough::deck {
 
-std::map<std::string, std::string> phase_sampling(Scenario const& s, TimeGrid const& time) {
+std::map<std::string, std::string> phase_sampling(scenario::Scenario const& s, TimeGrid const& time) {
     double const diameter = s.grains.diameter;
     // Columns a grain and a half wide, a whole number of them: the last one is not narrower.
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * diameter)));

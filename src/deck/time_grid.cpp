@@ -21,34 +21,34 @@ constexpr double block_steps = 20;    ///< per contact, 2 per time constant of a
 constexpr double block_damping = 10;  ///< m / contact's duration
 constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 
-double smallest_radius(Scenario const& s) {
+double smallest_radius(scenario::Scenario const& s) {
     if (!is_clump(s.grains)) return smallest_diameter(s.grains) / 2;
     return make_clump(s.grains).smallest_radius;
 }
 
-double rayleigh_time(Scenario const& s) {
+double rayleigh_time(scenario::Scenario const& s) {
     double const nu = s.grains.poisson_ratio;
     double const shear_modulus = s.grains.youngs_modulus / (2 * (1 + nu));
     return pi * smallest_radius(s) * std::sqrt(s.grains.density / shear_modulus) / (0.1631 * nu + 0.8766);
 }
 
-double hertz_time(Scenario const& s, double speed) {
+double hertz_time(scenario::Scenario const& s, double speed) {
     double const radius = smallest_radius(s), nu = s.grains.poisson_ratio;
     double const mass = s.grains.density * pi / 6 * std::pow(2 * radius, 3) / 2;  // m* of two equal grains
     double const modulus = s.grains.youngs_modulus / (2 * (1 - nu * nu));         // E* of two equal grains
     return 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
 }
 
-double block_duration(Scenario const& s) {
+double block_duration(scenario::Scenario const& s) {
     return 1 / (s.trough.frequency * s.solver.block_stiffness);
 }
 
 }  // namespace
 
-TimeGrid choose_time_step(Scenario const& s) {
-    DriveMotion const motion = drive_motion(s.trough);
+TimeGrid choose_time_step(scenario::Scenario const& s) {
+    scenario::DriveMotion const motion = drive_motion(s.trough);
     double const speed = 2 * largest_speed(motion, angular_frequency(s.trough));
-    bool const block = s.layer.block != Block::none;
+    bool const block = s.layer.block != scenario::Block::none;
     double const contact = block ? block_duration(s) : hertz_time(s, speed);
     double const rayleigh = rayleigh_time(s);
     double const period = 1 / s.trough.frequency;
@@ -58,7 +58,7 @@ TimeGrid choose_time_step(Scenario const& s) {
     int const multiple = std::lcm(phases_per_cycle, std::max(1, s.output.frames_per_cycle));
     double const steps = std::ceil(period / longest / multiple) * multiple;
     if (steps > most_steps) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("a cycle of {:.3g} s would take {:.3g} steps of {:.3g} s, more than {:.0g}; make the "
                         "grains larger or softer "
                         "(grains.diameter, grains.youngs_modulus) or the trough faster",
@@ -68,13 +68,13 @@ TimeGrid choose_time_step(Scenario const& s) {
     return {time_step, static_cast<int>(steps), time_step / rayleigh, time_step / contact, speed};
 }
 
-double settling_time_step(Scenario const& s, double fall_height) {
-    if (s.layer.block != Block::none) return block_duration(s) / block_steps;
-    double const speed = std::sqrt(2 * gravity * fall_height);
+double settling_time_step(scenario::Scenario const& s, double fall_height) {
+    if (s.layer.block != scenario::Block::none) return block_duration(s) / block_steps;
+    double const speed = std::sqrt(2 * scenario::gravity * fall_height);
     return std::min(s.solver.rayleigh_fraction * rayleigh_time(s), 0.1 * hertz_time(s, speed));
 }
 
-BlockContact block_contact(Scenario const& s, double mass, int spheres) {
+BlockContact block_contact(scenario::Scenario const& s, double mass, int spheres) {
     double const duration = block_duration(s);
     bool const plate = spheres > 1;
     double const ratio = plate ? plate_damping_ratio : point_damping_ratio;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 namespace vibrotrough::deck {
 
@@ -26,11 +26,11 @@ constexpr int phases_per_cycle = 100;
 ///   flies at the trough's largest speed against a trough that comes at its largest speed.
 /// A block has a linear contact of duration T / block_stiffness instead, and 1/20 of that as its time step.
 /// @throws InputError when a cycle would take more than 1e8 steps
-TimeGrid choose_time_step(Scenario const& scenario);
+TimeGrid choose_time_step(scenario::Scenario const& scenario);
 
 /// The time step for settling: the same rules at the speed of a free fall from `fall_height` (m), whatever
 /// the drive.
-double settling_time_step(Scenario const& scenario, double fall_height);
+double settling_time_step(scenario::Scenario const& scenario, double fall_height);
 
 /// The plastic contact of a block of mass m, for contacts of duration t_c. Normal force k d + c v, never
 /// negative, with k = m / t_c^2 and c = 10 m / t_c, five times the critical damping: a landing dies with the
@@ -49,6 +49,6 @@ struct BlockContact {
 };
 
 /// @param spheres  that the block stands on
-BlockContact block_contact(Scenario const& scenario, double mass, int spheres);
+BlockContact block_contact(scenario::Scenario const& scenario, double mass, int spheres);
 
 }  // namespace vibrotrough::deck

@@ -73,7 +73,7 @@ Json describe(Certificate const& certificate) {
 }  // namespace
 
 std::string EngineIdentity::key() const {
-    return sha256_hex(program_sha256 + "\n" + library_sha256 + "\n" + version + "\n" + probes_sha256);
+    return core::sha256_hex(program_sha256 + "\n" + library_sha256 + "\n" + version + "\n" + probes_sha256);
 }
 
 bool ProbeResult::passed() const {
@@ -87,7 +87,7 @@ bool Certificate::passed() const {
 
 std::string to_json(Certificate const& certificate) {
     Json json = describe(certificate);
-    json["content_sha256"] = sha256_hex(json.dump());
+    json["content_sha256"] = core::sha256_hex(json.dump());
     return json.dump(2) + "\n";
 }
 
@@ -97,7 +97,7 @@ std::optional<Certificate> parse_certificate(std::string_view text) {
     try {
         std::string const digest = json.at("content_sha256");
         json.erase("content_sha256");
-        if (json.at("format") != format_name || sha256_hex(json.dump()) != digest) return {};
+        if (json.at("format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
         Json const& engine = json.at("engine");
         Certificate certificate{
             {engine.at("program"), engine.at("program_sha256"), engine.at("library"),

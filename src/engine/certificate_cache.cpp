@@ -49,9 +49,10 @@ std::optional<fs::path> certificate_file(EngineIdentity const& identity) {
 EngineIdentity identify(Engine const& engine) {
     EngineIdentity identity{};
     identity.program = engine.program.string();
-    identity.program_sha256 = sha256_hex(read_file(engine.program));
+    identity.program_sha256 = core::sha256_hex(core::read_file(engine.program));
     identity.library = linked_library(engine.program);
-    if (!identity.library.empty()) identity.library_sha256 = sha256_hex(read_file(identity.library));
+    if (!identity.library.empty())
+        identity.library_sha256 = core::sha256_hex(core::read_file(identity.library));
     identity.version = engine.version;
     identity.probes_sha256 = digest_of_probes();
     return identity;
@@ -71,10 +72,10 @@ std::optional<Certificate> find_certificate(EngineIdentity const& identity) {
     std::error_code ignored;
     if (!file || !fs::is_regular_file(*file, ignored)) return {};
     try {
-        auto certificate = parse_certificate(read_file(*file));
+        auto certificate = parse_certificate(core::read_file(*file));
         if (certificate && certificate->passed() && certificate->engine.key() == identity.key())
             return certificate;
-    } catch (MissingError const&) {
+    } catch (core::MissingError const&) {
         // unreadable is as good as none
     }
     return {};
@@ -85,10 +86,10 @@ std::string keep_certificate(Certificate const& certificate) {
     auto const file = certificate_file(certificate.engine);
     if (!file) return "neither XDG_CACHE_HOME nor HOME is set";
     try {
-        make_folder(file->parent_path());
-        write_file_atomically(*file, to_json(certificate));
+        core::make_folder(file->parent_path());
+        core::write_file_atomically(*file, to_json(certificate));
         return {};
-    } catch (Error const& error) {
+    } catch (core::Error const& error) {
         return error.what();
     }
 }

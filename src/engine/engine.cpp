@@ -69,14 +69,14 @@ fs::path search_program(std::optional<fs::path> const& asked) {
         std::error_code failure;
         fs::path const program = fs::absolute(*asked, failure);
         if (!fs::is_regular_file(program, failure)) {
-            throw MissingError(fmt::format(
+            throw core::MissingError(fmt::format(
                 "--liggghts: there is no file {}; give the path of a liggghts program", asked->string()));
         }
         return program;
     }
     auto const found = bp::search_path("liggghts");
     if (found.empty()) {
-        throw MissingError(
+        throw core::MissingError(
             "no liggghts on the PATH; install it (apt-get install --no-install-recommends liggghts) or name "
             "one with "
             "--liggghts PATH");
@@ -103,10 +103,11 @@ std::string ask_version(fs::path const& program) {
         child.wait();
         if (!version.empty()) return version;
     } catch (bp::process_error const& error) {
-        throw MissingError(fmt::format("{} does not start ({})", program.string(), error.code().message()));
+        throw core::MissingError(
+            fmt::format("{} does not start ({})", program.string(), error.code().message()));
     }
-    throw MissingError(fmt::format("{} does not say that it is LIGGGHTS; name another with --liggghts PATH",
-                                   program.string()));
+    throw core::MissingError(fmt::format(
+        "{} does not say that it is LIGGGHTS; name another with --liggghts PATH", program.string()));
 }
 
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
@@ -114,7 +115,7 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch, S
     std::vector<std::string> words{no_daemon, session.setting()};
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
-            throw MissingError(
+            throw core::MissingError(
                 "no mpirun on the PATH for more than one rank; install openmpi-bin, or write "
                 "ranks = 1 under [run]");
         }
@@ -188,8 +189,8 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
             bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
             bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
     } catch (bp::process_error const& error) {
-        throw MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(), folder.string(),
-                                       error.code().message()));
+        throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
+                                             folder.string(), error.code().message()));
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 /// Messages of the engine can hold garbage bytes.
 std::string clean(std::string const& text) {
-    return printable(text, 300);
+    return core::printable(text, 300);
 }
 
 /// The lines of the engine's output that matter.

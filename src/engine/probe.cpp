@@ -36,7 +36,7 @@ class TemporaryFolder {
     TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "vibrotrough-probe-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr) {
-            throw MissingError(
+            throw core::MissingError(
                 fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another place", name,
                             std::strerror(errno)));
         }
@@ -80,8 +80,8 @@ class DeckRunner {
         });
         for (ProbeDeck const& deck : decks) {
             fs::path const own = folder_ / deck.name;
-            make_folder(own);
-            for (auto const& [name, content] : deck.files) write_file_atomically(own / name, content);
+            core::make_folder(own);
+            for (auto const& [name, content] : deck.files) core::write_file_atomically(own / name, content);
             running.push_back(
                 std::make_unique<EngineProcess>(context_, engine_, own, [&, own](ExitStatus status) {
                     problems_[own.filename().string()] = problem_of_run(own, status);
@@ -150,9 +150,14 @@ std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity con
                                                              {incline_deck(), judge_incline},
                                                              {contact_deck(), judge_contact},
                                                              {drive_deck(), judge_drive}};
-    Certificate certificate{
-        identity, std::string(program_version()), std::string(program_commit()), host_name(), utc_now(), 0, 0,
-        {}};
+    Certificate certificate{identity,
+                            std::string(core::program_version()),
+                            std::string(core::program_commit()),
+                            core::host_name(),
+                            core::utc_now(),
+                            0,
+                            0,
+                            {}};
     TemporaryFolder const folder;
     DeckRunner runner(engine, folder.path());
     std::vector<ProbeDeck> decks;

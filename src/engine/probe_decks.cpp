@@ -4,7 +4,7 @@
 #include "deck/drive_formula.hpp"
 #include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -65,7 +65,7 @@ Values world(std::string const& title, double time_step, std::vector<double> con
             {"frictions", pair_matrix(grain_friction, frictions)},
             {"diameter", text(diameter)},
             {"density", text(material.density)},
-            {"gravity", text(gravity)}};
+            {"gravity", text(scenario::gravity)}};
 }
 
 std::vector<Impact> impacts(std::vector<std::array<double, 2>> const& speeds,
@@ -114,11 +114,11 @@ ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, 
 /// The values and lists that the campaigns' own templates `trough` and `drive` want.
 void add_campaign_values(Values& values, std::map<std::string, std::vector<Values>>& lists,
                          MovingTrough const& motion) {
-    Trough trough{};
+    scenario::Trough trough{};
     trough.amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
     trough.vibration_angle = std::atan2(motion.amplitude_z, motion.amplitude_x);
     trough.frequency = 1 / motion.period;
-    DriveMotion const drive = drive_motion(trough);
+    scenario::DriveMotion const drive = drive_motion(trough);
     for (auto const& [axis, terms] : {std::pair{"x", &drive.along}, std::pair{"z", &drive.normal}}) {
         deck::DriveFormula const formula = deck::drive_formula(*terms, axis);
         for (deck::Formula const& term : formula.terms)
@@ -164,7 +164,7 @@ std::vector<Impact> const& coarse_impacts() {
 
 double resting_overlap(double inclination) {
     ContactMaterial const material = probe_material(0.5, grain_friction);
-    return hertz_overlap(material, sphere_mass(material) * gravity * std::cos(inclination));
+    return hertz_overlap(material, sphere_mass(material) * scenario::gravity * std::cos(inclination));
 }
 
 MovingTrough sliding_trough() {
@@ -257,7 +257,7 @@ std::string digest_of_probes() {
                                   drive_deck(), speed_deck(1)}) {
         for (auto const& [name, content] : deck.files) all += name + content;
     }
-    return sha256_hex(all);
+    return core::sha256_hex(all);
 }
 
 }  // namespace vibrotrough::engine

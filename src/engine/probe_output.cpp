@@ -14,8 +14,8 @@
 namespace vibrotrough::engine {
 namespace {
 
-InputError unreadable(std::filesystem::path const& path) {
-    return InputError(fmt::format("{} is missing or cut; is the disk full?", path.filename().string()));
+core::InputError unreadable(std::filesystem::path const& path) {
+    return core::InputError(fmt::format("{} is missing or cut; is the disk full?", path.filename().string()));
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::string problem_of_run(std::filesystem::path const& folder, ExitStatus statu
     std::ifstream file(folder / output_file);
     bool ended = false;
     for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("ERROR")) return printable(line, 300);
+        if (line.starts_with("ERROR")) return core::printable(line, 300);
         if (line.starts_with(deck::end_marker)) ended = true;
     }
     if (status.signal != 0)

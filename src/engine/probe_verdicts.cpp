@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "engine/probe_decks.hpp"
 #include "engine/probe_output.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ template <typename Measure>
 std::vector<ProbeResult> answer(std::vector<ProbeResult> probes, std::string problem, Measure&& measure) {
     try {
         if (problem.empty()) measure(probes);
-    } catch (InputError const& error) {
+    } catch (core::InputError const& error) {
         problem = error.what();
     }
     for (ProbeResult& probe : probes) probe.problem = problem;
@@ -202,7 +202,7 @@ std::vector<ProbeResult> incline_probes() {
     ContactMaterial const material = probe_material(0.5, incline.holding_friction);
     double const stiffness =
         8 * effective_shear(material) * std::sqrt(material.radius * resting_overlap(incline.angle));
-    double const spring = sphere_mass(material) * gravity * sine / stiffness;
+    double const spring = sphere_mass(material) * scenario::gravity * sine / stiffness;
     ProbeResult sticking = at_most("sticking", 2 * spring, 0.05 * 2 * spring, "m");
     sticking.question =
         "A grain that cannot rotate, on an incline below its friction angle: how far does it get in 0.1 s?";
@@ -210,12 +210,12 @@ std::vector<ProbeResult> incline_probes() {
         "the contact's spring, k = 8 G* sqrt(R d), undamped, swings to 2 m g sin(a) / k; sliding would be 6 "
         "mm";
     sticking.tolerance_reason = "5 %: the normal overlap swings a little as well";
-    double const sliding_expected = gravity * (sine - incline.sliding_friction * cosine);
+    double const sliding_expected = scenario::gravity * (sine - incline.sliding_friction * cosine);
     ProbeResult sliding = near_to("sliding", sliding_expected, 1e-3 * sliding_expected, "m/s2");
     sliding.question = "The same grain above its friction angle: its acceleration?";
     sliding.source = "g (sin(a) - mu cos(a))";
     sliding.tolerance_reason = "0.1 %; 1e-9 was seen";
-    double const rolling_expected = 5.0 / 7 * gravity * sine;
+    double const rolling_expected = 5.0 / 7 * scenario::gravity * sine;
     ProbeResult rolling = near_to("rolling", rolling_expected, 2e-3 * rolling_expected, "m/s2");
     rolling.question = "A free sphere where friction suffices to roll: its acceleration?";
     rolling.source = "5/7 g sin(a), a rolling sphere";
@@ -254,13 +254,14 @@ std::vector<ProbeResult> judge_contact(fs::path const& folder, std::string const
     return answer({least, most}, problem, [&](std::vector<ProbeResult>& list) {
         ContactMaterial const material = probe_material(0.5, 0.5);
         auto const samples = read_trough_samples(folder / "trough.csv");
-        double const weight = motion.grains * sphere_mass(material) * gravity;
+        double const weight = motion.grains * sphere_mass(material) * scenario::gravity;
         auto const [low, high] = std::ranges::minmax_element(samples, {}, &TroughSample::force_z);
         list[0].measured = -high->force_z / weight;  // grains press downwards
         list[1].measured = -low->force_z / weight;
         for (TroughSample const& sample : samples) {
             if (sample.grains != motion.grains)
-                throw InputError(fmt::format("{:g} of {} grains are there", sample.grains, motion.grains));
+                throw core::InputError(
+                    fmt::format("{:g} of {} grains are there", sample.grains, motion.grains));
         }
     });
 }
@@ -274,7 +275,8 @@ std::vector<ProbeResult> judge_drive(fs::path const& folder, std::string const& 
     return answer({drive}, problem, [&](std::vector<ProbeResult>& list) {
         double const amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
         auto const samples = read_trough_samples(folder / "trough.csv");
-        if (samples.back().step != motion.steps) throw InputError("trough.csv does not hold the whole cycle");
+        if (samples.back().step != motion.steps)
+            throw core::InputError("trough.csv does not hold the whole cycle");
         double largest_deviation = 0;
         for (TroughSample const& sample : samples) {
             double const displacement = std::sin(2 * std::numbers::pi * sample.step / motion.steps);

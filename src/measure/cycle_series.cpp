@@ -28,16 +28,16 @@ void append(CycleSeries& series, std::span<double const> row) {
 }  // namespace
 
 CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains) {
-    return parse_cycles(read_text_file(path), steps_per_cycle, grains);
+    return parse_cycles(core::read_text_file(path), steps_per_cycle, grains);
 }
 
-CycleSeries parse_cycles(TextFile const& file, int steps_per_cycle, int grains) {
+CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains) {
     CycleSeries series;
     TableFormat const format{"cycles", header, 0, steps_per_cycle};
     parse_table(file, format, [&](int line_number, std::span<double const> row) {
         if (row[1] != grains) {
-            throw InputError(fmt::format("{}:{}: {} grains instead of {}", file.path.string(), line_number,
-                                         row[1], grains));
+            throw core::InputError(fmt::format("{}:{}: {} grains instead of {}", file.path.string(),
+                                               line_number, row[1], grains));
         }
         append(series, row);
     });

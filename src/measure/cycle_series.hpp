@@ -31,7 +31,7 @@ struct CycleSeries {
 CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains);
 
 /// The same of a file that was read before. @throws InputError
-CycleSeries parse_cycles(TextFile const& file, int steps_per_cycle, int grains);
+CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains);
 
 /// The first `cycles` cycles of a series that has at least as many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);

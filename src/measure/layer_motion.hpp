@@ -57,8 +57,8 @@ struct LayerMotion {
     double floor_slip = std::numeric_limits<double>::quiet_NaN();  ///< m/s, mean over all touching grains
     /// |tangential| / normal force while the layer slides, landings apart: mu when all of it slides.
     double friction_ratio = std::numeric_limits<double>::quiet_NaN();
-    /// Tangential over normal impulse while the layer lands, and the efficiency of a point mass under the layer's
-    /// own normal force; see landing.hpp. NaN without landings, and with side walls.
+    /// Tangential over normal impulse while the layer lands, and the efficiency of a point mass under the
+    /// layer's own normal force; see landing.hpp. NaN without landings, and with side walls.
     double landing_friction = std::numeric_limits<double>::quiet_NaN();
     double efficiency_by_normal_force = std::numeric_limits<double>::quiet_NaN();
     double largest_overlap = std::numeric_limits<double>::quiet_NaN();        ///< m, of two grains

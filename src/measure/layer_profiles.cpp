@@ -38,7 +38,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
 /// Step, number of bins, and then a line per bin: its number, middle, grains, density and means.
 class SnapshotParser {
   public:
-    explicit SnapshotParser(TextFile const& file) : file_(file) {}
+    explicit SnapshotParser(core::TextFile const& file) : file_(file) {}
 
     std::vector<Snapshot> parse() {
         std::string const& content = file_.content;
@@ -71,12 +71,12 @@ class SnapshotParser {
         --left_;
     }
     [[noreturn]] void refuse() const {
-        throw InputError(fmt::format("{}:{}: the line is damaged; expected {}", file_.path.string(),
-                                     line_number_,
-                                     left_ == 0 ? "a step and a number of bins" : "the numbers of a bin"));
+        throw core::InputError(
+            fmt::format("{}:{}: the line is damaged; expected {}", file_.path.string(), line_number_,
+                        left_ == 0 ? "a step and a number of bins" : "the numbers of a bin"));
     }
 
-    TextFile const& file_;
+    core::TextFile const& file_;
     int line_number_ = 0;
     int left_ = 0;  ///< bins of the last snapshot that are still to come
     std::vector<Snapshot> snapshots_;
@@ -181,28 +181,30 @@ double surface_variance(Snapshot const& one) {
 }  // namespace
 
 std::vector<Snapshot> read_snapshots(fs::path const& folder, std::string_view name) {
-    std::vector<TextFile> files;
+    std::vector<core::TextFile> files;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
-        if (start_of(entry.path(), name)) files.push_back(read_text_file(entry.path()));
+        if (start_of(entry.path(), name)) files.push_back(core::read_text_file(entry.path()));
     }
     return parse_snapshots(files, folder, name);
 }
 
-std::vector<Snapshot> parse_snapshots(std::vector<TextFile> const& files, fs::path const& folder,
+std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files, fs::path const& folder,
                                       std::string_view name) {
-    std::map<long, TextFile const*> by_start;
-    for (TextFile const& file : files) {
+    std::map<long, core::TextFile const*> by_start;
+    for (core::TextFile const& file : files) {
         if (auto const start = start_of(file.path, name)) by_start[*start] = &file;
     }
     if (by_start.empty())
-        throw MissingError(fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
+        throw core::MissingError(
+            fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
     std::vector<Snapshot> all;
     for (auto const& [start, file] : by_start) {
         std::erase_if(all, [first = start](Snapshot const& one) { return one.step >= first; });
         for (Snapshot& one : SnapshotParser(*file).parse()) {
             if (!all.empty() && one.bins.size() != all.front().bins.size())
-                throw InputError(fmt::format("{} holds snapshots of different size", file->path.string()));
+                throw core::InputError(
+                    fmt::format("{} holds snapshots of different size", file->path.string()));
             all.push_back(std::move(one));
         }
     }

@@ -31,8 +31,8 @@ std::vector<Snapshot> read_snapshots(std::filesystem::path const& folder, std::s
 
 /// The same of files that were read before; those with other names are passed over.
 /// @param folder  for messages
-std::vector<Snapshot> parse_snapshots(std::vector<TextFile> const& files, std::filesystem::path const& folder,
-                                      std::string_view name);
+std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files,
+                                      std::filesystem::path const& folder, std::string_view name);
 
 /// What is needed beside the snapshots.
 struct ProfileFacts {

@@ -8,10 +8,10 @@
 namespace vibrotrough::measure {
 
 PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle) {
-    return parse_phases(read_text_file(path), steps_per_cycle);
+    return parse_phases(core::read_text_file(path), steps_per_cycle);
 }
 
-PhaseSeries parse_phases(TextFile const& file, int steps_per_cycle) {
+PhaseSeries parse_phases(core::TextFile const& file, int steps_per_cycle) {
     if (steps_per_cycle % PhaseSeries::per_cycle != 0)
         throw std::invalid_argument("steps per cycle are no multiple of the lines per cycle");
     int const distance = steps_per_cycle / PhaseSeries::per_cycle;

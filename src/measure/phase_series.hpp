@@ -40,7 +40,7 @@ struct PhaseSeries {
 PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle);
 
 /// The same of a file that was read before. @throws InputError
-PhaseSeries parse_phases(TextFile const& file, int steps_per_cycle);
+PhaseSeries parse_phases(core::TextFile const& file, int steps_per_cycle);
 
 /// The same with places along the trough that are the integral of the velocity: for rigid bodies, whose
 /// places the engine does not unwrap. Trapezoids, so that what an impact moves within a hundredth of a cycle

@@ -26,7 +26,7 @@ bool parse_row(std::string_view line, std::span<double> row) {
 
 }  // namespace
 
-void parse_table(TextFile const& file, TableFormat const& format,
+void parse_table(core::TextFile const& file, TableFormat const& format,
                  std::function<void(int line_number, std::span<double const> row)> const& take) {
     auto const& [path, content] = file;
     std::vector<double> row(static_cast<std::size_t>(std::ranges::count(format.header, ',')) + 1);
@@ -42,15 +42,15 @@ void parse_table(TextFile const& file, TableFormat const& format,
         if (line.empty() || line.front() == '#') continue;
         if (!seen_header) {
             if (line != format.header) {
-                throw InputError(
+                throw core::InputError(
                     fmt::format("{}:{}: is no table of {}", path.string(), line_number, format.kind));
             }
             seen_header = true;
             continue;
         }
         if (!parse_row(line, row) || row[0] != static_cast<double>(expected_step)) {
-            throw InputError(fmt::format("{}:{}: the line is damaged; expected {} numbers for step {}",
-                                         path.string(), line_number, row.size(), expected_step));
+            throw core::InputError(fmt::format("{}:{}: the line is damaged; expected {} numbers for step {}",
+                                               path.string(), line_number, row.size(), expected_step));
         }
         take(line_number, row);
         expected_step += format.step_distance;

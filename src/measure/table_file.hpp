@@ -19,7 +19,7 @@ struct TableFormat {
 /// Calls `take` with the number of each line and its values. A last line without its end is left out: the
 /// engine may be writing it.
 /// @throws InputError naming file and line when a line is damaged or a step is missing
-void parse_table(TextFile const& file, TableFormat const& format,
+void parse_table(core::TextFile const& file, TableFormat const& format,
                  std::function<void(int line_number, std::span<double const> row)> const& take);
 
 }  // namespace vibrotrough::measure

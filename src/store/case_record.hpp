@@ -4,7 +4,7 @@
 #include "measure/estimate.hpp"
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
-#include "scenario/scenario.hpp"
+#include "scenario/model/scenario.hpp"
 
 #include <string>
 #include <vector>
@@ -41,7 +41,7 @@ struct Provenance {
 /// A finished case: everything that result.h5 holds.
 struct CaseRecord {
     std::string id;
-    Scenario scenario;
+    scenario::Scenario scenario;
     std::string scenario_toml;       ///< to_toml(scenario)
     std::string outcome;             ///< "finished", "not-steady", "not-precise"
     measure::CaseEstimate estimate;  ///< of velocity efficiency

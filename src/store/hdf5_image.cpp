@@ -41,7 +41,7 @@ Handle make_file() {
 
 /// The line after HDF5's end.
 std::string seal(std::string const& image) {
-    return fmt::format("\nvibrotrough sha256 {}\n", sha256_hex(image));
+    return fmt::format("\nvibrotrough sha256 {}\n", core::sha256_hex(image));
 }
 
 /// The HDF5 file without its seal, which must be right.

@@ -41,7 +41,7 @@ int longest_period(Case record) {
 }
 
 /// Of the layer's kinetic scale m (omega r)^2.
-double relative_dissipation(Packing packing, Trough const& trough) {
+double relative_dissipation(Packing packing, scenario::Trough const& trough) {
     double const speed = angular_frequency(trough) * trough.amplitude;
     return packing.motion.dissipation / (packing.mass * speed * speed);
 }

@@ -3,7 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_image.hpp"
 #include "store/schema.hpp"
 
@@ -155,7 +155,7 @@ std::vector<Column> columns_of(Entries const& entries, Records& records) {
 
 void check_kind(ImageReader const& image, std::filesystem::path const& path) {
     if (!image.has_attribute("format") || image.text_attribute("format") != result_format) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("{} is no result of Vibrotrough (its root attribute 'format' is not '{}'); give the "
                         "result.h5 of a case",
                         path.string(), result_format));
@@ -163,7 +163,7 @@ void check_kind(ImageReader const& image, std::filesystem::path const& path) {
     int const version = image.integer_attribute("schema_version");
     if (version == result_schema_version) return;
     bool const newer = version > result_schema_version;
-    throw InputError(
+    throw core::InputError(
         fmt::format("{} was written by {} Vibrotrough ({}, schema {}; this one reads {}); {}", path.string(),
                     newer ? "a newer" : "an older", image.text_attribute("program_version"), version,
                     result_schema_version,
@@ -187,13 +187,13 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
         read_tables(image, i, record.packings[i], packing_tables());
         check_series(record.packings[i], i);
     }
-    FileSource source;
+    scenario::FileSource source;
     auto const files = nlohmann::json::parse(
         image.values<std::string>(std::string(scenario_files_entry().name), Rank::scalar).front());
     for (auto const& [name, content] : files.items())
         source.files.push_back({name, content.get<std::string>()});
     record.scenario =
-        parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
+        scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
     return record;
 }
 
@@ -221,7 +221,7 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         put(std::string(certificate.name), certificate,
             std::vector<std::string>{record.provenance.engine_certificate}, Rank::scalar);
         nlohmann::json files = nlohmann::json::object();
-        for (NamedFile const& file : named_files(record.scenario)) files[file.name] = file.content;
+        for (scenario::NamedFile const& file : named_files(record.scenario)) files[file.name] = file.content;
         Entry const scenario_files = scenario_files_entry();
         // Bytes that are no UTF-8 cannot be in JSON; what could be read as numbers has none.
         put(std::string(scenario_files.name), scenario_files,
@@ -236,21 +236,21 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record) {
         }
         bytes = image.bytes();
     }
-    write_file_atomically(path, bytes);
+    core::write_file_atomically(path, bytes);
 }
 
 CaseRecord read_result(std::filesystem::path const& path) {
-    std::string bytes = read_file(path);
+    std::string bytes = core::read_file(path);
     try {
         ImageReader const image(std::move(bytes));
         check_kind(image, path);
         return read_record(image, path);
     } catch (nlohmann::json::exception const&) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("{} is damaged (its scenario_files are no JSON); delete it and run its case again",
                         path.string()));
     } catch (Hdf5Error const& error) {
-        throw InputError(
+        throw core::InputError(
             fmt::format("{} is damaged ({}); delete it and run its case again", path.string(), error.what()));
     }
 }
@@ -264,8 +264,8 @@ void write_campaign(std::filesystem::path const& path, std::string const& campai
         image.attribute("format", campaign_format);
         image.attribute("schema_version", campaign_schema_version);
         image.attribute("campaign", campaign);
-        image.attribute("program_version", std::string(program_version()));
-        image.attribute("git_commit", std::string(program_commit()));
+        image.attribute("program_version", std::string(core::program_version()));
+        image.attribute("git_commit", std::string(core::program_commit()));
         for (CaseFact const& fact : case_facts()) {
             std::vector<std::string> texts;
             for (CaseRecord& record : copies) texts.push_back(fact.field(record));
@@ -278,7 +278,7 @@ void write_campaign(std::filesystem::path const& path, std::string const& campai
         }
         bytes = image.bytes();
     }
-    write_file_atomically(path, bytes);
+    core::write_file_atomically(path, bytes);
 }
 
 }  // namespace vibrotrough::store

@@ -32,7 +32,7 @@ void put(std::string& bytes, measure::Verdict verdict) {
 }
 
 std::string_view take(std::string_view& bytes, std::size_t size) {
-    if (bytes.size() < size) throw InputError("a summary of results ends too early");
+    if (bytes.size() < size) throw core::InputError("a summary of results ends too early");
     std::string_view const part = bytes.substr(0, size);
     bytes.remove_prefix(size);
     return part;
@@ -52,7 +52,7 @@ void get(std::string_view& bytes, measure::Verdict& verdict) {
     std::int32_t number = 0;
     get(bytes, number);
     if (number < 0 || number > static_cast<std::int32_t>(measure::Verdict::not_steady))
-        throw InputError("a summary of results holds an unknown verdict");
+        throw core::InputError("a summary of results holds an unknown verdict");
     verdict = static_cast<measure::Verdict>(number);
 }
 
@@ -82,7 +82,7 @@ std::string pack_summary(CaseRecord const& record) {
     return bytes;
 }
 
-CaseRecord unpack_summary(std::string_view& bytes, Scenario const& scenario) {
+CaseRecord unpack_summary(std::string_view& bytes, scenario::Scenario const& scenario) {
     CaseRecord record{};
     record.scenario = scenario;
     for (CaseFact const& fact : case_facts()) get(bytes, fact.field(record));
@@ -91,7 +91,7 @@ CaseRecord unpack_summary(std::string_view& bytes, Scenario const& scenario) {
     get(bytes, record.estimate.packings);
     std::uint32_t packings = 0;
     get(bytes, packings);
-    if (packings > 1000) throw InputError("a summary of results has too many packings");
+    if (packings > 1000) throw core::InputError("a summary of results has too many packings");
     record.packings.resize(packings);
     for (PackingRecord& packing : record.packings) {
         for (PackingValue const& value : packing_values()) {

@@ -18,7 +18,7 @@ std::string pack_summary(CaseRecord const& record);
 /// Reads back what pack_summary wrote and takes it from the front of `bytes`.
 /// @param scenario  of the case
 /// @throws InputError when the bytes end too early or hold nonsense
-CaseRecord unpack_summary(std::string_view& bytes, Scenario const& scenario);
+CaseRecord unpack_summary(std::string_view& bytes, scenario::Scenario const& scenario);
 
 /// Changes whenever pack_summary writes something else than before.
 std::string summary_layout();

@@ -31,8 +31,8 @@ class ModeIndex {
 void write_header(ImageWriter& file, std::string const& format) {
     file.attribute("format", format);
     file.attribute("schema_version", schema_version);
-    file.attribute("program_version", std::string(program_version()));
-    file.attribute("git_commit", std::string(program_commit()));
+    file.attribute("program_version", std::string(core::program_version()));
+    file.attribute("git_commit", std::string(core::program_commit()));
 }
 
 void write_axis(ImageWriter& file, std::string const& name, theory::MapAxis const& axis) {
@@ -109,7 +109,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     file.dataset("modes", modes.names(), Rank::array, "1", "Phases of each mode in order");
     file.dataset("cpu_time_per_solution", std::vector<double>{map.cpu_seconds_per_solution}, Rank::scalar,
                  "s", "CPU time of all threads over the number of points");
-    write_file_atomically(path, file.bytes());
+    core::write_file_atomically(path, file.bytes());
 }
 
 void write_theory_table(std::filesystem::path const& path, std::vector<TheoryColumn> const& columns) {
@@ -122,7 +122,7 @@ void write_theory_table(std::filesystem::path const& path, std::vector<TheoryCol
             file.dataset(column.name, column.numbers, Rank::array, column.units, column.description);
         }
     }
-    write_file_atomically(path, file.bytes());
+    core::write_file_atomically(path, file.bytes());
 }
 
 }  // namespace vibrotrough::store

@@ -1,8 +1,8 @@
 #include "theory/conveyor.hpp"
 
-#include "theory/conveyor_walk.hpp"
-#include "theory/input_check.hpp"
-#include "theory/periodic.hpp"
+#include "theory/detail/conveyor_walk.hpp"
+#include "theory/detail/input_check.hpp"
+#include "theory/detail/periodic.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "theory/efficiency.hpp"
 
-#include "theory/contact.hpp"
-#include "theory/flight.hpp"
-#include "theory/input_check.hpp"
-#include "theory/periodic.hpp"
+#include "theory/detail/contact.hpp"
+#include "theory/detail/flight.hpp"
+#include "theory/detail/input_check.hpp"
+#include "theory/detail/periodic.hpp"
 
 #include <algorithm>
 #include <cmath>

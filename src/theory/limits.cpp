@@ -1,7 +1,7 @@
 #include "theory/limits.hpp"
 
+#include "theory/detail/input_check.hpp"
 #include "theory/efficiency.hpp"
-#include "theory/input_check.hpp"
 
 #include <algorithm>
 #include <cmath>

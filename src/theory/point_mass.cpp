@@ -1,10 +1,10 @@
 #include "theory/point_mass.hpp"
 
-#include "theory/contact.hpp"
+#include "theory/detail/contact.hpp"
+#include "theory/detail/flight.hpp"
+#include "theory/detail/input_check.hpp"
+#include "theory/detail/periodic.hpp"
 #include "theory/errors.hpp"
-#include "theory/flight.hpp"
-#include "theory/input_check.hpp"
-#include "theory/periodic.hpp"
 
 #include <algorithm>
 #include <cmath>

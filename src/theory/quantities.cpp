@@ -1,7 +1,7 @@
 #include "theory/quantities.hpp"
 
-#include "theory/conveyor_model.hpp"
-#include "theory/input_check.hpp"
+#include "theory/detail/conveyor_model.hpp"
+#include "theory/detail/input_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,7 +18,8 @@ namespace {
 /// Reads the file into `text`, which keeps its memory: core's read_file would make a new one for every frame.
 void read_into(std::filesystem::path const& path, std::string& text) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file) throw MissingError(fmt::format("cannot open {} ({})", path.string(), std::strerror(errno)));
+    if (!file)
+        throw core::MissingError(fmt::format("cannot open {} ({})", path.string(), std::strerror(errno)));
     std::size_t used = 0;
     text.resize(std::max<std::size_t>(text.capacity(), std::size_t{1} << 16));
     while (std::size_t const got = std::fread(text.data() + used, 1, text.size() - used, file.get())) {
@@ -26,7 +27,7 @@ void read_into(std::filesystem::path const& path, std::string& text) {
         if (used == text.size()) text.resize(2 * used);
     }
     if (std::ferror(file.get()) != 0) {
-        throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
+        throw core::MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
     }
     text.resize(used);
 }

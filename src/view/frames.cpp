@@ -47,7 +47,7 @@ std::vector<Dump> find_dumps(fs::path const& folder) {
     std::error_code failure;
     fs::directory_iterator const files(folder, failure);
     if (failure) {
-        throw MissingError(
+        throw core::MissingError(
             fmt::format("cannot open the folder {} ({}); set output.frames_per_cycle to at least 1 "
                         "and run the case",
                         folder.string(), failure.message()));
@@ -67,15 +67,15 @@ std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& tabl
     std::size_t const frames = std::min(dumps.size(), positions.size());
     for (std::size_t i = 0; i < frames; ++i) {
         if (dumps[i].step != positions[i].step) {
-            throw InputError(
+            throw core::InputError(
                 fmt::format("{} and the dumps beside it do not fit (frame {} is step {} there and {} "
                             "here); run the case again",
                             table.string(), i + 1, positions[i].step, dumps[i].step));
         }
     }
     if (dumps.size() > frames + 1 || positions.size() > frames + 1) {
-        throw InputError(fmt::format("{} has {} rows for {} dumps beside it; run the case again",
-                                     table.string(), positions.size(), dumps.size()));
+        throw core::InputError(fmt::format("{} has {} rows for {} dumps beside it; run the case again",
+                                           table.string(), positions.size(), dumps.size()));
     }
     dumps.resize(frames);
     positions.resize(frames);
@@ -90,7 +90,7 @@ void check_motion(FrameSource const& source, TroughPosition const& position) {
     TroughState const trough = trough_state(source, static_cast<double>(position.step) * source.time_step);
     double const miss = std::hypot(position.x - trough.x, position.z - trough.z);
     if (miss > motion_tolerance * largest_excursion(source.drive)) {
-        throw InputError(fmt::format(
+        throw core::InputError(fmt::format(
             "{}: at step {} the trough is {:.3g} m from where the drive puts it (the frames belong to "
             "another drive); run the case again",
             (source.folder / "frames.csv").string(), position.step, miss));
@@ -103,7 +103,7 @@ class FrameExport {
     FrameExport(FrameSource const& source, fs::path const& target)
         : source_(source), target_(target), trough_(source), grains_(source), block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
-        for (char const* const object : objects) make_folder(target / object);
+        for (char const* const object : objects) core::make_folder(target / object);
     }
 
     void write(GrainFrame& frame, TroughPosition const& position) {
@@ -166,13 +166,13 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
     for (std::size_t i = 0; i < dumps.size(); ++i) {
         if (reader.read(dumps[i].path, frame) == DumpState::unfinished) {
             if (i + 1 == dumps.size()) break;
-            throw InputError(
+            throw core::InputError(
                 fmt::format("{} ends early though later frames are there (the file is damaged); run its "
                             "case again",
                             dumps[i].path.string()));
         }
         if (frame.step != dumps[i].step) {
-            throw InputError(
+            throw core::InputError(
                 fmt::format("{}:2: holds step {}, which its name contradicts; run its case again",
                             dumps[i].path.string(), frame.step));
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/drive.hpp"
+#include "scenario/model/drive.hpp"
 #include "theory/conveyor.hpp"
 
 #include <filesystem>
@@ -24,8 +24,9 @@ struct FrameSource {
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
     double angular_frequency;      ///< omega, rad/s
-    DriveMotion drive;  ///< X(t) and Z(t); the trough's displacement at t is X(t) - X(0) and Z(t) - Z(0)
-    double width;       ///< m, of the layer across the trough
+    scenario::DriveMotion
+        drive;     ///< X(t) and Z(t); the trough's displacement at t is X(t) - X(0) and Z(t) - Z(0)
+    double width;  ///< m, of the layer across the trough
     std::optional<TheoryMotion> point_mass = {};
     std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
 };

@@ -35,7 +35,7 @@ std::string python_literal(std::string_view text) {
 std::filesystem::path write_scene(FrameSource const& source, std::filesystem::path const& target) {
     std::string script(scene_template);
     // The trough's own largest speed sets the colours, so that they mean the same in every frame and case.
-    double speed = largest_speed({source.drive.along, {}}, source.angular_frequency);
+    double speed = scenario::largest_speed({source.drive.along, {}}, source.angular_frequency);
     if (!(speed > 0.0)) speed = largest_speed(source.drive, source.angular_frequency);
     std::pair<std::string_view, std::string> const values[] = {
         {"\"@CAPTION@\"", python_literal(source.caption)},
@@ -43,14 +43,14 @@ std::filesystem::path write_scene(FrameSource const& source, std::filesystem::pa
         {"\"@SPEED@\"", fmt::format("{}", speed > 0.0 ? speed : 1.0)},
     };
     for (auto const& [name, value] : values) replace_all(script, name, value);
-    write_file_atomically(target / "view_case.py", script);
+    core::write_file_atomically(target / "view_case.py", script);
 
     std::filesystem::path const starter = target / "view.sh";
-    write_file_atomically(starter, scene_starter);
+    core::write_file_atomically(starter, scene_starter);
     std::error_code failure;
     std::filesystem::permissions(starter, std::filesystem::perms{0755}, failure);
     if (failure) {
-        throw MissingError(
+        throw core::MissingError(
             fmt::format("cannot make {} executable ({})", starter.string(), failure.message()));
     }
     return target / "view_case.py";

@@ -37,7 +37,7 @@ void write_table(std::filesystem::path const& path, std::vector<TableColumn> con
     writer->SetCompressorTypeToZLib();
     writer->WriteToOutputStringOn();
     writer->Write();
-    write_file_atomically(path, writer->GetOutputString());
+    core::write_file_atomically(path, writer->GetOutputString());
 }
 
 }  // namespace vibrotrough::view

@@ -64,7 +64,7 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     writer->SetCompressorTypeToZLib();
     writer->WriteToOutputStringOn();
     writer->Write();
-    write_file_atomically(path, writer->GetOutputString());
+    core::write_file_atomically(path, writer->GetOutputString());
 }
 
 void write_theory_boundaries(std::filesystem::path const& path, theory::Map const& map) {

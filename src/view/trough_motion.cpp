@@ -10,8 +10,8 @@ namespace vibrotrough::view {
 TroughState trough_state(FrameSource const& source, double time) {
     double const angle = source.angular_frequency * time;
     TroughState state{};
-    auto const add = [&](std::vector<DriveTerm> const& terms, double& place, double& speed) {
-        for (DriveTerm const& term : terms) {
+    auto const add = [&](std::vector<scenario::DriveTerm> const& terms, double& place, double& speed) {
+        for (scenario::DriveTerm const& term : terms) {
             place += term.amplitude * (std::sin(term.order * angle + term.phase) - std::sin(term.phase));
             speed += term.amplitude * term.order * source.angular_frequency *
                      std::cos(term.order * angle + term.phase);
@@ -23,7 +23,7 @@ TroughState trough_state(FrameSource const& source, double time) {
 }
 
 std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path) {
-    std::string const text = read_file(path);
+    std::string const text = core::read_file(path);
     std::vector<TroughPosition> positions;
     TextCursor cursor(text, path);
     try {

@@ -52,21 +52,22 @@ void write_frame(std::filesystem::path const& path, std::string const& content) 
     }
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
-                                   path.string(), failure.message()));
+    throw core::MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
+                                         path.string(), failure.message()));
 }
 
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_stl(std::filesystem::path const& path) {
-    read_file(path);  // says why when it cannot be read
+    core::read_file(path);  // says why when it cannot be read
     vtkNew<vtkSTLReader> reader;
     ErrorWatch const errors(*reader);
     reader->SetFileName(path.c_str());
     reader->Update();
     if (!errors.message().empty() || reader->GetOutput()->GetNumberOfCells() == 0) {
-        throw InputError(fmt::format("{} is no STL mesh ({}); run its case again", path.string(),
-                                     errors.message().empty() ? "it has no triangle" : errors.message()));
+        throw core::InputError(
+            fmt::format("{} is no STL mesh ({}); run its case again", path.string(),
+                        errors.message().empty() ? "it has no triangle" : errors.message()));
     }
     return reader->GetOutput();
 }
@@ -80,7 +81,7 @@ void write_vtp(std::filesystem::path const& path, vtkPolyData& data) {
     writer->SetCompressionLevel(1);
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || !errors.message().empty()) {
-        throw MissingError(fmt::format("cannot write {} (VTK: {})", path.string(), errors.message()));
+        throw core::MissingError(fmt::format("cannot write {} (VTK: {})", path.string(), errors.message()));
     }
     write_frame(path, writer->GetOutputString());
 }
@@ -94,7 +95,7 @@ void write_collection(std::filesystem::path const& path, std::vector<CollectionE
         text +=
             fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, entry.file);
     }
-    write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
+    core::write_file_atomically(path, text + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace vibrotrough::view

@@ -128,19 +128,19 @@ TEST_F(Assemble, MeasuresTheLayer) {
 }
 
 TEST_F(Assemble, RefusesUnfinishedPackings) {
-    EXPECT_THROW(assembled(), InputError);
+    EXPECT_THROW(assembled(), core::InputError);
     write_packing(1, cycles(30, around(0.5)));
     try {
         assembled();
         FAIL() << "a case with one of two packings was put together";
-    } catch (InputError const& error) {
+    } catch (core::InputError const& error) {
         EXPECT_EQ(std::string(error.what()), "packing 2 of case " + planned.id + " is not finished");
     }
 }
 
 TEST_F(Assemble, RefusesDamagedCycles) {
     std::string const good = cycles(30, around(0.5));
-    Scenario other = scenario;
+    scenario::Scenario other = scenario;
     other.layer.grains -= 1;
     std::string const lost_grain = cycles_text(other, 30, around(0.5));
     std::string const short_line = good + "1,2,3\n";
@@ -148,7 +148,7 @@ TEST_F(Assemble, RefusesDamagedCycles) {
     std::string const twice = good + last_line;
     for (std::string const& damaged : {lost_grain, short_line, twice, std::string("no table\n")}) {
         write_packings(damaged, good);
-        EXPECT_THROW(assembled(), InputError) << damaged.substr(0, 100);
+        EXPECT_THROW(assembled(), core::InputError) << damaged.substr(0, 100);
     }
 }
 

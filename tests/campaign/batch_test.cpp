@@ -1,4 +1,4 @@
-#include "campaign/batch.hpp"
+#include "campaign/execute/batch.hpp"
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -38,7 +38,7 @@ TEST_F(BatchTest, ComesBackAsWritten) {
     EXPECT_EQ(read_batches(folder)[0].job, 4711);
     for (std::size_t i = 0; i < tasks.size(); ++i)
         EXPECT_EQ(read_task(batch.folder / "tasks.txt", static_cast<int>(i)), tasks[i]);
-    EXPECT_THROW(read_task(batch.folder / "tasks.txt", 3), InputError);
+    EXPECT_THROW(read_task(batch.folder / "tasks.txt", 3), core::InputError);
 }
 
 TEST_F(BatchTest, DamagedListsAreRefused) {
@@ -47,7 +47,7 @@ TEST_F(BatchTest, DamagedListsAreRefused) {
          {"", "0123456789ab", "0123456789ab 0", "0123456789ab 1001", "0123456789ag 1", "../../../etc 1",
           "0123456789abc 1", "0123456789a 1", "0123456789AB 1", "$(id)      1"}) {
         std::ofstream(list) << line << "\n";
-        EXPECT_THROW(read_task(list, 0), InputError) << line;
+        EXPECT_THROW(read_task(list, 0), core::InputError) << line;
     }
 }
 
@@ -63,11 +63,11 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
         "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());
     EXPECT_EQ(WEXITSTATUS(status), 5);
-    EXPECT_EQ(read_file(folder / "arguments"),
+    EXPECT_EQ(core::read_file(folder / "arguments"),
               "work\n.\n--task-list\nslurm/0001/"
               "tasks.txt\n--index\n1\n--ranks\n2\n--retries\n3\n--time-limit\n90\n");
-    EXPECT_EQ(read_file(batch.folder / "task-1.ended"), "5\n");
-    EXPECT_TRUE(read_file(batch.folder / "task-1.started").ends_with(" 77\n"));
+    EXPECT_EQ(core::read_file(batch.folder / "task-1.ended"), "5\n");
+    EXPECT_TRUE(core::read_file(batch.folder / "task-1.started").ends_with(" 77\n"));
     EXPECT_FALSE(fs::exists(folder / "hacked"));
 }
 

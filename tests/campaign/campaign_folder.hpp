@@ -1,9 +1,9 @@
 #pragma once
 
-#include "campaign/case_state.hpp"
-#include "campaign/plan.hpp"
-#include "scenario/campaign_file.hpp"
+#include "campaign/state/case_state.hpp"
+#include "campaign/state/plan.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -23,7 +23,8 @@ inline void overwrite(std::filesystem::path const& path, std::string const& byte
 }
 
 /// cycles.csv as the deck writes it, for a layer whose velocity efficiency in cycle k = 1 ... n is eta(k).
-inline std::string cycles_text(Scenario const& scenario, int cycles, std::function<double(int)> const& eta) {
+inline std::string cycles_text(scenario::Scenario const& scenario, int cycles,
+                               std::function<double(int)> const& eta) {
     int const steps = deck::choose_time_step(scenario).steps_per_cycle;
     double const amplitude_x = scenario.trough.amplitude * std::cos(scenario.trough.vibration_angle);
     std::string text =
@@ -38,7 +39,7 @@ inline std::string cycles_text(Scenario const& scenario, int cycles, std::functi
 }
 
 /// phases.csv of a layer that goes with the trough but for a steady slip, and one snapshot per profile.
-inline void write_layer(std::filesystem::path const& folder, Scenario const& scenario, int cycles) {
+inline void write_layer(std::filesystem::path const& folder, scenario::Scenario const& scenario, int cycles) {
     int const steps = deck::choose_time_step(scenario).steps_per_cycle;
     double const beta = scenario.trough.vibration_angle, r = scenario.trough.amplitude;
     std::string text =
@@ -72,9 +73,9 @@ class CampaignFolder : public testing::Test {
     std::string campaign_text = with("packings = 3", "packings = 2");
     std::filesystem::path folder =
         std::filesystem::path(testing::TempDir()) / fmt::format("campaign_{}", ::getpid());
-    Plan plan = make_plan(parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
+    Plan plan = make_plan(scenario::parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
     PlannedCase planned = plan.cases.front();
-    Scenario scenario = planned.scenario;
+    scenario::Scenario scenario = planned.scenario;
 };
 
 }  // namespace vibrotrough::campaign

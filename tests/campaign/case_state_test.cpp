@@ -1,4 +1,4 @@
-#include "campaign/case_state.hpp"
+#include "campaign/state/case_state.hpp"
 
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -37,7 +37,7 @@ TEST_F(CaseStateTest, HasANameForEveryState) {
 TEST_F(CaseStateTest, DamagedResultIsNone) {
     fs::create_directories(planned.folder);
     store::write_result(planned.result_file(), store::sample_record(planned.id));
-    std::string const whole = read_file(planned.result_file());
+    std::string const whole = core::read_file(planned.result_file());
     ASSERT_TRUE(read_whole_result(planned));
     std::string flipped = whole;
     flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
@@ -70,7 +70,7 @@ TEST_F(CaseStateTest, FailureComesBackAsWritten) {
 
 TEST_F(CaseStateTest, DamagedFailureIsNone) {
     write_failure(planned, lost);
-    std::string const whole = read_file(planned.failure_file());
+    std::string const whole = core::read_file(planned.failure_file());
     for (std::string const& damaged :
          {std::string(), whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("null"),
           std::string("\xff"), with("\"lost-grains\"", "3", whole), with("1", "\"once\"", whole)}) {
@@ -111,7 +111,7 @@ TEST_F(PackingMarker, HoldsOnlyForTheCyclesItWasWrittenFor) {
 TEST_F(PackingMarker, HoldsOnlyForThePhasesAndSnapshotsItWasWrittenFor) {
     for (char const* name : {"phases.csv", "profiles.0.txt", "surface.0.txt"}) {
         fs::path const path = planned.packing_folder(1) / name;
-        std::string const whole = read_file(path);
+        std::string const whole = core::read_file(path);
         overwrite(path, whole + "1\n");
         EXPECT_FALSE(read_finished_packing(planned, 1)) << name;
         fs::remove(path);
@@ -122,7 +122,7 @@ TEST_F(PackingMarker, HoldsOnlyForThePhasesAndSnapshotsItWasWrittenFor) {
 }
 
 TEST_F(PackingMarker, DamagedIsNone) {
-    std::string const whole = read_file(marker);
+    std::string const whole = core::read_file(marker);
     for (std::string const& damaged : {std::string(), whole.substr(0, whole.size() / 2), std::string("{}"),
                                        std::string("[]"), with("12.5", "\"long\"", whole)}) {
         overwrite(marker, damaged);

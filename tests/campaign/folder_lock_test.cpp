@@ -1,4 +1,4 @@
-#include "campaign/folder_lock.hpp"
+#include "campaign/state/folder_lock.hpp"
 
 #include "campaign_folder.hpp"
 #include "core/error.hpp"
@@ -22,7 +22,7 @@ TEST_F(FolderLockTest, SecondDriverIsRefused) {
     try {
         FolderLock const second(folder);
         FAIL() << "the second lock was given";
-    } catch (MissingError const& error) {
+    } catch (core::MissingError const& error) {
         std::string const message = error.what();
         EXPECT_NE(message.find("another vibrotrough is running the campaign in " + folder.string()),
                   std::string::npos)
@@ -52,7 +52,7 @@ TEST_F(FolderLockTest, IsHeldByAnotherProcessUntilItDies) {
     char answer = 0;
     ASSERT_EQ(::read(to_parent[0], &answer, 1), 1);
     EXPECT_TRUE(FolderLock::is_held(folder));
-    EXPECT_THROW(FolderLock{folder}, MissingError);
+    EXPECT_THROW(FolderLock{folder}, core::MissingError);
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     EXPECT_FALSE(FolderLock::is_held(folder));
@@ -70,7 +70,7 @@ TEST_F(FolderLockTest, LookingDoesNotDisturb) {
     for (int i = 0; i < 5000; ++i) {
         try {
             FolderLock const lock(folder);
-        } catch (MissingError const&) {
+        } catch (core::MissingError const&) {
             ++refused;
         }
     }
@@ -82,7 +82,7 @@ TEST_F(FolderLockTest, LookingDoesNotDisturb) {
 TEST_F(FolderLockTest, FolderThatIsNotThere) {
     std::filesystem::remove_all(folder);
     EXPECT_FALSE(FolderLock::is_held(folder));
-    EXPECT_THROW(FolderLock{folder}, MissingError);
+    EXPECT_THROW(FolderLock{folder}, core::MissingError);
 }
 
 }  // namespace

@@ -32,13 +32,13 @@ TEST_F(FrictionFile, MissingIsNoneAndDamagedIsSaid) {
     EXPECT_TRUE(read_friction(folder).empty());
     for (char const* damaged : {"", "[", "[{}]", "[1]", "{\"layer\": 1}"}) {
         overwrite(friction_file(folder), damaged);
-        EXPECT_THROW(read_friction(folder), InputError) << damaged;
+        EXPECT_THROW(read_friction(folder), core::InputError) << damaged;
     }
 }
 
 // K > mu sqrt(1 + pi^2 / 4): 1.862 mu, a fifth more, and never below the paper's 0.67.
 TEST_F(FrictionFile, DefaultMachineNumberMakesTheLayerSlideBothWays) {
-    Campaign campaign{"any", {scenario, scenario}, {}, {}};
+    scenario::Campaign campaign{"any", {scenario, scenario}, {}, {}};
     EXPECT_EQ(default_machine_number(campaign), 0.67);
     campaign.cases[1].trough.friction = 0.5;
     EXPECT_NEAR(default_machine_number(campaign), 1.2 * 0.5 * 1.8621, 1e-4);

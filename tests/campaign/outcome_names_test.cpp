@@ -11,7 +11,7 @@ namespace vibrotrough::campaign {
 namespace {
 
 TEST(OutcomeNames, ReadmeHoldsTheReference) {
-    EXPECT_NE(read_file(README_FILE).find(outcome_reference()), std::string::npos)
+    EXPECT_NE(core::read_file(README_FILE).find(outcome_reference()), std::string::npos)
         << "write this into README.md:\n"
         << outcome_reference();
 }

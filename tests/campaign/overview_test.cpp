@@ -1,6 +1,6 @@
-#include "campaign/overview.hpp"
+#include "campaign/state/overview.hpp"
 
-#include "campaign/folder_lock.hpp"
+#include "campaign/state/folder_lock.hpp"
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "store/result_file.hpp"
@@ -59,16 +59,16 @@ TEST_F(Overview, ResultSaysTheOutcome) {
 
 TEST_F(Overview, CampaignFileHoldsWhatThereIs) {
     write_campaign_file(plan);  // nothing finished yet: an empty table, not an error
-    std::string const empty = read_file(folder / "campaign.h5");
+    std::string const empty = core::read_file(folder / "campaign.h5");
     EXPECT_TRUE(empty.starts_with("\x89HDF\r\n"));
     fs::create_directories(planned.folder);
     store::write_result(planned.result_file(), store::sample_record(planned.id));
     write_campaign_file(plan);
-    std::string const one = read_file(folder / "campaign.h5");
+    std::string const one = core::read_file(folder / "campaign.h5");
     EXPECT_NE(one, empty);
     EXPECT_NE(one.find(planned.id), std::string::npos);
     write_campaign_file(plan);
-    EXPECT_EQ(read_file(folder / "campaign.h5"), one) << "the same cases give the same bytes";
+    EXPECT_EQ(core::read_file(folder / "campaign.h5"), one) << "the same cases give the same bytes";
 }
 
 }  // namespace

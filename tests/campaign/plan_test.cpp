@@ -1,4 +1,4 @@
-#include "campaign/plan.hpp"
+#include "campaign/state/plan.hpp"
 
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> ids_of(std::string const& text, std::string const& engine = "LIGGGHTS 3.8.0") {
     std::vector<std::string> ids;
     for (PlannedCase const& planned :
-         make_plan(parse_campaign(text, "campaign.toml"), "runs/any", engine).cases)
+         make_plan(scenario::parse_campaign(text, "campaign.toml"), "runs/any", engine).cases)
         ids.push_back(planned.id);
     return ids;
 }
@@ -36,7 +36,7 @@ TEST(CaseId, DoesNotDependOnNameFolderCommentsOrUnits) {
     EXPECT_EQ(id_of(with("pvc-horizontal", "another")), id);
     EXPECT_EQ(id_of(with("[trough]", "# a comment\n\n[trough]")), id);
     EXPECT_EQ(id_of(with("\"6 mm\"", "\"0.006 m\"")), id);
-    Campaign const campaign = parse_campaign(example_campaign, "campaign.toml");
+    scenario::Campaign const campaign = scenario::parse_campaign(example_campaign, "campaign.toml");
     EXPECT_EQ(make_plan(campaign, "elsewhere", "LIGGGHTS 3.8.0").cases.at(0).id, id);
 }
 
@@ -86,7 +86,7 @@ TEST(CaseId, ChangesWithEveryInput) {
 }
 
 TEST(MakePlan, PutsEachCaseBelowTheFolder) {
-    Campaign const campaign = parse_campaign(example_campaign, "campaign.toml");
+    scenario::Campaign const campaign = scenario::parse_campaign(example_campaign, "campaign.toml");
     Plan const plan = make_plan(campaign, "runs/x", "LIGGGHTS 3.8.0");
     EXPECT_EQ(plan.name, "pvc-horizontal");
     PlannedCase const& planned = plan.cases.at(0);
@@ -106,7 +106,7 @@ class OpenPlan : public CampaignFolder {
     std::string refusal() const {
         try {
             open_plan(folder);
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -114,7 +114,7 @@ class OpenPlan : public CampaignFolder {
 };
 
 TEST_F(OpenPlan, GivesThePlanThatWasFrozen) {
-    EXPECT_EQ(read_file(folder / "campaign.toml"), campaign_text);
+    EXPECT_EQ(core::read_file(folder / "campaign.toml"), campaign_text);
     Plan const opened = open_plan(folder);
     EXPECT_EQ(opened.name, plan.name);
     EXPECT_EQ(opened.engine_version, plan.engine_version);
@@ -132,7 +132,7 @@ TEST_F(OpenPlan, KeepsTheCertificateOfItsEngineOnly) {
     engine::Engine probed{"/opt/liggghts", "LIGGGHTS 3.8.0"};
     probed.certificate = "{}\n";
     freeze(plan, folder / "campaign.toml", probed);
-    EXPECT_EQ(read_file(planned.certificate_file()), "{}\n");
+    EXPECT_EQ(core::read_file(planned.certificate_file()), "{}\n");
     freeze(plan, folder / "campaign.toml", {"/opt/other", "LIGGGHTS 3.8.0"});
     EXPECT_FALSE(fs::exists(planned.certificate_file()));
 }

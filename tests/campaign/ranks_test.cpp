@@ -1,8 +1,8 @@
-#include "campaign/ranks.hpp"
+#include "campaign/execute/ranks.hpp"
 
 #include "deck/deck.hpp"
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace vibrotrough::campaign {
 namespace {
 
-Scenario with_grains(int grains) {
-    Scenario scenario = parse_campaign(example_campaign, "campaign.toml").cases.front();
+scenario::Scenario with_grains(int grains) {
+    scenario::Scenario scenario = scenario::parse_campaign(example_campaign, "campaign.toml").cases.front();
     scenario.layer.grains = grains;
     return scenario;
 }
@@ -32,7 +32,7 @@ TEST(Ranks, EfficiencyIsWhatWasMeasured) {
 }
 
 TEST(Ranks, FollowTheGrainsThatEachRankWouldHave) {
-    RunSettings const settings{};
+    scenario::RunSettings const settings{};
     EXPECT_EQ(choose_ranks(settings, with_grains(500), 8), 1);
     EXPECT_EQ(choose_ranks(settings, with_grains(1999), 8), 1);
     EXPECT_EQ(choose_ranks(settings, with_grains(2000), 8), 2);
@@ -42,7 +42,7 @@ TEST(Ranks, FollowTheGrainsThatEachRankWouldHave) {
 }
 
 TEST(Ranks, AreWhatTheCampaignSays) {
-    RunSettings settings{};
+    scenario::RunSettings settings{};
     settings.ranks = 3;
     EXPECT_EQ(choose_ranks(settings, with_grains(10), 1), 3);
 }

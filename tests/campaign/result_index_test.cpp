@@ -1,4 +1,4 @@
-#include "campaign/result_index.hpp"
+#include "campaign/state/result_index.hpp"
 
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -45,7 +45,7 @@ TEST_F(ResultIndexTest, ReadsEachResultOnce) {
 
 TEST_F(ResultIndexTest, NoticesADamagedAndARemovedResult) {
     look();
-    std::string const whole = read_file(planned.result_file());
+    std::string const whole = core::read_file(planned.result_file());
     std::string flipped = whole;
     flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 1);
     overwrite(planned.result_file(), flipped);
@@ -59,13 +59,13 @@ TEST_F(ResultIndexTest, NoticesADamagedAndARemovedResult) {
 TEST_F(ResultIndexTest, ADamagedIndexIsMadeAnew) {
     look();
     fs::path const file = folder / ".index";
-    std::string const whole = read_file(file);
+    std::string const whole = core::read_file(file);
     for (std::string const& damaged : {std::string(), whole.substr(0, whole.size() / 2), whole + "x",
                                        "another version\n" + whole, std::string("\xff\xff\xff")}) {
         overwrite(file, damaged);
         auto const [record, read] = look();
         EXPECT_TRUE(record && read);
-        EXPECT_EQ(read_file(file), whole);
+        EXPECT_EQ(core::read_file(file), whole);
     }
 }
 
@@ -74,7 +74,7 @@ TEST(Summary, EndsTooEarlyAnywhere) {
     std::string const bytes = store::pack_summary(record);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         std::string_view part(bytes.data(), size);
-        EXPECT_THROW(store::unpack_summary(part, record.scenario), InputError) << size;
+        EXPECT_THROW(store::unpack_summary(part, record.scenario), core::InputError) << size;
     }
     std::string_view all = bytes;
     EXPECT_EQ(store::pack_summary(store::unpack_summary(all, record.scenario)), bytes);

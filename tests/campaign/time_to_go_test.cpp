@@ -1,4 +1,4 @@
-#include "campaign/time_to_go.hpp"
+#include "campaign/schedule/time_to_go.hpp"
 
 #include "campaign_folder.hpp"
 

@@ -16,8 +16,8 @@ namespace {
 
 store::CaseRecord const record = store::sample_record("0123456789ab");
 
-Scenario scenario_at(double vibration_angle_deg, double inclination_deg) {
-    Scenario scenario = record.scenario;
+scenario::Scenario scenario_at(double vibration_angle_deg, double inclination_deg) {
+    scenario::Scenario scenario = record.scenario;
     scenario.trough.vibration_angle = vibration_angle_deg * std::numbers::pi / 180;
     scenario.trough.inclination = inclination_deg * std::numbers::pi / 180;
     return scenario;
@@ -50,7 +50,7 @@ TEST(Compare, ShowsAnglesAsTheyWereWritten) {
 }
 
 TEST(Compare, PredictsWithTheTheory) {
-    Trough const& trough = record.scenario.trough;
+    scenario::Trough const& trough = record.scenario.trough;
     theory::Motion const motion = theory::solve({.throw_number = throw_number(trough),
                                                  .tan_vibration_angle = std::tan(0.5),
                                                  .tan_inclination = std::tan(-0.05),
@@ -63,19 +63,20 @@ TEST(Compare, PredictsWithTheTheory) {
 
 TEST(Compare, KnowsTheFactsSheetsPointMass) {
     // Gamma = 2, tan(beta) = 0.5, mu = 0.23, level: 0.5815 (four digits).
-    Scenario scenario = record.scenario;
-    Trough& trough = scenario.trough;
+    scenario::Scenario scenario = record.scenario;
+    scenario::Trough& trough = scenario.trough;
     trough.inclination = 0;
     trough.vibration_angle = std::atan(0.5);
-    trough.frequency = std::sqrt(2 * gravity / (trough.amplitude * std::sin(trough.vibration_angle))) /
-                       (2 * std::numbers::pi);
+    trough.frequency =
+        std::sqrt(2 * scenario::gravity / (trough.amplitude * std::sin(trough.vibration_angle))) /
+        (2 * std::numbers::pi);
     EXPECT_NEAR(compare("", scenario, {}, "open").efficiency_theory.value(), 0.5815, 0.0005);
 }
 
 // The theory's commands and the campaigns stand on the same ground.
 TEST(Compare, OneGravity) {
-    EXPECT_EQ(theory::Machine{}.gravity, gravity);
-    EXPECT_EQ(theory::DesignLimits{}.gravity, gravity);
+    EXPECT_EQ(theory::Machine{}.gravity, scenario::gravity);
+    EXPECT_EQ(theory::DesignLimits{}.gravity, scenario::gravity);
 }
 
 // A trough that shakes along itself, horizontal: forward and backward slides are mirror images, eta = 0.
@@ -106,7 +107,7 @@ TEST(Compare, HasTheoryAtTheLayersFriction) {
     EXPECT_EQ(row.friction_layer, 0.15);
     EXPECT_EQ(row.friction_layer_low, 0.14);
     EXPECT_EQ(row.friction_layer_high, 0.17);
-    Scenario smooth = record.scenario;
+    scenario::Scenario smooth = record.scenario;
     smooth.trough.friction = 0.15;
     Row const wanted = compare("", smooth, {}, "open");
     EXPECT_EQ(row.efficiency_theory_layer, wanted.efficiency_theory);

@@ -1,7 +1,7 @@
 #include "compare/point_mass_motion.hpp"
 
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -13,36 +13,36 @@
 namespace vibrotrough::compare {
 namespace {
 
-Scenario scenario(std::string const& lines, FileSource const& source = {}) {
-    return parse_campaign(with("throw_number = 2.0", "throw_number = 2.0\n" + lines), "c", source)
+scenario::Scenario scenario(std::string const& lines, scenario::FileSource const& source = {}) {
+    return scenario::parse_campaign(with("throw_number = 2.0", "throw_number = 2.0\n" + lines), "c", source)
         .cases.front();
 }
 
 // Both solvers on the plain drive: they agree to 1e-9 by the theory's own tests.
 TEST(PointMassMotion, OfAPlainDriveIsTheFastSolvers) {
-    Scenario const s = scenario("");
+    scenario::Scenario const s = scenario("");
     EXPECT_NEAR(point_mass_motion(s, 0.23).velocity_efficiency,
                 theory::solve(conveyor_of(s, 0.23)).motion.velocity_efficiency, 1e-9);
 }
 
 // The acceleration that the theory reckons with, -(sin t + sum a sin(k t + phase)) in units of omega^2 r
 // sin(beta), is that of the drive: X'' of X = sum a_k sin(k t + phase_k).
-void expect_same_acceleration(Scenario const& s) {
+void expect_same_acceleration(scenario::Scenario const& s) {
     theory::Conveyor const c = conveyor_of(s, 0.23);
-    DriveMotion const motion = drive_motion(s.trough);
+    scenario::DriveMotion const motion = drive_motion(s.trough);
     double shift = 0;
-    for (DriveTerm const& term : motion.normal) {
+    for (scenario::DriveTerm const& term : motion.normal) {
         if (term.order == 1) shift = term.phase;
     }
     double const omega = angular_frequency(s.trough);
-    double const normal_unit = c.point.throw_number * gravity * std::cos(s.trough.inclination);
+    double const normal_unit = c.point.throw_number * scenario::gravity * std::cos(s.trough.inclination);
     double const along_unit = normal_unit / c.point.tan_vibration_angle;
     for (double t = 0; t < 6.3; t += 0.37) {
         double along = 0, normal = 0;
-        for (DriveTerm const& term : motion.along)
+        for (scenario::DriveTerm const& term : motion.along)
             along -=
                 term.order * term.order * term.amplitude * std::sin(term.order * (t - shift) + term.phase);
-        for (DriveTerm const& term : motion.normal)
+        for (scenario::DriveTerm const& term : motion.normal)
             normal -=
                 term.order * term.order * term.amplitude * std::sin(term.order * (t - shift) + term.phase);
         double theory_along = -c.along_ratio * std::sin(t + c.along_phase), theory_normal = -std::sin(t);
@@ -60,7 +60,7 @@ TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
     expect_same_acceleration(
         scenario("along_phase = \"20 deg\"\nharmonics = [\"5, 0.2, 30 deg\", \"25, 0.1, -9 deg\"]"));
     std::string csv = "time_s,x_m,z_m\n";
-    Scenario const plain = scenario("");
+    scenario::Scenario const plain = scenario("");
     for (int i = 0; i < 32; ++i) {
         double const t = 2 * std::numbers::pi * i / 32;
         csv += fmt::format("{},{},{}\n", i / 32.0 / plain.trough.frequency,
@@ -72,7 +72,7 @@ TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
 
 // Janssen's ratio: two walls add k mu_w H / W to mu (theory/conveyor.hpp).
 TEST(PointMassMotion, SeesSideWalls) {
-    Scenario const s = scenario("side_wall_friction = 0.3");
+    scenario::Scenario const s = scenario("side_wall_friction = 0.3");
     double const expected = 0.23 + 0.5 * 0.3 * 12.0 / 18.0;
     EXPECT_NEAR(theory::effective_friction(conveyor_of(s, 0.23)).kinetic, expected, 1e-12);
     EXPECT_NE(point_mass_motion(s, 0.23).velocity_efficiency,

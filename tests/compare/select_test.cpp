@@ -33,7 +33,7 @@ std::string ids(std::vector<Row> const& rows) {
 std::string refusal(auto const& call) {
     try {
         call();
-    } catch (InputError const& error) {
+    } catch (core::InputError const& error) {
         return error.what();
     }
     return "no error";

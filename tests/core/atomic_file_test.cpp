@@ -18,30 +18,30 @@ class AtomicFile : public testing::Test {
 };
 
 TEST_F(AtomicFile, WritesAndReplaces) {
-    write_file_atomically(folder / "a", "one");
-    write_file_atomically(folder / "a", std::string_view("t\0wo", 4));
-    EXPECT_EQ(read_file(folder / "a"), std::string("t\0wo", 4));
+    core::write_file_atomically(folder / "a", "one");
+    core::write_file_atomically(folder / "a", std::string_view("t\0wo", 4));
+    EXPECT_EQ(core::read_file(folder / "a"), std::string("t\0wo", 4));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
 TEST_F(AtomicFile, KeepsTheOldFileWhenTheWriterThrows) {
-    write_file_atomically(folder / "a", "old");
+    core::write_file_atomically(folder / "a", "old");
     auto const half = [](fs::path const& temporary) {
-        write_file_atomically(temporary, "half");
+        core::write_file_atomically(temporary, "half");
         throw std::runtime_error("power cut");
     };
-    EXPECT_THROW(write_atomically(folder / "a", half), std::runtime_error);
-    EXPECT_EQ(read_file(folder / "a"), "old");
+    EXPECT_THROW(core::write_atomically(folder / "a", half), std::runtime_error);
+    EXPECT_EQ(core::read_file(folder / "a"), "old");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
 TEST_F(AtomicFile, SaysWhatTheDiskRefuses) {
-    auto const write = [&] { write_file_atomically(folder / "no_such" / "x", "content"); };
-    EXPECT_THROW(write(), MissingError);
-    EXPECT_THROW(read_file(folder / "none"), MissingError);
-    EXPECT_THROW(read_file(folder), MissingError);
-    write_file_atomically(folder / "file", "");
-    EXPECT_THROW(make_folder(folder / "file" / "below"), MissingError);
+    auto const write = [&] { core::write_file_atomically(folder / "no_such" / "x", "content"); };
+    EXPECT_THROW(write(), core::MissingError);
+    EXPECT_THROW(core::read_file(folder / "none"), core::MissingError);
+    EXPECT_THROW(core::read_file(folder), core::MissingError);
+    core::write_file_atomically(folder / "file", "");
+    EXPECT_THROW(core::make_folder(folder / "file" / "below"), core::MissingError);
 }
 
 }  // namespace

@@ -11,24 +11,24 @@ namespace {
 constexpr double rounding = 1e-14;
 
 TEST(Quantity, ReadsUnitsIntoSi) {
-    EXPECT_NEAR(parse_quantity("6 mm", "m"), 6e-3, 6e-3 * rounding);
-    EXPECT_NEAR(parse_quantity("30 deg", "radian"), std::acos(-1.0) / 6, rounding);
-    EXPECT_NEAR(parse_quantity("-3 degree", "radian"), -std::acos(-1.0) / 60, rounding);
-    EXPECT_NEAR(parse_quantity("12.9 Hz", "Hz"), 12.9, 12.9 * rounding);
-    EXPECT_NEAR(parse_quantity("340 / minute", "Hz"), 340.0 / 60, 6 * rounding);
-    EXPECT_NEAR(parse_quantity("1.4 g/cm3", "kg/m3"), 1400, 1400 * rounding);
-    EXPECT_NEAR(parse_quantity("12.9 s^-1", "Hz"), 12.9, 12.9 * rounding);
-    EXPECT_NEAR(parse_quantity("1.4 g/cm^3", "kg/m3"), 1400, 1400 * rounding);
-    EXPECT_NEAR(parse_quantity("5 N/mm^2", "Pa"), 5e6, 5e6 * rounding);
-    EXPECT_NEAR(parse_quantity("5 MPa", "Pa"), 5e6, 5e6 * rounding);
-    EXPECT_NEAR(parse_quantity("  +2.5e-1m ", "m"), 0.25, rounding);
+    EXPECT_NEAR(core::parse_quantity("6 mm", "m"), 6e-3, 6e-3 * rounding);
+    EXPECT_NEAR(core::parse_quantity("30 deg", "radian"), std::acos(-1.0) / 6, rounding);
+    EXPECT_NEAR(core::parse_quantity("-3 degree", "radian"), -std::acos(-1.0) / 60, rounding);
+    EXPECT_NEAR(core::parse_quantity("12.9 Hz", "Hz"), 12.9, 12.9 * rounding);
+    EXPECT_NEAR(core::parse_quantity("340 / minute", "Hz"), 340.0 / 60, 6 * rounding);
+    EXPECT_NEAR(core::parse_quantity("1.4 g/cm3", "kg/m3"), 1400, 1400 * rounding);
+    EXPECT_NEAR(core::parse_quantity("12.9 s^-1", "Hz"), 12.9, 12.9 * rounding);
+    EXPECT_NEAR(core::parse_quantity("1.4 g/cm^3", "kg/m3"), 1400, 1400 * rounding);
+    EXPECT_NEAR(core::parse_quantity("5 N/mm^2", "Pa"), 5e6, 5e6 * rounding);
+    EXPECT_NEAR(core::parse_quantity("5 MPa", "Pa"), 5e6, 5e6 * rounding);
+    EXPECT_NEAR(core::parse_quantity("  +2.5e-1m ", "m"), 0.25, rounding);
 }
 
 TEST(Quantity, SaysWhatIsWrong) {
     auto const message = [](char const* text, char const* unit) {
         try {
-            parse_quantity(text, unit);
-        } catch (QuantityError const& error) {
+            core::parse_quantity(text, unit);
+        } catch (core::QuantityError const& error) {
             return std::string(error.what());
         }
         return std::string("no error");

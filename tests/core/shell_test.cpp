@@ -6,11 +6,11 @@ namespace vibrotrough {
 namespace {
 
 TEST(Shell, QuotesWhatAShellWouldSplit) {
-    EXPECT_EQ(shell_word("runs/demo-1_a.b"), "runs/demo-1_a.b");
-    EXPECT_EQ(shell_word("my runs"), "'my runs'");
-    EXPECT_EQ(shell_word("a'b"), "'a'\\''b'");
-    EXPECT_EQ(shell_word("$(x)"), "'$(x)'");
-    EXPECT_EQ(shell_word(""), "''");
+    EXPECT_EQ(core::shell_word("runs/demo-1_a.b"), "runs/demo-1_a.b");
+    EXPECT_EQ(core::shell_word("my runs"), "'my runs'");
+    EXPECT_EQ(core::shell_word("a'b"), "'a'\\''b'");
+    EXPECT_EQ(core::shell_word("$(x)"), "'$(x)'");
+    EXPECT_EQ(core::shell_word(""), "''");
 }
 
 }  // namespace

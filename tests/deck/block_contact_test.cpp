@@ -1,7 +1,7 @@
 #include "deck/deck.hpp"
 #include "deck/time_grid.hpp"
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <regex>
@@ -13,10 +13,10 @@
 namespace vibrotrough::deck {
 namespace {
 
-Scenario block(std::string const& kind = "point") {
+scenario::Scenario block(std::string const& kind = "point") {
     std::string const text = with("height = \"12 mm\"", "block = \"" + kind + "\"");
     std::string const one_size = with("diameter_spread = 0.1", "", text);
-    return parse_campaign(one_size, "test.toml").cases.front();
+    return scenario::parse_campaign(one_size, "test.toml").cases.front();
 }
 
 struct Landing {
@@ -69,7 +69,7 @@ std::vector<double> numbers_of(std::string const& deck, std::string const& prope
 }
 
 TEST(BlockContact, IsWhatTheDecksSay) {
-    Scenario const s = block();
+    scenario::Scenario const s = block();
     double const duration = 1 / (s.trough.frequency * s.solver.block_stiffness);
     Deck const deck = make_deck(s, 1);
     for (auto const& name : {"settle.liggghts", "in.liggghts"}) {
@@ -91,9 +91,9 @@ TEST(BlockContact, IsWhatTheDecksSay) {
 
 // A plate that leaves the trough tilted spins and lands on its edges; a force that may pull keeps it flat.
 TEST(BlockContact, APlateMayPull) {
-    Scenario plate = block();
-    plate.layer.block = Block::plate;
-    plate.grains.rotation = Rotation::free;
+    scenario::Scenario plate = block();
+    plate.layer.block = scenario::Block::plate;
+    plate.grains.rotation = scenario::Rotation::free;
     Deck const deck = make_deck(plate, 1);
     for (auto const& name : {"settle.liggghts", "in.liggghts"})
         EXPECT_NE(deck.files.at(name).find("no_history limitForce off tangential_damping on\n"),

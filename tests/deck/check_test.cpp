@@ -2,9 +2,9 @@
 
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
-#include "scenario/keys.hpp"
+#include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,11 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Scenario scenario(std::string const& text = example_campaign) {
-    return parse_campaign(text, "test.toml").cases.front();
+scenario::Scenario scenario(std::string const& text = example_campaign) {
+    return scenario::parse_campaign(text, "test.toml").cases.front();
 }
 
-Finding finding(Scenario const& s, std::string const& item) {
+Finding finding(scenario::Scenario const& s, std::string const& item) {
     auto const all = check(s);
     auto const found = std::ranges::find(all, item, &Finding::item);
     if (found == all.end()) throw std::out_of_range(item);
@@ -32,9 +32,9 @@ Finding finding(Scenario const& s, std::string const& item) {
 // One grain of the floor carries rho phi g h d^2 where the layer is h high; the example is asked for as 12 mm
 // at a solid fraction of 0.58, rounded to whole grains (1 / 500).
 TEST(Estimates, BottomLoadIsTheColumnsWeight) {
-    Scenario const s = scenario();
+    scenario::Scenario const s = scenario();
     EXPECT_NEAR(bottom_load(s), 1400 * 0.58 * 9.81 * 0.012 * 0.003 * 0.003, 0.003 * bottom_load(s));
-    Scenario steep = s;
+    scenario::Scenario steep = s;
     steep.trough.inclination = pi / 3;
     EXPECT_NEAR(bottom_load(steep), bottom_load(s) / 2, 1e-12);
 }
@@ -47,7 +47,7 @@ TEST(Estimates, HertzOverlapCarriesTheForce) {
 
 // m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2): all kinetic energy is in the contact.
 TEST(Estimates, ImpactOverlapHoldsTheEnergy) {
-    Scenario const s = scenario(with("diameter_spread = 0.1", "diameter_spread = 0.0"));
+    scenario::Scenario const s = scenario(with("diameter_spread = 0.1", "diameter_spread = 0.0"));
     double const overlap = overlap_at_impact(s, 0.7);
     double const mass = 1400 * pi / 6 * std::pow(0.003, 3);
     EXPECT_NEAR(8.0 / 15 * 2.849003e6 * std::sqrt(0.0015) * std::pow(overlap, 2.5), mass * 0.49 / 2,
@@ -57,7 +57,7 @@ TEST(Estimates, ImpactOverlapHoldsTheEnergy) {
 // The duration of a Hertz impact is 2.9432 d_max / v (Johnson, section 11.4): a check of both against each
 // other; 2.87 has three digits.
 TEST(Estimates, ImpactDurationBelongsToItsOverlap) {
-    Scenario const s = scenario();
+    scenario::Scenario const s = scenario();
     EXPECT_NEAR(impact_duration(s, 0.7), 2.9432 * overlap_at_impact(s, 0.7) / 0.7,
                 2e-3 * impact_duration(s, 0.7));
     EXPECT_NEAR(impact_duration(s, 32 * 0.7) * 2, impact_duration(s, 0.7), 1e-12);  // v^(-1/5)
@@ -65,14 +65,14 @@ TEST(Estimates, ImpactDurationBelongsToItsOverlap) {
 
 // Eq. 15 of the theory: at Gamma = sqrt(1 + pi^2) the flight lasts exactly one cycle; none below Gamma = 1.
 TEST(Estimates, FlightTime) {
-    Scenario const full =
+    scenario::Scenario const full =
         scenario(with("throw_number = 2.0", fmt::format("throw_number = {}", std::sqrt(1 + pi * pi))));
     EXPECT_NEAR(flight_time(full) * full.trough.frequency, 1, 1e-6);
     EXPECT_EQ(flight_time(scenario(with("throw_number = 2.0", "throw_number = 0.99"))), 0);
 }
 
 TEST(Estimates, SkinIsTheDecks) {
-    Scenario const s = scenario();
+    scenario::Scenario const s = scenario();
     EXPECT_NE(make_deck(s, 1)
                   .files.at("in.liggghts")
                   .find(fmt::format("neighbor        {} bin", skin_in_diameters * s.grains.diameter)),
@@ -86,8 +86,8 @@ TEST(Estimates, CyclesAreWhatTheHalfWidthNeeds) {
 }
 
 TEST(Estimates, WorkGrowsWithPackingsAndGrains) {
-    Scenario const s = scenario();
-    Scenario twice = s;
+    scenario::Scenario const s = scenario();
+    scenario::Scenario twice = s;
     twice.measure.packings *= 2;
     EXPECT_EQ(expected_work(twice), 2 * expected_work(s));
     // Settling comes to the cycles: 5 falls are a few cycles long.
@@ -107,7 +107,7 @@ TEST(Check, TheExampleIsFine) {
 // A block is one body with a contact of its own: nothing of layers, and its contact is T / 300.
 TEST(Check, ABlockIsNoLayer) {
     std::string const one_size = with("diameter_spread = 0.1", "diameter_spread = 0.0");
-    Scenario const s = scenario(with("height = \"12 mm\"", "block = \"point\"", one_size));
+    scenario::Scenario const s = scenario(with("height = \"12 mm\"", "block = \"point\"", one_size));
     EXPECT_NEAR(finding(s, "contact time at the trough's speed / cycle").measured, 1.0 / 300, 1e-12);
     EXPECT_EQ(finding(s, "contact time at the trough's speed / cycle").key, "solver.block_stiffness");
     for (Finding const& one : check(s)) {
@@ -120,7 +120,7 @@ TEST(Check, EveryItemHasItsOwnNameAndAKeyThatExists) {
     std::set<std::string> names;
     for (Finding const& one : check(scenario())) {
         EXPECT_TRUE(names.insert(one.item).second) << one.item;
-        EXPECT_NE(find_key(one.key), nullptr) << one.key;
+        EXPECT_NE(scenario::find_key(one.key), nullptr) << one.key;
     }
 }
 
@@ -131,7 +131,7 @@ TEST(Check, FindsWhatIsWrong) {
         return scenario(with("youngs_modulus = \"5 MPa\"", fmt::format("youngs_modulus = \"{}\"", value)));
     };
     EXPECT_EQ(finding(modulus("0.5 MPa"), impact).severity, Severity::warning);
-    Scenario soft = modulus("0.1 MPa");
+    scenario::Scenario soft = modulus("0.1 MPa");
     soft.trough.amplitude = 0.06;
     soft.trough.frequency = 10;
     EXPECT_EQ(finding(soft, impact).severity, Severity::error);

@@ -1,7 +1,7 @@
 #include "deck/clump.hpp"
 
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -15,10 +15,10 @@ constexpr double pi = std::numbers::pi;
 // The grid of 400 x 400 lines: edges of the outline are seen to half a line in 400.
 constexpr double grid = 2e-4;
 
-Grains shaped(std::string const& file) {
-    Grains grains = parse_campaign(example_campaign, "c").cases.front().grains;
+scenario::Grains shaped(std::string const& file) {
+    scenario::Grains grains = scenario::parse_campaign(example_campaign, "c").cases.front().grains;
     grains.shape = "shape.csv";
-    grains.shape_file = NamedFile{"shape.csv", "x,y,z,radius\n" + file};
+    grains.shape_file = scenario::NamedFile{"shape.csv", "x,y,z,radius\n" + file};
     return grains;
 }
 

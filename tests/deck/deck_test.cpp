@@ -2,8 +2,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -17,12 +17,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Scenario scenario(std::string const& text = example_campaign) {
-    return parse_campaign(text, "test.toml").cases.front();
+scenario::Scenario scenario(std::string const& text = example_campaign) {
+    return scenario::parse_campaign(text, "test.toml").cases.front();
 }
 
 /// Both decks, one after the other.
-std::string decks(Scenario const& s, int packing = 1) {
+std::string decks(scenario::Scenario const& s, int packing = 1) {
     Deck const deck = make_deck(s, packing);
     return deck.files.at("settle.liggghts") + deck.files.at("in.liggghts");
 }
@@ -37,7 +37,7 @@ double number_after(std::string const& deck, std::string const& before) {
 // Rayleigh time by hand for R = 1.35 mm, rho = 1400, E = 5 MPa, nu = 0.35:
 // G = 5e6 / 2.7 = 1.851852e6, pi R sqrt(rho / G) / (0.1631 nu + 0.8766) = 1.24895e-4 s.
 TEST(Deck, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
-    Scenario const s = scenario();
+    scenario::Scenario const s = scenario();
     TimeGrid const time = choose_time_step(s);
     double const rayleigh = 1.24895e-4;
     EXPECT_LE(time.time_step, 0.2 * rayleigh * 1.0001);  // the hand value has six digits
@@ -49,7 +49,7 @@ TEST(Deck, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
 
 // t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5): a hundred times faster impacts shorten it by 100^(1/5) = 2.5.
 TEST(Deck, FastImpactsShortenTheTimeStep) {
-    Scenario fast = scenario();
+    scenario::Scenario fast = scenario();
     fast.trough.amplitude *= 100;
     TimeGrid const time = choose_time_step(fast);
     EXPECT_NEAR(time.contact_fraction, 0.1, 2e-3);  // 5,000 steps are made a multiple of 100
@@ -58,7 +58,7 @@ TEST(Deck, FastImpactsShortenTheTimeStep) {
 
 // The Rayleigh time of a 30 mm grain is ten cycles of 10 kHz: the sinusoid itself needs steps, too.
 TEST(Deck, TheSinusoidHasSteps) {
-    Scenario s = scenario();
+    scenario::Scenario s = scenario();
     s.grains.diameter = 0.03;
     s.trough.amplitude = 1e-6;
     s.trough.frequency = 1e4;
@@ -66,12 +66,12 @@ TEST(Deck, TheSinusoidHasSteps) {
     s.grains.diameter = 1e-6;
     s.grains.youngs_modulus = 1e12;
     s.trough.frequency = 0.01;
-    EXPECT_THROW(choose_time_step(s), InputError);
+    EXPECT_THROW(choose_time_step(s), core::InputError);
 }
 
 TEST(Deck, StepsDivideIntoFrames) {
     for (int const frames : {1, 7, 12, 100}) {
-        Scenario s = scenario();
+        scenario::Scenario s = scenario();
         s.output.frames_per_cycle = frames;
         EXPECT_EQ(choose_time_step(s).steps_per_cycle % frames, 0) << frames;
         EXPECT_EQ(choose_time_step(s).steps_per_cycle % phases_per_cycle, 0) << frames;
@@ -80,11 +80,12 @@ TEST(Deck, StepsDivideIntoFrames) {
 
 // m = rho pi / 6 sum d^3 over three classes of equal number.
 TEST(Deck, KnowsItsMassAndWeight) {
-    Scenario const s = scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
+    scenario::Scenario const s =
+        scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
     Deck const deck = make_deck(s, 1);
     double const volume = 100 * pi / 6 * (std::pow(2.7e-3, 3) + std::pow(3e-3, 3) + std::pow(3.3e-3, 3));
     EXPECT_NEAR(deck.mass, 1400 * volume, 1e-12);
-    EXPECT_NEAR(deck.weight, deck.mass * gravity * std::cos(10 * pi / 180), 1e-12);
+    EXPECT_NEAR(deck.weight, deck.mass * scenario::gravity * std::cos(10 * pi / 180), 1e-12);
 }
 
 TEST(Deck, CountsEqualWithinOne) {
@@ -116,7 +117,7 @@ TEST(Deck, OneSizeIsOneClass) {
 
 // 36.3 mm / 1.5 / 3 mm = 8 columns, each a hair wider than an eighth, so that rounding opens no ninth.
 TEST(Deck, CutsTheLayerIntoBins) {
-    Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
+    scenario::Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
     std::string const deck = decks(s);
     int const n = choose_time_step(s).steps_per_cycle;
     EXPECT_EQ(number_after(deck, "window all ave/time 1 "), n / 100);
@@ -174,7 +175,7 @@ TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
 
 // Every order has 50 steps in its period.
 TEST(Deck, HarmonicsHaveSteps) {
-    Scenario s =
+    scenario::Scenario s =
         scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"100, 0.2, 0 deg\"]"));
     EXPECT_GE(choose_time_step(s).steps_per_cycle, 5000);
 }
@@ -210,7 +211,7 @@ TEST(Deck, SoftGrainsNeedAWord) {
 }
 
 TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
-    Scenario s = scenario();
+    scenario::Scenario s = scenario();
     s.output.frames_per_cycle = 10;
     Deck const first = make_deck(s, 1), second = make_deck(s, 2);
     EXPECT_NE(first.seed, second.seed);
@@ -227,8 +228,8 @@ TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
 //   vibrotrough deck tests/deck/gold/campaign.toml --output DIR
 TEST(Deck, IsTheGoldDeck) {
     std::filesystem::path const gold = GOLD_FOLDER;
-    Deck const deck = make_deck(read_campaign(gold / "campaign.toml").cases.front(), 2);
-    for (auto const& [name, content] : deck.files) EXPECT_EQ(content, read_file(gold / name)) << name;
+    Deck const deck = make_deck(scenario::read_campaign(gold / "campaign.toml").cases.front(), 2);
+    for (auto const& [name, content] : deck.files) EXPECT_EQ(content, core::read_file(gold / name)) << name;
 }
 
 }  // namespace

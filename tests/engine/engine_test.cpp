@@ -26,7 +26,7 @@ class EngineTest : public testing::Test {
     std::string error_for(fs::path const& asked) {
         try {
             find_engine(asked);
-        } catch (MissingError const& error) {
+        } catch (core::MissingError const& error) {
             return error.what();
         }
         return "no error";
@@ -144,7 +144,8 @@ TEST_F(EngineTest, DestructionKillsAndCallsNobody) {
 }
 
 TEST_F(EngineTest, AMissingFolderIsAnError) {
-    EXPECT_THROW(EngineProcess(context, find_engine({}), folder / "none", [](ExitStatus) {}), MissingError);
+    EXPECT_THROW(EngineProcess(context, find_engine({}), folder / "none", [](ExitStatus) {}),
+                 core::MissingError);
 }
 
 }  // namespace

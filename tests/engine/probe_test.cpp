@@ -3,8 +3,8 @@
 #include "deck/deck.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe_decks.hpp"
-#include "scenario/campaign_file.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -116,7 +116,7 @@ TEST_F(Probe, AnEngineThatLosesItsOutputFails) {
 
 // The probes are worth nothing if campaigns use other contacts than they do.
 TEST_F(Probe, TheDecksUseWhatIsProbed) {
-    Scenario const scenario = parse_campaign(example_campaign, "test.toml").cases.front();
+    scenario::Scenario const scenario = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
     std::string const campaign = deck::make_deck(scenario, 1).files.at("in.liggghts");
     for (ProbeDeck const& probe : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
                                    drive_deck(), speed_deck(1)}) {

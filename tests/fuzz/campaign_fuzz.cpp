@@ -1,7 +1,7 @@
 // Whatever a campaign file holds: it is read, or refused with an InputError of one line.
 
 #include "core/error.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cstdint>
 #include <cstdlib>
@@ -11,13 +11,14 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     using namespace vibrotrough;
     std::string_view const text(reinterpret_cast<char const*>(data), size);
     try {
-        Campaign const campaign = parse_campaign(text, "fuzz.toml", {"/no-such-folder"});
+        scenario::Campaign const campaign = scenario::parse_campaign(text, "fuzz.toml", {"/no-such-folder"});
         // What was taken must come back: a case as a campaign file of its own is the same case.
         std::string const frozen = to_toml(campaign.cases.front());
         if (!named_files(campaign.cases.front()).empty()) return 0;
-        if (to_toml(parse_campaign(frozen, "frozen.toml", {"/no-such-folder"}).cases.front()) != frozen)
+        if (to_toml(scenario::parse_campaign(frozen, "frozen.toml", {"/no-such-folder"}).cases.front()) !=
+            frozen)
             std::abort();
-    } catch (Error const& error) {
+    } catch (core::Error const& error) {
         if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
     }
     return 0;

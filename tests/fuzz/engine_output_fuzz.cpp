@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     }
     try {
         measure::read_cycles(folder() / "cycles.csv", 500, 60);
-    } catch (Error const&) {
+    } catch (core::Error const&) {
     }
     return 0;
 }

@@ -24,7 +24,7 @@ void read(std::string const& bytes) {
     if (::pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) return;
     try {
         store::read_result("/proc/self/fd/" + std::to_string(file));
-    } catch (Error const&) {
+    } catch (core::Error const&) {
     }
 }
 
@@ -36,11 +36,11 @@ bool const deep = std::getenv("VIBROTROUGH_FUZZ_DEEP") != nullptr;
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     std::string const bytes(reinterpret_cast<char const*>(data), size);
     read(bytes);
-    if (deep) read(bytes + "\nvibrotrough sha256 " + sha256_hex(bytes) + "\n");
+    if (deep) read(bytes + "\nvibrotrough sha256 " + core::sha256_hex(bytes) + "\n");
     try {
         std::string_view rest = bytes;
-        while (!rest.empty()) store::unpack_summary(rest, Scenario{});
-    } catch (Error const&) {
+        while (!rest.empty()) store::unpack_summary(rest, scenario::Scenario{});
+    } catch (core::Error const&) {
     }
     return 0;
 }

@@ -21,7 +21,7 @@ class CyclesFile : public testing::Test {
     std::string error_of(std::string const& text) {
         try {
             read(text);
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -75,7 +75,7 @@ TEST_F(CyclesFile, IsRefusedWhenDamaged) {
         EXPECT_NE(error_of(replaced(from, to)).find("the line is damaged"), std::string::npos) << to;
     }
     EXPECT_NE(error_of(replaced("200,50", "200,49")).find(":6: 49 grains instead of 50"), std::string::npos);
-    EXPECT_THROW(read_cycles("no-such-file", 1, 1), MissingError);
+    EXPECT_THROW(read_cycles("no-such-file", 1, 1), core::MissingError);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Snapshots : public testing::Test {
         write("profiles.0.txt", text);
         try {
             read();
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -78,7 +78,7 @@ TEST_F(Snapshots, AreReadAtAnyMoment) {
 }
 
 TEST_F(Snapshots, AreRefusedWhenDamaged) {
-    EXPECT_THROW(read(), MissingError);
+    EXPECT_THROW(read(), core::MissingError);
     EXPECT_NE(error_of("x 3\n").find(":1: the line is damaged; expected a step and a number of bins"),
               std::string::npos);
     EXPECT_NE(error_of("0 0\n").find("damaged"), std::string::npos);

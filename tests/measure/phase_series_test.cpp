@@ -23,7 +23,7 @@ class PhasesFile : public testing::Test {
     std::string error_of(std::string const& text) {
         try {
             read(text);
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -88,7 +88,7 @@ TEST_F(PhasesFile, IsRefusedWhenDamaged) {
                   std::string::npos)
             << to;
     }
-    EXPECT_THROW(read_phases("no-such-file", 300), MissingError);
+    EXPECT_THROW(read_phases("no-such-file", 300), core::MissingError);
     EXPECT_THROW(read_phases(path, 250), std::invalid_argument);
 }
 

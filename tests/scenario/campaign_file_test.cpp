@@ -1,4 +1,4 @@
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include "core/error.hpp"
 #include "example_campaign.hpp"
@@ -13,8 +13,8 @@ namespace {
 
 std::string error_of(std::string const& text) {
     try {
-        parse_campaign(text, "c.toml");
-    } catch (InputError const& error) {
+        scenario::parse_campaign(text, "c.toml");
+    } catch (core::InputError const& error) {
         return error.what();
     }
     return "no error";
@@ -25,11 +25,11 @@ std::string sweep(std::string const& lines) {
 }
 
 TEST(CampaignFile, MultipliesTheSweep) {
-    Campaign const campaign =
-        parse_campaign(sweep(R"("trough.throw_number" = { from = 0.6, to = 3.0, step = 0.4 }
+    scenario::Campaign const campaign =
+        scenario::parse_campaign(sweep(R"("trough.throw_number" = { from = 0.6, to = 3.0, step = 0.4 }
 "trough.tan_vibration_angle" = [0.25, 0.5, 1.0]
 )"),
-                       "c.toml");
+                                 "c.toml");
     ASSERT_EQ(campaign.cases.size(), 21u);
     // A swept tan(beta) replaces the angle given above it; the last key runs fastest.
     EXPECT_DOUBLE_EQ(std::tan(campaign.cases[0].trough.vibration_angle), 0.25);
@@ -39,25 +39,29 @@ TEST(CampaignFile, MultipliesTheSweep) {
 }
 
 TEST(CampaignFile, SweepsQuantitiesAndWholeNumbers) {
-    EXPECT_DOUBLE_EQ(
-        parse_campaign(sweep(R"("layer.height" = ["12 mm", "18 mm"])"), "c").cases[1].layer.height.value(),
-        0.018);
-    EXPECT_EQ(parse_campaign(sweep(R"("layer.grains" = [100, 200])"), "c").cases[1].layer.grains, 200);
-    EXPECT_EQ(parse_campaign(sweep("trough.friction = [0.1, 0.2]"), "c").cases[1].trough.friction, 0.2);
-    auto const angles = parse_campaign(
+    EXPECT_DOUBLE_EQ(scenario::parse_campaign(sweep(R"("layer.height" = ["12 mm", "18 mm"])"), "c")
+                         .cases[1]
+                         .layer.height.value(),
+                     0.018);
+    EXPECT_EQ(scenario::parse_campaign(sweep(R"("layer.grains" = [100, 200])"), "c").cases[1].layer.grains,
+              200);
+    EXPECT_EQ(scenario::parse_campaign(sweep("trough.friction = [0.1, 0.2]"), "c").cases[1].trough.friction,
+              0.2);
+    auto const angles = scenario::parse_campaign(
         sweep(R"("trough.vibration_angle" = { from = "20 deg", to = "40 deg", step = "10 deg" })"), "c");
     ASSERT_EQ(angles.cases.size(), 3u);
     EXPECT_NEAR(angles.cases[1].trough.vibration_angle, std::acos(-1.0) / 6,
                 1e-11);  // ranges are kept to 12 digits
     // A key that only the sweep gives is given.
-    EXPECT_EQ(parse_campaign(with("friction = 0.23\n", "") + "[sweep]\n\"trough.friction\" = [0.1]", "c")
-                  .cases.size(),
-              1u);
+    EXPECT_EQ(
+        scenario::parse_campaign(with("friction = 0.23\n", "") + "[sweep]\n\"trough.friction\" = [0.1]", "c")
+            .cases.size(),
+        1u);
 }
 
 TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
     std::string const text = example_campaign.substr(0, example_campaign.find("[measure]"));
-    Scenario const s = parse_campaign(text, "c").cases.front();
+    scenario::Scenario const s = scenario::parse_campaign(text, "c").cases.front();
     EXPECT_EQ(s.measure.packings, 3);
     EXPECT_EQ(s.measure.max_cycles, 200);
     EXPECT_EQ(s.output.frames_per_cycle, 0);
@@ -98,14 +102,15 @@ TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
 }
 
 TEST(CampaignFile, SweepsWords) {
-    auto const cases = parse_campaign(sweep("grains.rotation = [\"free\", \"rolling\", \"blocked\"]\n"
-                                            "grains.rolling_friction = [0.1]\n"),
-                                      "c")
-                           .cases;
+    auto const cases =
+        scenario::parse_campaign(sweep("grains.rotation = [\"free\", \"rolling\", \"blocked\"]\n"
+                                       "grains.rolling_friction = [0.1]\n"),
+                                 "c")
+            .cases;
     ASSERT_EQ(cases.size(), 3u);
-    EXPECT_EQ(cases[1].grains.rotation, Rotation::rolling);
+    EXPECT_EQ(cases[1].grains.rotation, scenario::Rotation::rolling);
     EXPECT_EQ(cases[1].grains.rolling_friction, 0.1);
-    EXPECT_EQ(cases[2].grains.rotation, Rotation::blocked);
+    EXPECT_EQ(cases[2].grains.rotation, scenario::Rotation::blocked);
     EXPECT_EQ(cases[2].grains.rolling_friction, 0);  // what has no effect is not another case
 }
 
@@ -174,8 +179,8 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
 }
 
 TEST(CampaignFile, AMistypedPathIsWrongInput) {
-    EXPECT_THROW(read_campaign("no-such-file.toml"), InputError);
-    EXPECT_THROW(read_campaign("/"), InputError);
+    EXPECT_THROW(scenario::read_campaign("no-such-file.toml"), core::InputError);
+    EXPECT_THROW(scenario::read_campaign("/"), core::InputError);
 }
 
 }  // namespace

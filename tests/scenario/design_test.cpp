@@ -1,8 +1,8 @@
-#include "scenario/design.hpp"
+#include "scenario/reader/design.hpp"
 
 #include "core/error.hpp"
 #include "example_campaign.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +16,21 @@
 namespace vibrotrough {
 namespace {
 
-std::vector<double> throw_numbers(Campaign const& campaign) {
+std::vector<double> throw_numbers(scenario::Campaign const& campaign) {
     std::vector<double> numbers;
-    for (Scenario const& scenario : campaign.cases) numbers.push_back(throw_number(scenario.trough));
+    for (scenario::Scenario const& scenario : campaign.cases)
+        numbers.push_back(throw_number(scenario.trough));
     return numbers;
 }
 
-Campaign parse(std::string const& design) {
-    return parse_campaign(example_campaign + design, "campaign.toml");
+scenario::Campaign parse(std::string const& design) {
+    return scenario::parse_campaign(example_campaign + design, "campaign.toml");
 }
 
 std::string refusal(std::string const& design) {
     try {
         parse(design);
-    } catch (InputError const& error) {
+    } catch (core::InputError const& error) {
         return error.what();
     }
     return "accepted";
@@ -51,7 +52,7 @@ TEST(Design, ZippedListsGoInStepAndMultiplyWithTheSweep) {
         "[zip]\n\"trough.friction\" = [0.1, 0.2, 0.3]\n\"grains.friction\" = [0.4, 0.5, 0.6]\n"
         "[sweep]\n\"trough.throw_number\" = [1, 2]\n");
     ASSERT_EQ(campaign.cases.size(), 6u);
-    for (Scenario const& scenario : campaign.cases)
+    for (scenario::Scenario const& scenario : campaign.cases)
         EXPECT_NEAR(scenario.grains.friction - scenario.trough.friction, 0.3, 1e-12);
     EXPECT_NEAR(throw_number(campaign.cases[2].trough), 1, 1e-12);
     EXPECT_NEAR(throw_number(campaign.cases[3].trough), 2, 1e-12) << "the list runs fastest";
@@ -63,16 +64,16 @@ TEST(Design, PointsFromACsvFile) {
     std::ofstream(folder / "points.csv")
         << "# measured\r\ntrough.throw_number, layer.height\r\n1.5,9 mm\r\n\n2.5,0.015 m\n";
     std::ofstream(folder / "campaign.toml") << example_campaign << "[points_from]\nfile = \"points.csv\"\n";
-    auto const campaign = read_campaign(folder / "campaign.toml");
+    auto const campaign = scenario::read_campaign(folder / "campaign.toml");
     ASSERT_EQ(campaign.cases.size(), 2u);
     EXPECT_DOUBLE_EQ(campaign.cases[0].layer.height.value(), 0.009);
     EXPECT_DOUBLE_EQ(campaign.cases[1].layer.height.value(), 0.015);
     EXPECT_EQ(campaign.files, std::vector{folder / "points.csv"});
     std::ofstream(folder / "points.csv") << "trough.throw_number\n1.5\nfast\n";
     try {
-        read_campaign(folder / "campaign.toml");
+        scenario::read_campaign(folder / "campaign.toml");
         ADD_FAILURE() << "a word was taken for a number";
-    } catch (InputError const& error) {
+    } catch (core::InputError const& error) {
         EXPECT_TRUE(std::string(error.what())
                         .starts_with((folder / "points.csv").string() + ":3: trough.throw_number: "))
             << error.what();
@@ -100,7 +101,7 @@ TEST(Design, ExclusionsSeeGivenAndDerivedValues) {
 // nearly so. Their means are therefore within 1/n of 1/2 where independent points scatter by 1/sqrt(12 n).
 TEST(Design, LatinHypercubesFillEverySlice) {
     for (unsigned const seed : {1u, 2u, 77u}) {
-        auto const points = sample_cube(SampleMethod::latin_hypercube, 50, 4, seed);
+        auto const points = scenario::sample_cube(scenario::SampleMethod::latin_hypercube, 50, 4, seed);
         for (std::size_t k = 0; k < 4; ++k) {
             std::set<int> slices;
             for (auto const& point : points) slices.insert(static_cast<int>(point[k] * 50));
@@ -111,7 +112,7 @@ TEST(Design, LatinHypercubesFillEverySlice) {
 
 TEST(Design, SobolPointsAreEvenAndInTheCube) {
     for (unsigned const seed : {1u, 2u, 77u}) {
-        auto const points = sample_cube(SampleMethod::sobol, 256, 5, seed);
+        auto const points = scenario::sample_cube(scenario::SampleMethod::sobol, 256, 5, seed);
         for (std::size_t k = 0; k < 5; ++k) {
             double sum = 0;
             for (auto const& point : points) {
@@ -127,9 +128,9 @@ TEST(Design, SobolPointsAreEvenAndInTheCube) {
 }
 
 TEST(Design, TheSeedMakesTheSample) {
-    for (auto const method : {SampleMethod::sobol, SampleMethod::latin_hypercube}) {
-        EXPECT_EQ(sample_cube(method, 20, 3, 5), sample_cube(method, 20, 3, 5));
-        EXPECT_NE(sample_cube(method, 20, 3, 5), sample_cube(method, 20, 3, 6));
+    for (auto const method : {scenario::SampleMethod::sobol, scenario::SampleMethod::latin_hypercube}) {
+        EXPECT_EQ(scenario::sample_cube(method, 20, 3, 5), scenario::sample_cube(method, 20, 3, 5));
+        EXPECT_NE(scenario::sample_cube(method, 20, 3, 5), scenario::sample_cube(method, 20, 3, 6));
     }
 }
 
@@ -141,7 +142,7 @@ TEST(Design, SamplesStayInTheirRanges) {
                   "\"layer.grains\" = { from = 100, to = 200 }\n");
         ASSERT_EQ(campaign.cases.size(), 40u);
         std::set<double> distinct;
-        for (Scenario const& scenario : campaign.cases) {
+        for (scenario::Scenario const& scenario : campaign.cases) {
             EXPECT_GE(throw_number(scenario.trough), 1 - 1e-12);
             EXPECT_LT(throw_number(scenario.trough), 3);
             EXPECT_GE(scenario.layer.grains, 100);

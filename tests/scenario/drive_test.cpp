@@ -1,7 +1,7 @@
-#include "scenario/drive.hpp"
+#include "scenario/model/drive.hpp"
 
 #include "example_campaign.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -17,16 +17,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Scenario scenario(std::string const& text) {
-    return parse_campaign(text, "test.toml").cases.front();
+scenario::Scenario scenario(std::string const& text) {
+    return scenario::parse_campaign(text, "test.toml").cases.front();
 }
 
 // X'' = - omega^2 r cos(beta) (sin t + a sin(k t + phase)), so X = r cos(beta) (sin t + a / k^2 sin(k t +
 // phase)).
 TEST(Drive, HarmonicsAreOfAcceleration) {
-    Scenario const s =
+    scenario::Scenario const s =
         scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"5, 0.25, 90 deg\"]"));
-    DriveMotion const motion = drive_motion(s.trough);
+    scenario::DriveMotion const motion = drive_motion(s.trough);
     ASSERT_EQ(motion.along.size(), 2u);
     EXPECT_NEAR(motion.along[0].amplitude, 6e-3 * std::cos(pi / 6), 1e-15);
     EXPECT_NEAR(motion.along[1].amplitude, 6e-3 * std::cos(pi / 6) * 0.25 / 25, 1e-15);
@@ -38,7 +38,7 @@ TEST(Drive, HarmonicsAreOfAcceleration) {
 }
 
 TEST(Drive, AlongPhaseMakesAnEllipse) {
-    DriveMotion const motion = drive_motion(
+    scenario::DriveMotion const motion = drive_motion(
         scenario(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\"")).trough);
     EXPECT_NEAR(motion.along[0].phase, pi / 9, 1e-15);
     EXPECT_EQ(motion.normal[0].phase, 0);
@@ -57,7 +57,7 @@ std::string samples(int count, double period, double spoilt = 0) {
 
 // The discrete Fourier series of a sum of sines below half the sampling frequency is that sum: to rounding.
 TEST(Drive, WaveformBecomesItsFourierSeries) {
-    DriveMotion const motion = read_waveform(samples(16, 0.1), 0.1);
+    scenario::DriveMotion const motion = scenario::read_waveform(samples(16, 0.1), 0.1);
     ASSERT_EQ(motion.along.size(), 2u);
     EXPECT_NEAR(motion.along[0].amplitude, 5e-3, 1e-15);
     EXPECT_NEAR(motion.along[0].phase, 0.3, 1e-12);
@@ -71,7 +71,7 @@ TEST(Drive, WaveformBecomesItsFourierSeries) {
 TEST(Drive, WaveformMistakesAreNamed) {
     auto const error_of = [](std::string const& text) -> std::string {
         try {
-            read_waveform(text, 0.1);
+            scenario::read_waveform(text, 0.1);
         } catch (std::invalid_argument const& error) {
             return error.what();
         }
@@ -97,7 +97,7 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
     auto const read = [&](std::string const& drive) {
         std::string const text = with("amplitude = \"6 mm\"\nthrow_number = 2.0", drive,
                                       with("vibration_angle = \"30 deg\"\n", ""));
-        return parse_campaign(text, "c.toml", {folder, {}}).cases.front();
+        return scenario::parse_campaign(text, "c.toml", {folder, {}}).cases.front();
     };
     std::string const file = "frequency = \"10 Hz\"\nwaveform = \"shaker.csv\"\n";
     try {
@@ -109,7 +109,8 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
                   std::string::npos)
             << error.what();
     }
-    Scenario const s = read("amplitude = \"5.83095 mm\"\nvibration_angle = \"30.964 deg\"\n" + file);
+    scenario::Scenario const s =
+        read("amplitude = \"5.83095 mm\"\nvibration_angle = \"30.964 deg\"\n" + file);
     EXPECT_EQ(drive_motion(s.trough).along.size(), 2u);
     std::filesystem::remove_all(folder);
 }

@@ -1,7 +1,7 @@
-#include "scenario/grains.hpp"
+#include "scenario/model/grains.hpp"
 
 #include "example_campaign.hpp"
-#include "scenario/campaign_file.hpp"
+#include "scenario/reader/campaign_file.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -14,20 +14,20 @@
 namespace vibrotrough {
 namespace {
 
-Grains grains(std::string const& text) {
-    return parse_campaign(text, "test.toml").cases.front().grains;
+scenario::Grains grains(std::string const& text) {
+    return scenario::parse_campaign(text, "test.toml").cases.front().grains;
 }
 
-Grains law(std::string const& name, double spread) {
-    Grains g = grains(example_campaign);
+scenario::Grains law(std::string const& name, double spread) {
+    scenario::Grains g = grains(example_campaign);
     g.diameter_spread = spread;
-    g.size_law = name == "uniform" ? SizeLaw::uniform : SizeLaw::lognormal;
+    g.size_law = name == "uniform" ? scenario::SizeLaw::uniform : scenario::SizeLaw::lognormal;
     return g;
 }
 
-double sum_of_fractions(Grains const& g) {
+double sum_of_fractions(scenario::Grains const& g) {
     double sum = 0;
-    for (SizeClass const& size : size_classes(g)) sum += size.number_fraction;
+    for (scenario::SizeClass const& size : size_classes(g)) sum += size.number_fraction;
     return sum;
 }
 
@@ -57,7 +57,7 @@ TEST(Grains, LognormalIsCutAtTwoAndAHalf) {
 }
 
 TEST(Grains, ClassesAreLargestFirstAndSumToOne) {
-    for (Grains const& g : {grains(example_campaign), law("uniform", 0.5), law("lognormal", 0.5)}) {
+    for (scenario::Grains const& g : {grains(example_campaign), law("uniform", 0.5), law("lognormal", 0.5)}) {
         auto const sizes = size_classes(g);
         EXPECT_NEAR(sum_of_fractions(g), 1, 1e-12);
         for (std::size_t i = 1; i < sizes.size(); ++i) EXPECT_LT(sizes[i].diameter, sizes[i - 1].diameter);
@@ -66,23 +66,24 @@ TEST(Grains, ClassesAreLargestFirstAndSumToOne) {
 
 // Equal masses of 2 mm and 4 mm are 8 : 1 by number.
 TEST(Grains, MassFractionsAreByVolume) {
-    Grains const g = grains(with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
-                                 "diameters = [\"2 mm\", \"4 mm\"]\nmass_fractions = [1, 1]"));
+    scenario::Grains const g = grains(with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
+                                           "diameters = [\"2 mm\", \"4 mm\"]\nmass_fractions = [1, 1]"));
     auto const sizes = size_classes(g);
     ASSERT_EQ(sizes.size(), 2u);
     EXPECT_NEAR(sizes[1].number_fraction / sizes[0].number_fraction, 8, 1e-12);
     EXPECT_NEAR(g.diameter, (8 * 2e-3 + 4e-3) / 9, 1e-15);
-    Grains const by_number = grains(with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
-                                         "diameters = [\"2 mm\", \"4 mm\"]\nnumber_fractions = [3, 1]"));
+    scenario::Grains const by_number =
+        grains(with("diameter = \"3 mm\"\ndiameter_spread = 0.1",
+                    "diameters = [\"2 mm\", \"4 mm\"]\nnumber_fractions = [3, 1]"));
     EXPECT_NEAR(size_classes(by_number)[1].number_fraction, 0.75, 1e-12);
 }
 
 TEST(Grains, ShapeFilesAreReadAndTheirMistakesNamed) {
-    Grains g = grains(with("diameter_spread = 0.1", "shape = \"cube\""));
+    scenario::Grains g = grains(with("diameter_spread = 0.1", "shape = \"cube\""));
     EXPECT_EQ(shape_spheres(g).size(), 8u);
     g.shape = "two.csv";
     auto const error_of = [&](std::string const& text) -> std::string {
-        g.shape_file = NamedFile{"two.csv", text};
+        g.shape_file = scenario::NamedFile{"two.csv", text};
         try {
             shape_spheres(g);
         } catch (std::invalid_argument const& error) {
@@ -104,7 +105,7 @@ TEST(Grains, ShapeFileStandsBesideTheCampaign) {
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "two.csv") << "x,y,z,radius\n0,0,0,1\n1.5,0,0,1\n";
     std::ofstream(folder / "c.toml") << with("diameter_spread = 0.1", "shape = \"two.csv\"");
-    Scenario const s = read_campaign(folder / "c.toml").cases.front();
+    scenario::Scenario const s = scenario::read_campaign(folder / "c.toml").cases.front();
     EXPECT_EQ(shape_spheres(s.grains).size(), 2u);
     ASSERT_EQ(named_files(s).size(), 1u);
     EXPECT_NE(to_toml(s).find("shape = \"two.csv\""), std::string::npos);

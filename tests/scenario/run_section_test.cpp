@@ -1,31 +1,31 @@
 #include "core/error.hpp"
 #include "example_campaign.hpp"
-#include "scenario/campaign_file.hpp"
-#include "scenario/keys.hpp"
+#include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/keys.hpp"
 
 #include <gtest/gtest.h>
 
 namespace vibrotrough {
 namespace {
 
-RunSettings parse(std::string const& section) {
-    return parse_campaign(example_campaign + section, "campaign.toml").run;
+scenario::RunSettings parse(std::string const& section) {
+    return scenario::parse_campaign(example_campaign + section, "campaign.toml").run;
 }
 
 TEST(RunSection, LocalByDefault) {
-    RunSettings const settings = parse("");
-    EXPECT_EQ(settings.executor, ExecutorKind::local);
+    scenario::RunSettings const settings = parse("");
+    EXPECT_EQ(settings.executor, scenario::ExecutorKind::local);
     EXPECT_EQ(settings.retries, 0);
     EXPECT_FALSE(settings.ranks || settings.time_limit || settings.slurm.partition || settings.slurm.minutes);
 }
 
 TEST(RunSection, ReadsAllItsKeys) {
-    RunSettings const settings = parse(
+    scenario::RunSettings const settings = parse(
         "[run]\nexecutor = \"slurm\"\nretries = 2\nranks = 4\ntime_limit = \"2 hours\"\n"
         "[run.slurm]\npartition = \"compute\"\naccount = \"granular-1\"\ntime = \"90 s\"\nmemory = \"1.5 "
         "GB\"\n"
         "concurrent_tasks = 7\n");
-    EXPECT_EQ(settings.executor, ExecutorKind::slurm);
+    EXPECT_EQ(settings.executor, scenario::ExecutorKind::slurm);
     EXPECT_EQ(settings.retries, 2);
     EXPECT_EQ(settings.ranks, 4);
     EXPECT_EQ(settings.time_limit, 7200);
@@ -37,9 +37,10 @@ TEST(RunSection, ReadsAllItsKeys) {
 }
 
 TEST(RunSection, DoesNotChangeTheCases) {
-    auto const with_run = parse_campaign(example_campaign + "[run]\nretries = 2\n", "campaign.toml");
+    auto const with_run =
+        scenario::parse_campaign(example_campaign + "[run]\nretries = 2\n", "campaign.toml");
     EXPECT_EQ(to_toml(with_run.cases.at(0)),
-              to_toml(parse_campaign(example_campaign, "campaign.toml").cases.at(0)));
+              to_toml(scenario::parse_campaign(example_campaign, "campaign.toml").cases.at(0)));
 }
 
 // What reaches a command line is a plain name or a number, whatever the file says.
@@ -50,15 +51,15 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
             try {
                 parse(std::string("[run.slurm]\n") + key + " = \"" + name + "\"\n");
                 ADD_FAILURE() << key << " took " << name;
-            } catch (InputError const& error) {
+            } catch (core::InputError const& error) {
                 std::string const message = error.what();
                 EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;
                 EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             }
         }
     }
-    EXPECT_FALSE(PlainName::from(std::string(65, 'a')));
-    EXPECT_TRUE(PlainName::from(std::string(64, 'a')));
+    EXPECT_FALSE(scenario::PlainName::from(std::string(65, 'a')));
+    EXPECT_TRUE(scenario::PlainName::from(std::string(64, 'a')));
 }
 
 TEST(RunSection, MistakesNameTheirPlace) {
@@ -75,7 +76,7 @@ TEST(RunSection, MistakesNameTheirPlace) {
         try {
             parse(section);
             ADD_FAILURE() << "accepted " << section;
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
         }
     }

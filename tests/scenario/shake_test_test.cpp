@@ -1,4 +1,4 @@
-#include "scenario/shake_test.hpp"
+#include "scenario/reader/shake_test.hpp"
 
 #include "example_campaign.hpp"
 
@@ -18,18 +18,18 @@ class ShakeTestCampaign : public testing::Test {
   protected:
     ~ShakeTestCampaign() override { std::filesystem::remove(path); }
 
-    Campaign made_from(std::string const& text) {
+    scenario::Campaign made_from(std::string const& text) {
         std::ofstream(path) << text;
-        return parse_campaign(shake_test_campaign(path, 0.67), "test.toml");
+        return scenario::parse_campaign(scenario::shake_test_campaign(path, 0.67), "test.toml");
     }
     std::filesystem::path path = testing::TempDir() + fmt::format("shake_{}.toml", ::getpid());
 };
 
 TEST_F(ShakeTestCampaign, ShakesTheSameLayerAlongALevelTrough) {
-    Scenario const original = parse_campaign(example_campaign, "test.toml").cases.front();
-    Campaign const campaign = made_from(example_campaign);
+    scenario::Scenario const original = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
+    scenario::Campaign const campaign = made_from(example_campaign);
     ASSERT_EQ(campaign.cases.size(), 1u);
-    Scenario const& test = campaign.cases.front();
+    scenario::Scenario const& test = campaign.cases.front();
     EXPECT_EQ(test.trough.inclination, 0);
     EXPECT_EQ(test.trough.vibration_angle, 0);
     EXPECT_NEAR(machine_number(test.trough), 0.67, 1e-12);
@@ -50,22 +50,23 @@ TEST_F(ShakeTestCampaign, KeepsSweepsOverTheLayerOnly) {
 "trough.friction" = [0.2, 0.3]
 "grains.friction" = { from = 0.4, to = 0.6, step = 0.1 }
 )");
-    Campaign const campaign = made_from(text);
+    scenario::Campaign const campaign = made_from(text);
     ASSERT_EQ(campaign.cases.size(), 6u);
-    for (Scenario const& one : campaign.cases) EXPECT_EQ(one.trough.amplitude, 0.005);
+    for (scenario::Scenario const& one : campaign.cases) EXPECT_EQ(one.trough.amplitude, 0.005);
     EXPECT_EQ(campaign.cases[0].trough.friction, 0.2);
     EXPECT_EQ(campaign.cases[5].trough.friction, 0.3);
-    for (Scenario const& one : parse_campaign(text, "test.toml").cases) {
-        auto const same = std::ranges::count_if(
-            campaign.cases, [&](Scenario const& test) { return layer_key(test) == layer_key(one); });
+    for (scenario::Scenario const& one : scenario::parse_campaign(text, "test.toml").cases) {
+        auto const same = std::ranges::count_if(campaign.cases, [&](scenario::Scenario const& test) {
+            return layer_key(test) == layer_key(one);
+        });
         EXPECT_EQ(same, 1) << "each case has its test";
     }
 }
 
 /// The layers of a campaign, each once.
-std::set<std::string> layers_of(Campaign const& campaign) {
+std::set<std::string> layers_of(scenario::Campaign const& campaign) {
     std::set<std::string> keys;
-    for (Scenario const& one : campaign.cases) keys.insert(layer_key(one));
+    for (scenario::Scenario const& one : campaign.cases) keys.insert(layer_key(one));
     return keys;
 }
 
@@ -103,11 +104,11 @@ count = 8
 )"}) {
         // Clumps come in one size only.
         std::string const text = with("diameter_spread = 0.1", "diameter_spread = 0") + "\n" + design;
-        Campaign const original = parse_campaign(text, "test.toml");
-        Campaign const made = made_from(text);
+        scenario::Campaign const original = scenario::parse_campaign(text, "test.toml");
+        scenario::Campaign const made = made_from(text);
         EXPECT_EQ(layers_of(made), layers_of(original)) << design;
         EXPECT_EQ(made.cases.size(), layers_of(made).size()) << "one test per layer\n" << design;
-        for (Scenario const& test : made.cases) {
+        for (scenario::Scenario const& test : made.cases) {
             EXPECT_NEAR(machine_number(test.trough), 0.67, 1e-12);
             EXPECT_EQ(test.trough.vibration_angle, 0);
         }
@@ -116,7 +117,7 @@ count = 8
 
 // The theory that is turned around afterwards knows a sinusoid along the trough.
 TEST_F(ShakeTestCampaign, LeavesOutWhatTheDriveHasBesideItsSinusoid) {
-    Campaign const made =
+    scenario::Campaign const made =
         made_from(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\""));
     ASSERT_EQ(made.cases.size(), 1u);
     EXPECT_EQ(made.cases.front().trough.along_phase, 0);

@@ -36,7 +36,7 @@ class ResultFile : public testing::Test {
         overwrite(path, bytes);
         try {
             read_result(path);
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -137,7 +137,7 @@ TEST_F(ResultFile, KeepsWhatIsEmptyInfiniteOrMissing) {
 TEST_F(ResultFile, SameRecordGivesSameBytes) {
     write_result(path, sample_record());
     write_result(folder / "again.h5", sample_record());
-    EXPECT_EQ(read_file(path), read_file(folder / "again.h5"));
+    EXPECT_EQ(core::read_file(path), core::read_file(folder / "again.h5"));
 }
 
 // HDF5's files in memory have names, too: whatever lies in the folder where the program is started must not
@@ -149,12 +149,12 @@ TEST_F(ResultFile, FilesInTheCurrentFolderDoNotMatter) {
     write_result(path, sample_record());
     EXPECT_NO_THROW(expect_equal(read_result(path), sample_record()));
     std::filesystem::current_path(before);
-    EXPECT_EQ(read_file(folder / "vibrotrough"), "the program itself");
+    EXPECT_EQ(core::read_file(folder / "vibrotrough"), "the program itself");
 }
 
 TEST_F(ResultFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
     write_result(path, sample_record());
-    std::string const whole = read_file(path);
+    std::string const whole = core::read_file(path);
     for (std::size_t length = 0; length < whole.size(); length += 97) {
         EXPECT_THAT(refusal(whole.substr(0, length)), AllOf(HasSubstr(path.string()), HasSubstr("damaged")))
             << length;
@@ -163,7 +163,7 @@ TEST_F(ResultFile, TruncatedAnywhereIsAnInputErrorThatNamesTheFile) {
 
 TEST_F(ResultFile, AnyChangedByteIsNoticed) {
     write_result(path, sample_record());
-    std::string const whole = read_file(path);
+    std::string const whole = core::read_file(path);
     for (std::size_t position = 0; position < whole.size(); position += 61) {
         std::string bytes = whole;
         bytes[position] = static_cast<char>(bytes[position] ^ 0x55);
@@ -174,9 +174,9 @@ TEST_F(ResultFile, AnyChangedByteIsNoticed) {
 TEST_F(ResultFile, ForeignFilesAreRefused) {
     EXPECT_THAT(refusal("This is no HDF5 file.\n"), AllOf(HasSubstr(path.string()), HasSubstr("damaged")));
     write_campaign(folder / "campaign.h5", "sample", {sample_record()});
-    EXPECT_THAT(refusal(read_file(folder / "campaign.h5")),
+    EXPECT_THAT(refusal(core::read_file(folder / "campaign.h5")),
                 AllOf(HasSubstr(path.string()), HasSubstr("no result")));
-    EXPECT_THROW(read_result(folder / "none.h5"), MissingError);
+    EXPECT_THROW(read_result(folder / "none.h5"), core::MissingError);
 }
 
 TEST_F(ResultFile, OtherSchemasAreRefused) {
@@ -230,8 +230,8 @@ TEST_F(ForeignTable, ColumnsOfAnotherKindAreRefused) {
 }
 
 TEST_F(ResultFile, SaysWhenTheDiskRefuses) {
-    EXPECT_THROW(write_result(folder / "no_such_folder" / "result.h5", sample_record()), MissingError);
-    EXPECT_THROW(write_campaign(folder / "no_such_folder" / "campaign.h5", "sample", {}), MissingError);
+    EXPECT_THROW(write_result(folder / "no_such_folder" / "result.h5", sample_record()), core::MissingError);
+    EXPECT_THROW(write_campaign(folder / "no_such_folder" / "campaign.h5", "sample", {}), core::MissingError);
 }
 
 // A full disk, made with a limit on file size: the old file stays and no half-written one remains.
@@ -245,7 +245,7 @@ TEST_F(ResultFile, FullDiskLeavesTheOldFile) {
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
     rlimit const small{.rlim_cur = 50000, .rlim_max = old.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    EXPECT_THROW(write_result(path, larger), MissingError);
+    EXPECT_THROW(write_result(path, larger), core::MissingError);
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
 
     expect_equal(read_result(path), sample_record());

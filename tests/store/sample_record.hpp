@@ -32,7 +32,7 @@ inline void fill_layer(PackingRecord& packing, double first) {
 /// A case with two packings of different length whose numbers are easy to tell apart.
 /// `id` and `throw_number` may be chosen to make several.
 inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", double frequency = 13.5) {
-    Scenario scenario{};
+    scenario::Scenario scenario{};
     scenario.campaign = "sample";
     scenario.trough = {.inclination = -0.05,
                        .vibration_angle = 0.5,

@@ -1,8 +1,8 @@
 #include "random_number.hpp"
-#include "theory/contact.hpp"
+#include "theory/detail/contact.hpp"
+#include "theory/detail/flight.hpp"
+#include "theory/detail/periodic.hpp"
 #include "theory/efficiency.hpp"
-#include "theory/flight.hpp"
-#include "theory/periodic.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>

@@ -54,7 +54,7 @@ class Frames : public testing::Test {
 
     /// Times and files of a collection.
     std::vector<std::pair<double, std::string>> collection(std::string const& name) const {
-        std::string const text = read_file(target / name);
+        std::string const text = core::read_file(target / name);
         std::regex const entry("timestep=\"([^\"]+)\" part=\"0\" file=\"([^\"]+)\"");
         std::vector<std::pair<double, std::string>> entries;
         for (std::sregex_iterator found(text.begin(), text.end(), entry), end; found != end; ++found) {
@@ -66,7 +66,7 @@ class Frames : public testing::Test {
     std::string refusal() const {
         try {
             export_frames(source, target);
-        } catch (InputError const& error) {
+        } catch (core::InputError const& error) {
             return error.what();
         }
         return "no error";
@@ -176,7 +176,7 @@ TEST_F(Frames, NoFileHasAppendedData) {
     for (auto const& entry : fs::recursive_directory_iterator(target)) {
         if (entry.path().extension() != ".vtp") continue;
         ++files;
-        std::string const text = read_file(entry.path());
+        std::string const text = core::read_file(entry.path());
         EXPECT_THAT(text, testing::Not(HasSubstr("<AppendedData"))) << entry.path();
         EXPECT_THAT(text, AllOf(HasSubstr("format=\"binary\""), HasSubstr("vtkZLibDataCompressor")));
     }
@@ -220,7 +220,7 @@ TEST_F(Frames, WithoutAPeriodicMotionThereIsNoPointMass) {
 
 TEST_F(Frames, SceneKnowsItsCase) {
     ExportedFrames const exported = export_frames(source, target);
-    std::string const scene = read_file(exported.scene);
+    std::string const scene = core::read_file(exported.scene);
     EXPECT_THAT(scene, HasSubstr("CAPTION = \"throw number 2, \\\"quoted\\\"\"\n"));
     EXPECT_THAT(scene, HasSubstr(fmt::format("FREQUENCY = {}", omega / (2.0 * std::numbers::pi))));
     EXPECT_THAT(scene, testing::Not(HasSubstr("\"@")));
@@ -228,7 +228,7 @@ TEST_F(Frames, SceneKnowsItsCase) {
 }
 
 TEST_F(Frames, HalfWrittenLastFrameIsLeftOut) {
-    std::string const whole = read_file(source.folder / "frames.60600.dump");
+    std::string const whole = core::read_file(source.folder / "frames.60600.dump");
     for (double const share : {0.0, 0.001, 0.003, 0.5, 0.9}) {
         write("frames.60600.dump",
               whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
@@ -243,19 +243,19 @@ TEST_F(Frames, HalfWrittenLastFrameIsLeftOut) {
 }
 
 TEST_F(Frames, HalfWrittenTableLeavesOutTheLastFrame) {
-    std::string const table = read_file(source.folder / "frames.csv");
+    std::string const table = core::read_file(source.folder / "frames.csv");
     write("frames.csv", table.substr(0, table.size() - 3));
     EXPECT_EQ(export_frames(source, target).frames, 2);
 }
 
 TEST_F(Frames, HalfWrittenFrameInBetweenIsAnError) {
-    std::string const whole = read_file(source.folder / "frames.60300.dump");
+    std::string const whole = core::read_file(source.folder / "frames.60300.dump");
     write("frames.60300.dump", whole.substr(0, whole.size() / 2));
     EXPECT_THAT(refusal(), AllOf(HasSubstr("frames.60300.dump"), HasSubstr("ends early")));
 }
 
 TEST_F(Frames, GarbageNamesFileAndLine) {
-    std::string const good = read_file(source.folder / "frames.60300.dump");
+    std::string const good = core::read_file(source.folder / "frames.60300.dump");
     auto const with = [&](std::string const& from, std::string const& to) {
         std::string text = good;
         text.replace(text.find(from), from.size(), to);
@@ -277,7 +277,7 @@ TEST_F(Frames, GarbageNamesFileAndLine) {
 }
 
 TEST_F(Frames, DamagedTableNamesFileAndLine) {
-    std::string const good = read_file(source.folder / "frames.csv");
+    std::string const good = core::read_file(source.folder / "frames.csv");
     auto const with = [&](std::string const& from, std::string const& to) {
         std::string text = good;
         text.replace(text.find(from), from.size(), to);
@@ -318,18 +318,18 @@ TEST_F(Frames, NoFramesAndNoGrainsStillOpen) {
 }
 
 TEST_F(Frames, SaysWhatIsMissing) {
-    EXPECT_THROW(export_frames(source, "/proc/no_such_folder"), MissingError);
+    EXPECT_THROW(export_frames(source, "/proc/no_such_folder"), core::MissingError);
     fs::path const dump = source.folder;
     source.folder = folder / "none";
-    EXPECT_THROW(export_frames(source, target), MissingError);
+    EXPECT_THROW(export_frames(source, target), core::MissingError);
     source.folder = dump;
     source.trough = folder / "none.stl";
-    EXPECT_THROW(export_frames(source, target), MissingError);
+    EXPECT_THROW(export_frames(source, target), core::MissingError);
     source.trough = dump / "frames.csv";
-    EXPECT_THROW(export_frames(source, target), InputError);
+    EXPECT_THROW(export_frames(source, target), core::InputError);
     source.trough = dump / "trough.stl";
     fs::remove(dump / "frames.csv");
-    EXPECT_THROW(export_frames(source, target), MissingError);
+    EXPECT_THROW(export_frames(source, target), core::MissingError);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(Table, IsReadBackByVtk) {
     double constexpr unknown = std::numeric_limits<double>::quiet_NaN();
     write_table(path, {{"case", std::vector<std::string>{"a", "b \xCE\xB2", ""}},
                        {"throw_number", std::vector<double>{1.7, 1e-300, unknown}}});
-    EXPECT_EQ(read_file(path).find("<AppendedData"), std::string::npos);
+    EXPECT_EQ(core::read_file(path).find("<AppendedData"), std::string::npos);
     vtkNew<vtkXMLTableReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
@@ -51,7 +51,7 @@ TEST(Table, OfNoRowOpens) {
     reader->Update();
     EXPECT_EQ(reader->GetOutput()->GetNumberOfRows(), 0);
     fs::remove(path);
-    EXPECT_THROW(write_table("/proc/no/such.vtt", {}), MissingError);
+    EXPECT_THROW(write_table("/proc/no/such.vtt", {}), core::MissingError);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ double legacy_size(fs::path const& frame, fs::path const& legacy) {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(frame.c_str());
     reader->Update();
-    if (reader->GetOutput()->GetNumberOfPoints() != grains) throw InputError("a frame is not whole");
+    if (reader->GetOutput()->GetNumberOfPoints() != grains) throw core::InputError("a frame is not whole");
     vtkNew<vtkPolyDataWriter> writer;
     writer->SetInputData(reader->GetOutput());
     writer->SetFileTypeToASCII();

@@ -1,0 +1,112 @@
+#include "app/commands.hpp"
+#include "app/compared_cases.hpp"
+#include "app/exit_code.hpp"
+#include "campaign/state/plan.hpp"
+#include "compare/comparison.hpp"
+#include "compare/select.hpp"
+
+#include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    std::string folder;
+    bool json = false;
+    bool csv = false;
+    bool curves = false;
+    std::string sort;
+    std::vector<std::string> filters;
+    std::string colour = "auto";
+};
+
+/// On a terminal the table fits its width and has colour, unless NO_COLOR is set (no-color.org).
+compare::TableStyle style_for(std::string const& colour) {
+    compare::TableStyle style;
+    bool const terminal = ::isatty(STDOUT_FILENO) == 1;
+    winsize size{};
+    if (terminal && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) style.width = size.ws_col;
+    char const* const no_colour = std::getenv("NO_COLOR");
+    bool const welcome = terminal && (no_colour == nullptr || *no_colour == '\0');
+    style.colour = colour == "always" || (colour == "auto" && welcome);
+    return style;
+}
+
+int run(Options const& options) {
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    std::vector<compare::Row> rows = compared_cases(plan).rows;
+    for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition);
+    if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort);
+    if (options.json) {
+        fmt::print("{}", compare::to_json(rows));
+    } else if (options.curves) {
+        fmt::print("{}", compare::theory_curves_csv(rows));
+    } else if (options.csv) {
+        fmt::print("{}", compare::to_csv(rows));
+    } else {
+        fmt::print("{}", compare::to_table(rows, style_for(options.colour)));
+    }
+    return all_well;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command = program.add_subcommand(
+        "compare", "Set the measured velocity efficiency of every case beside the point-mass theory");
+    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
+        ->required();
+    CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
+    CLI::Option* const csv =
+        command->add_flag("--csv", options->csv, "Print CSV with the same columns")->excludes(json);
+    command
+        ->add_flag("--theory-curves", options->curves,
+                   "Print fine theory curves through the cases as CSV, for figures")
+        ->excludes(json)
+        ->excludes(csv);
+    command
+        ->add_option("--sort", options->sort,
+                     "Sort by a column of the JSON or by 'difference' (DEM - theory), e.g. difference:desc")
+        ->type_name("COLUMN[:desc]");
+    command
+        ->add_option("--filter", options->filters,
+                     "Keep the cases for which a column of the JSON (or 'difference') is > >= < <= = or != a "
+                     "value; give it again for a further condition")
+        ->type_name("CONDITION")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--color", options->colour,
+                     "Colour the table: auto is on a terminal where NO_COLOR is not set")
+        ->check(CLI::IsMember({"auto", "always", "never"}))
+        ->capture_default_str();
+    command->footer(
+        "eta is the mean velocity of the layer relative to the trough over omega r cos(beta), +- the "
+        "half-width of its\n"
+        "confidence interval over all packings. After 'vibrotrough friction-test' the theory stands there "
+        "twice: at "
+        "the grain's\nfriction and at the layer's. 'eta point, its force' is that of a point mass under the "
+        "layer's own normal "
+        "force:\nhow it differs from the theory is due to how the layer presses; how the layer differs from "
+        "it, "
+        "to how its grains pass\nfriction on, to 0.05. In colour: yellow where the layer is "
+        "faster than the "
+        "theory, "
+        "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n"
+        "Exit codes: 0 all well; 2 the input is wrong.\n"
+        "Examples: vibrotrough compare runs/demo --csv > demo.csv\n"
+        "          vibrotrough compare runs/demo --filter 'throw_number>1.8' --filter 'outcome=finished' "
+        "--sort "
+        "difference:desc");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

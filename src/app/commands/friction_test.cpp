@@ -1,0 +1,143 @@
+#include "campaign/friction_test.hpp"
+
+#include "app/commands.hpp"
+#include "app/engine_certificate.hpp"
+#include "app/exit_code.hpp"
+#include "app/progress_printer.hpp"
+#include "campaign/execute/local_executor.hpp"
+#include "campaign/state/overview.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
+#include "scenario/reader/shake_test.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string campaign_file;
+    std::string output;
+    std::string engine;
+    std::optional<double> machine_number;
+    bool accept_failed_probes = false;
+    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+};
+
+void print(campaign::LayerFriction const& test) {
+    fmt::print("layer {}, grain friction {:.3g}, K = {:.3f}: ", test.layer, test.grain_friction,
+               test.machine_number);
+    if (test.displacement) {
+        fmt::print("slides {:.4f}", *test.displacement);
+        if (test.half_width) fmt::print(" +- {:.4f}", *test.half_width);
+        fmt::print(" r, creeps {:+.4f} r per cycle; ", test.creep);
+    }
+    if (test.friction) {
+        fmt::print("effective friction {:.4f} ({:.4f} to {:.4f}), mode {}", *test.friction, *test.low,
+                   *test.high, test.mode);
+        if (!test.message.empty()) fmt::print("; {}", test.message);
+    } else {
+        fmt::print("no number: {}", test.message);
+    }
+    fmt::print("\n");
+}
+
+int exit_code_of(campaign::Summary const& summary, std::vector<campaign::LayerFriction> const& tests) {
+    if (summary.interrupted) return interrupted;
+    bool const all = std::ranges::all_of(tests, [](auto const& test) { return test.friction.has_value(); });
+    return all ? all_well : some_cases_failed;
+}
+
+int run(Options const& options) {
+    scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
+    std::optional<fs::path> const asked =
+        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
+    engine::Engine engine = engine::find_engine(asked);
+    fs::path const folder =
+        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    fs::path const test_folder = folder / "friction-test";
+    double const k = options.machine_number.value_or(campaign::default_machine_number(campaign));
+
+    core::make_folder(test_folder);
+    if (!certify(engine, options.accept_failed_probes)) return interrupted;
+    fs::path const test_file = test_folder / "shake-test.toml";
+    for (scenario::Scenario const& one : campaign.cases) campaign::write_named_files(one, test_folder);
+    for (fs::path const& file : campaign.files)
+        core::write_file_atomically(test_folder / file.filename(), core::read_file(file));
+    core::write_file_atomically(test_file, scenario::shake_test_campaign(options.campaign_file, k));
+    campaign::Plan const plan =
+        campaign::make_plan(scenario::read_campaign(test_file), test_folder, engine.version);
+    campaign::Summary summary;
+    {
+        ProgressPrinter printer;
+        summary = campaign::run_locally(plan, test_file, engine, campaign.run, options.jobs, printer);
+    }
+    campaign::write_campaign_file(plan);
+    auto const tests = campaign::measure_friction(plan);
+    for (campaign::LayerFriction const& test : tests) print(test);
+    if (summary.interrupted) {
+        fmt::print("interrupted: the same command goes on where it stopped\n");
+        return interrupted;
+    }
+    campaign::write_friction(folder, tests);
+    fmt::print("written to {}; 'vibrotrough compare {}' shows the theory at this friction, too\n",
+               campaign::friction_file(folder).string(), core::shell_word(folder));
+    return exit_code_of(summary, tests);
+}
+
+}  // namespace
+
+void add_friction_test(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command = program.add_subcommand(
+        "friction-test",
+        "Measure the friction of a campaign's layers as a whole: shake each of them along a level trough, "
+        "see\n"
+        "how far it slides, and find the friction with which a point mass slides as far (Sloot & Kruyt "
+        "1996,\n"
+        "section 6). Grains roll and layers shear, so that this friction is below that of grain on trough.");
+    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (see the README)")
+        ->required();
+    command
+        ->add_option(
+            "--output", options->output,
+            "Folder of the campaign's results; default runs/<name>. The test is a campaign of its own in "
+            "DIR/friction-test")
+        ->type_name("DIR");
+    command
+        ->add_option(
+            "--machine-number", options->machine_number,
+            "K = omega^2 r / g of the shaking. The layer must slide both ways without a rest: K > mu sqrt(1 "
+            "+ pi^2 / 4)\n= 1.862 mu; the closer to that, the sharper the answer. Default: the paper's 0.67, "
+            "or a fifth above that limit\nfor the largest grain friction when that is more")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->type_name("K");
+    command->add_option("--jobs", options->jobs, "Engines that run at a time")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
+        ->type_name("PATH");
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes,
+                      "Run although the engine failed its probes (see probe-engine)");
+    command->footer(
+        "Cases that share grains, layer and trough surface share a test. Ctrl-C stops cleanly, and the same "
+        "command "
+        "goes on\nwhere it stopped. The numbers are in DIR/friction.json; 'vibrotrough compare DIR' uses "
+        "them.\n"
+        "Exit codes: 0 every layer has a number; 1 some have none (it is said why); 2 the input is wrong;\n"
+        "3 something is missing (no liggghts, no disk); 130 interrupted.\n"
+        "Example: vibrotrough friction-test validation/demo/campaign.toml --output runs/demo --jobs 2");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

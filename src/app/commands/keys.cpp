@@ -1,0 +1,20 @@
+#include "scenario/reader/keys.hpp"
+
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+
+void add_keys(CLI::App& program, int& exit_code) {
+    CLI::App* const command =
+        program.add_subcommand("keys", "Print the reference of all keys of the campaign file");
+    command->callback([&exit_code] {
+        fmt::print("{}", scenario::key_reference());
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

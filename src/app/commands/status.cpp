@@ -1,0 +1,94 @@
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "campaign/state/overview.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string folder;
+    bool json = false;
+};
+
+/// Cases by what is to be done about them.
+struct Counts {
+    int finished = 0, unsure = 0, failed = 0, running = 0, left = 0;
+};
+
+Counts count(std::vector<campaign::CaseOverview> const& cases) {
+    Counts counts;
+    for (campaign::CaseOverview const& one : cases) {
+        if (one.record) {
+            ++(one.outcome == "finished" ? counts.finished : counts.unsure);
+        } else if (one.outcome == "running") {
+            ++counts.running;
+        } else if (one.outcome == "open" || one.outcome == "interrupted" || one.outcome == "queued" ||
+                   one.outcome == "unknown") {
+            ++counts.left;
+        } else {
+            ++counts.failed;
+        }
+    }
+    return counts;
+}
+
+void print_json(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
+    Counts const counts = count(cases);
+    Json list = Json::array();
+    for (campaign::CaseOverview const& one : cases) {
+        list.push_back({{"case", one.planned->id},
+                        {"outcome", one.outcome},
+                        {"message", one.message},
+                        {"packings_done", one.packings_done},
+                        {"packings", one.planned->scenario.measure.packings}});
+    }
+    Json const json{
+        {"campaign", plan.name},       {"engine", plan.engine_version}, {"cases_total", cases.size()},
+        {"finished", counts.finished}, {"unsure", counts.unsure},       {"failed", counts.failed},
+        {"running", counts.running},   {"left", counts.left},           {"cases", list}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
+    Counts const counts = count(cases);
+    for (campaign::CaseOverview const& one : cases) {
+        if (one.outcome == "open") continue;
+        fmt::print("{}  {:<14} packings {}/{}{}{}\n", one.planned->id, one.outcome, one.packings_done,
+                   one.planned->scenario.measure.packings, one.message.empty() ? "" : "  ", one.message);
+    }
+    fmt::print(
+        "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
+        plan.name, cases.size(), counts.finished, counts.unsure, counts.failed, counts.running, counts.left);
+}
+
+int run(Options const& options) {
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    auto const cases = campaign::look_at(plan);
+    options.json ? print_json(plan, cases) : print_text(plan, cases);
+    return all_well;
+}
+
+}  // namespace
+
+void add_status(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        program.add_subcommand("status", "Say what of a campaign is done, running, failed and left");
+    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
+        ->required();
+    command->add_flag("--json", options->json, "Print JSON for scripts");
+    command->footer("Works while the campaign runs. Example: vibrotrough status runs/demo");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,186 @@
+#include "theory/design.hpp"
+
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+#include "theory/sensitivity.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Options {
+    Text friction, frequency, amplitude, vibration_angle, inclination, machine_number, throw_number;
+    Text mass_flow, bulk_density, layer_height, layer_width, gravity;
+    bool json = false;
+};
+
+/// "LOW to HIGH", or one value for both.
+theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
+                         auto const& read_one) {
+    auto const middle = text.find(" to ");
+    if (middle == std::string::npos) {
+        double const value = read_one(text);
+        return {value, value};
+    }
+    theory::Range const range{read_one(text.substr(0, middle)), read_one(text.substr(middle + 4))};
+    if (range.low <= range.high) return range;
+    throw core::InputError(
+        fmt::format("{} {}: the first value is above the second; write for example {} \"{}\"", option, text,
+                    option, example));
+}
+
+theory::DesignLimits read(Options const& o) {
+    theory::DesignLimits l{};
+    l.friction =
+        read_number_within("--friction", required("--friction", o.friction, "0.3"), "0.3", 1e-6, 1000);
+    auto const quantity = [](char const* option, char const* unit, char const* example) {
+        return [=](std::string const& text) { return read_positive_quantity(option, text, unit, example); };
+    };
+    auto const angle = [](char const* option, char const* example, double low) {
+        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
+    };
+    if (o.frequency) {
+        char const* const example = "5 Hz to 50 Hz";
+        l.frequency =
+            read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
+    }
+    if (o.amplitude) {
+        char const* const example = "1 mm to 8 mm";
+        l.amplitude = read_range("--amplitude", *o.amplitude, example, quantity("--amplitude", "m", example));
+    }
+    if (o.vibration_angle) {
+        char const* const example = "10 deg to 45 deg";
+        l.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, example,
+                                       angle("--vibration-angle", example, 0));
+    }
+    if (o.inclination) {
+        char const* const example = "-5 deg to 0 deg";
+        l.inclination =
+            read_range("--inclination", *o.inclination, example, angle("--inclination", example, -90));
+    }
+    if (o.machine_number)
+        l.most_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
+    if (o.throw_number)
+        l.most_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+    auto const set = [](double& value, char const* option, Text const& text, char const* unit,
+                        char const* example) {
+        if (text) value = read_positive_quantity(option, *text, unit, example);
+    };
+    set(l.least_mass_flow, "--mass-flow", o.mass_flow, "kg/s", "2 kg/s");
+    set(l.bulk_density, "--bulk-density", o.bulk_density, "kg/m3", "800 kg/m3");
+    set(l.layer_height, "--layer-height", o.layer_height, "m", "20 mm");
+    set(l.layer_width, "--layer-width", o.layer_width, "m", "200 mm");
+    set(l.gravity, "--gravity", o.gravity, "m/s2", "9.81 m/s2");
+    if (o.mass_flow && !(o.bulk_density && o.layer_height && o.layer_width)) {
+        throw core::InputError(
+            fmt::format("--mass-flow {}: needs --bulk-density, --layer-height and --layer-width, too; write "
+                        "them",
+                        *o.mass_flow));
+    }
+    return l;
+}
+
+nlohmann::ordered_json as_json(theory::Design const& d) {
+    return {{"feasible", d.feasible},
+            {"conveying_speed_m_per_s", d.conveying_speed},
+            {"mass_flow_kg_per_s", d.mass_flow},
+            {"frequency_hz", d.frequency},
+            {"amplitude_m", d.amplitude},
+            {"vibration_angle_deg", d.vibration_angle / degree},
+            {"inclination_deg", d.inclination / degree},
+            {"throw_number", d.throw_number},
+            {"machine_number", d.machine_number},
+            {"velocity_efficiency", d.velocity_efficiency},
+            {"mode", d.mode},
+            {"active_limits", d.active_limits}};
+}
+
+/// How eta answers at the optimum.
+std::vector<theory::Sensitivity> sensitivities_at(theory::Design const& d, double friction) {
+    theory::Inputs inputs;
+    inputs.set(theory::Input::throw_number, d.throw_number);
+    inputs.set(theory::Input::tan_vibration_angle, std::tan(d.vibration_angle));
+    inputs.set(theory::Input::tan_inclination, std::tan(d.inclination));
+    inputs.set(theory::Input::friction, friction);
+    return theory::sensitivities(inputs);
+}
+
+void run(Options const& options) {
+    theory::DesignLimits const limits = read(options);
+    theory::Design d;
+    try {
+        d = theory::fastest_design(limits);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
+    }
+    auto json = as_json(d);
+    for (auto const& s : sensitivities_at(d, limits.friction)) {
+        json["sensitivity"][std::string(theory::name_of(s.input))] = s.derivative;
+    }
+    if (options.json) {
+        fmt::print("{}\n", json.dump(2));
+        return;
+    }
+    if (!d.feasible) fmt::print("the mass flow asked for is not reached; this is the fastest machine\n");
+    fmt::print("conveying speed      {:.6g} m/s\n", d.conveying_speed);
+    if (d.mass_flow > 0) fmt::print("mass flow            {:.6g} kg/s\n", d.mass_flow);
+    fmt::print("frequency            {:.6g} Hz\namplitude            {:.6g} mm\n", d.frequency,
+               1e3 * d.amplitude);
+    fmt::print("vibration angle      {:.6g} deg\ninclination          {:.6g} deg\n",
+               d.vibration_angle / degree, d.inclination / degree);
+    fmt::print("throw number         {:.6g}\nmachine number       {:.6g}\n", d.throw_number,
+               d.machine_number);
+    fmt::print("velocity efficiency  {:.6g}\nmode                 {}\n", d.velocity_efficiency, d.mode);
+    fmt::print("held back by         {}\n", fmt::join(d.active_limits, ", "));
+    for (auto const& [name, value] : json["sensitivity"].items()) {
+        fmt::print("d eta / d {:<22} {:.6g}\n", name, value.get<double>());
+    }
+}
+
+}  // namespace
+
+void add_theory_design(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "design",
+        "Find the machine that conveys fastest within limits, which limit holds it back, and how the "
+        "efficiency answers\n"
+        "to each input there. A range is \"LOW to HIGH\", one value fixes it.\n"
+        "Example: vibrotrough theory design --friction 0.3 --machine-number 4 --frequency \"5 Hz to 50 Hz\" "
+        "\\\n"
+        "           --amplitude \"1 mm to 8 mm\" --vibration-angle \"10 deg to 45 deg\"");
+    auto const options = std::make_shared<Options>();
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command->add_option(name, text, help);
+    };
+    add("--friction", options->friction, "mu of the material on the trough");
+    add("--frequency", options->frequency, "Range; \"5 Hz to 60 Hz\" when not given");
+    add("--amplitude", options->amplitude, "Range of r, half the stroke; \"0.5 mm to 15 mm\" when not given");
+    add("--vibration-angle", options->vibration_angle, "Range; \"5 deg to 60 deg\" when not given");
+    add("--inclination", options->inclination, "Range, uphill positive; level when not given");
+    add("--machine-number", options->machine_number, "Largest K that the structure bears; 5 when not given");
+    add("--throw-number", options->throw_number, "Largest Gamma; 3.29 when not given, flights of one cycle");
+    add("--mass-flow", options->mass_flow, "Least mass flow asked for: \"2 kg/s\"");
+    add("--bulk-density", options->bulk_density, "Of the layer: \"800 kg/m3\"");
+    add("--layer-height", options->layer_height, "\"20 mm\"");
+    add("--layer-width", options->layer_width, "\"200 mm\"");
+    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

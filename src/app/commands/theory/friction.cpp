@@ -1,0 +1,146 @@
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+#include "theory/friction_test.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    Text machine_number, displacement, uncertainty, friction, tan_inclination;
+    bool json = false;
+};
+
+using Json = nlohmann::ordered_json;
+
+std::string warning_for(std::string const& mode) {
+    if (mode == "PN") return "";
+    return fmt::format(
+        "the mode is {}, not PN: the mass rests within the cycle, so static friction acts on the result; "
+        "shake harder (larger machine number)",
+        mode);
+}
+
+/// "0.05:0.6:56": the curve of Fig. 8 as CSV.
+void curve(std::string const& text, theory::ShakeTest const& test) {
+    char const* const example = "0.05:0.6:56";
+    auto const first = text.find(':'), second = text.rfind(':');
+    if (first == second) {
+        throw core::InputError(fmt::format(
+            "--friction {}: a curve needs FROM:TO:COUNT; write for example --friction {}", text, example));
+    }
+    double const from = read_number_within("--friction", text.substr(0, first), example, 0, 1e6);
+    double const to =
+        read_number_within("--friction", text.substr(first + 1, second - first - 1), example, from, 1e6);
+    int const count = read_count("--friction", text.substr(second + 1), example, 2, 1'000'000);
+    fmt::print("friction,max_relative_displacement,mode\n");
+    for (int i = 0; i < count; ++i) {
+        double const mu = from + (to - from) * i / (count - 1);
+        theory::ShakeMotion const motion = theory::shake(test, mu);
+        fmt::print("{},{},{}\n", mu, motion.max_relative_displacement, motion.mode);
+    }
+}
+
+void forward(Options const& options, theory::ShakeTest const& test) {
+    if (options.friction->find(':') != std::string::npos) {
+        curve(*options.friction, test);
+        return;
+    }
+    double const mu = read_number_within("--friction", *options.friction, "0.3", 0, 1e6);
+    theory::ShakeMotion const motion = theory::shake(test, mu);
+    if (options.json) {
+        Json const answer = {{"friction", mu},
+                             {"machine_number", test.machine_number},
+                             {"max_relative_displacement", motion.max_relative_displacement},
+                             {"mode", motion.mode}};
+        fmt::print("{}\n", answer.dump(2));
+        return;
+    }
+    fmt::print("max relative displacement  {:.6f} r\nmode                       {}\n",
+               motion.max_relative_displacement, motion.mode);
+}
+
+void inverse(Options const& options, theory::ShakeTest const& test) {
+    double const x =
+        read_number_within("--max-relative-displacement", *options.displacement, "1.5", 1e-9, 1000);
+    double const dx =
+        options.uncertainty ? read_number_within("--uncertainty", *options.uncertainty, "0.05", 0, 1000) : 0;
+    theory::FrictionEstimate const estimate = theory::friction_from_shake(test, x, dx);
+    double const half = (estimate.high - estimate.low) / 2;
+    std::string const warning = warning_for(estimate.mode);
+    if (options.json) {
+        Json const answer = {{"friction", estimate.friction},
+                             {"friction_low", estimate.low},
+                             {"friction_high", estimate.high},
+                             {"friction_uncertainty", half},
+                             {"mode", estimate.mode},
+                             {"warning", warning},
+                             {"machine_number", test.machine_number},
+                             {"max_relative_displacement", x},
+                             {"uncertainty", dx}};
+        fmt::print("{}\n", answer.dump(2));
+    } else {
+        fmt::print("friction  {:.6f}", estimate.friction);
+        if (dx > 0) fmt::print(" +- {:.6f}, from {:.6f} to {:.6f}", half, estimate.low, estimate.high);
+        fmt::print("\nmode      {}\n", estimate.mode);
+    }
+    if (!warning.empty()) fmt::print(stderr, "vibrotrough: warning: {}\n", warning);
+}
+
+void run(Options const& options) {
+    auto const& k = required("--machine-number", options.machine_number, "1.5");
+    theory::ShakeTest test{read_number_within("--machine-number", k, "1.5", 1e-3, 1e4)};
+    if (options.tan_inclination) {
+        test.tan_inclination =
+            read_number_within("--tan-inclination", *options.tan_inclination, "0.01", -1000, 1000);
+    }
+    if (options.friction && options.displacement) {
+        throw core::InputError(
+            fmt::format("--friction {} and --max-relative-displacement {} are both given; write only one of "
+                        "them",
+                        *options.friction, *options.displacement));
+    }
+    if (!options.friction) required("--max-relative-displacement", options.displacement, "1.5");
+    try {
+        options.friction ? forward(options, test) : inverse(options, test);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format(
+            "{}; write a displacement of 0 to 2 amplitudes, or another machine number", error.what()));
+    }
+}
+
+}  // namespace
+
+void add_theory_friction(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "friction",
+        "Find the friction coefficient from a horizontal shake test (Fig. 8): shake a plate horizontally, "
+        "measure the\n"
+        "largest displacement of a box of grains against it, in amplitudes r (peak to peak of the slip).\n"
+        "Example: vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9 "
+        "--uncertainty 0.02\n"
+        "The forward curve: vibrotrough theory friction --machine-number 1.5 --friction 0.05:0.6:56");
+    auto const options = std::make_shared<Options>();
+    command->add_option("--machine-number", options->machine_number, "K = omega^2 r / g of the shaking");
+    command->add_option("--max-relative-displacement", options->displacement,
+                        "Measured, in amplitudes r, 0 to 2");
+    command->add_option("--uncertainty", options->uncertainty, "Of that displacement, in amplitudes");
+    command->add_option("--friction", options->friction,
+                        "Instead: print the displacement for this mu, or for FROM:TO:COUNT as CSV");
+    command->add_option("--tan-inclination", options->tan_inclination,
+                        "Of the plate along the shaking; 0 when not given");
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,124 @@
+#include "theory/limits.hpp"
+
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    Text tan_vibration_angle, tan_inclination, friction, throw_number;
+    bool json = false;
+};
+
+using Json = nlohmann::ordered_json;
+
+struct Inputs {
+    double tan_beta, tan_alpha, mu;
+};
+
+Inputs read(Options const& o) {
+    Inputs in{};
+    in.tan_beta =
+        read_number_within("--tan-vibration-angle", o.tan_vibration_angle.value_or("0.5"), "0.5", 1e-9, 1e6);
+    in.tan_alpha =
+        read_number_within("--tan-inclination", o.tan_inclination.value_or("0"), "-0.05", -1e6, 1e6);
+    in.mu = read_number_within("--friction", required("--friction", o.friction, "0.35"), "0.35", 1e-6, 1e6);
+    if (std::abs(in.tan_alpha) >= in.mu) {
+        throw core::InputError(
+            fmt::format("--friction {}: is not above |tan(alpha)| = {:g}, the mass runs away; write a larger "
+                        "friction",
+                        *o.friction, std::abs(in.tan_alpha)));
+    }
+    return in;
+}
+
+Json answers(Options const& options, Inputs const& in) {
+    double const whole = theory::throw_number_of_flight(1);
+    auto const best = theory::best_throw_number(in.tan_beta, in.tan_alpha, in.mu);
+    Json json = {
+        {"throw_number_of_whole_cycle_flight", whole},
+        {"efficiency_at_whole_cycle_flight",
+         theory::solve(theory::PointMass{whole, 1e-9, 0, in.mu}).velocity_efficiency},
+        {"best_throw_number_small_angle", theory::best_throw_number_small_angle()},
+        {"best_throw_number", best.throw_number},
+        {"efficiency_at_best_throw_number", best.velocity_efficiency},
+        {"small_angle_efficiency", theory::small_angle_efficiency(in.tan_alpha, in.mu)},
+        {"pn_machine_number_level_small_angle", theory::pn_machine_number(in.mu)},
+    };
+    if (!options.throw_number) return json;
+    double const gamma = read_number_within("--throw-number", *options.throw_number, "0.8", 1e-9, 1e4);
+    auto const pn = theory::pn_motion({gamma, in.tan_beta, in.tan_alpha, in.mu});
+    json["pn_closed_form"] = nullptr;
+    if (pn) {
+        json["pn_closed_form"] = {{"positive_start_rad", pn->positive_start},
+                                  {"positive_end_rad", pn->positive_end},
+                                  {"positive_displacement", pn->positive_displacement},
+                                  {"negative_displacement", pn->negative_displacement},
+                                  {"velocity_efficiency", pn->velocity_efficiency}};
+    }
+    return json;
+}
+
+void print_text(Json const& json, Inputs const& in) {
+    auto const line = [&](char const* words, char const* key) {
+        fmt::print("{:<68} {:.6f}\n", words, json[key].get<double>());
+    };
+    line("throw number of a flight of one cycle, sqrt(1 + pi^2) (Eq. 15)",
+         "throw_number_of_whole_cycle_flight");
+    line("  efficiency there, small vibration angle, level", "efficiency_at_whole_cycle_flight");
+    line("throw number of maximum efficiency, small vibration angle (Eq. 19)",
+         "best_throw_number_small_angle");
+    line(fmt::format("throw number of maximum efficiency at tan(beta) = {:g}, mu = {:g}", in.tan_beta, in.mu)
+             .c_str(),
+         "best_throw_number");
+    line("  efficiency there", "efficiency_at_best_throw_number");
+    line("efficiency for small vibration angle, large K, no flight (Eq. 21)", "small_angle_efficiency");
+    line("machine number from which the mode is PN, beta = 0, level", "pn_machine_number_level_small_angle");
+    if (!json.contains("pn_closed_form")) return;
+    if (json["pn_closed_form"].is_null()) {
+        fmt::print("PN mode in closed form (Eq. 20): this is not the PN mode\n");
+        return;
+    }
+    Json const& pn = json["pn_closed_form"];
+    fmt::print("PN mode in closed form (Eq. 20): P from {:.6f} to {:.6f} rad, efficiency {:.6f}\n",
+               pn["positive_start_rad"].get<double>(), pn["positive_end_rad"].get<double>(),
+               pn["velocity_efficiency"].get<double>());
+}
+
+}  // namespace
+
+void add_theory_limits(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "limits",
+        "Print the theory's closed results: the throw number of maximum efficiency and how it moves with\n"
+        "mu tan(beta) (Eqs. 15, 19), the limit of small vibration angles (Eq. 21), where the PN mode begins, "
+        "and with\n"
+        "--throw-number the PN mode in closed form (Eq. 20).\n"
+        "Example: vibrotrough theory limits --friction 0.35 --tan-inclination -0.1 --tan-vibration-angle "
+        "0.5");
+    auto const options = std::make_shared<Options>();
+    command->add_option("--friction", options->friction, "mu");
+    command->add_option("--tan-vibration-angle", options->tan_vibration_angle,
+                        "tan(beta); 0.5 when not given");
+    command->add_option("--tan-inclination", options->tan_inclination, "tan(alpha); 0 when not given");
+    command->add_option("--throw-number", options->throw_number, "Gamma, for the PN mode in closed form");
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options, &exit_code] {
+        Inputs const in = read(*options);
+        Json const json = answers(*options, in);
+        options->json ? fmt::print("{}\n", json.dump(2)) : print_text(json, in);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,120 @@
+#include "theory/map.hpp"
+
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+#include "store/theory_map.hpp"
+#include "view/theory_map_vtk.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    TheoryOptions motion;
+    Text x, y, output, jobs;
+};
+
+char const* const axis_example = "throw_number=0.3:3.3:500";
+
+std::string input_names() {
+    std::string names;
+    for (std::size_t i = 0; i < theory::input_count; ++i) {
+        names += (i > 0 ? ", " : "") + std::string(theory::name_of(static_cast<theory::Input>(i)));
+    }
+    return names;
+}
+
+/// "throw_number=0.3:3.3:500"
+theory::MapAxis read_axis(std::string const& option, std::string const& text) {
+    auto const equals = text.find('='), first = text.find(':'), second = text.rfind(':');
+    if (equals == std::string::npos || first == std::string::npos || first == second || first < equals) {
+        throw core::InputError(fmt::format("{} {}: needs NAME=FROM:TO:COUNT; write for example {} {}", option,
+                                           text, option, axis_example));
+    }
+    auto const name = text.substr(0, equals);
+    auto const input = theory::input_named(name);
+    if (!input) {
+        throw core::InputError(
+            fmt::format("{} {}: '{}' is no input; write one of {}", option, text, name, input_names()));
+    }
+    theory::MapAxis axis{*input, 0, 0, 0};
+    axis.from = read_number(option, text.substr(equals + 1, first - equals - 1), axis_example);
+    axis.to = read_number(option, text.substr(first + 1, second - first - 1), axis_example);
+    axis.count = read_count(option, text.substr(second + 1), axis_example, 1, 20000);
+    return axis;
+}
+
+void refuse_given_axis(theory::Inputs const& fixed, theory::MapAxis const& axis) {
+    if (!fixed.get(axis.input)) return;
+    std::string const name(theory::name_of(axis.input));
+    throw core::InputError(fmt::format("{} is both an axis and an option; leave the option out", name));
+}
+
+void run(Options const& options) {
+    theory::MapAxis const x = read_axis("--x", required("--x", options.x, axis_example));
+    theory::MapAxis const y = read_axis("--y", required("--y", options.y, "vibration_angle_deg=5:60:500"));
+    std::filesystem::path const output = required("--output", options.output, "map.h5");
+    if (output.extension() != ".h5") {
+        throw core::InputError(
+            fmt::format("--output {}: must end in .h5; write for example --output map.h5", output.string()));
+    }
+    int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
+    theory::Inputs const fixed = options.motion.given();
+    refuse_given_axis(fixed, x);
+    refuse_given_axis(fixed, y);
+    theory::Inputs complete = fixed;
+    complete.set(x.input, x.from);
+    complete.set(y.input, y.from);
+    require_complete(complete);
+    theory::Map map;
+    try {
+        map = theory::solve_map(fixed, x, y, {.jobs = jobs});
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(
+            fmt::format("the map leaves the range of the theory: {}; write other axes", error.what()));
+    }
+    auto const stem = output.parent_path() / output.stem();
+    std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
+    store::write_theory_map(output, map, fixed);
+    view::write_theory_image(image, map);
+    view::write_theory_boundaries(lines, map);
+    std::set<theory::ModeCode> modes;
+    for (auto const& point : map.points) modes.insert(point.mode);
+    fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(), modes.size(),
+               map.boundaries.size());
+    fmt::print("{:.3f} microseconds of CPU per solution\n", 1e6 * map.cpu_seconds_per_solution);
+    fmt::print("written: {}\n         {}\n         {}\n", output.string(), image.string(), lines.string());
+}
+
+}  // namespace
+
+void add_theory_map(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "map",
+        "Solve a grid over any two inputs: velocity efficiency, modes and the exact lines between them, as "
+        "HDF5 and for\n"
+        "ParaView (.vti, .vtp). An axis is NAME=FROM:TO:COUNT; the other inputs are options.\n"
+        "Example: vibrotrough theory map --x throw_number=0.3:3.3:500 --y vibration_angle_deg=5:60:500 \\\n"
+        "           --friction 0.35 --tan-inclination -0.1 --output map.h5\n"
+        "Draw it: postprocess/draw_theory_map.py map.h5");
+    auto const options = std::make_shared<Options>();
+    command->add_option("--x", options->x, "First axis, NAME one of " + input_names());
+    command->add_option("--y", options->y, "Second axis");
+    command->add_option("--output", options->output, "HDF5 file to write; .vti and .vtp get the same name");
+    command->add_option("--jobs", options->jobs, "Threads; all cores when not given");
+    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,177 @@
+#include "app/commands/theory/options.hpp"
+
+#include "core/error.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+using theory::Input;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double least_throw = 1e-300;  // above zero
+
+void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {
+    if (!a || !b) return;
+    throw core::InputError(
+        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
+}
+
+double read_throw(std::string const& option, std::string const& text) {
+    double const value = read_number(option, text, "2");
+    if (value > 0 && value <= 1e4) return std::max(value, least_throw);
+    throw core::InputError(fmt::format("{} {}: must be above 0 and at most 10000; write for example {} 2",
+                                       option, text, option));
+}
+
+/// "3,0.1,30 deg": order, amplitude of acceleration, phase.
+theory::Harmonic read_harmonic(std::string const& option, std::string const& text) {
+    auto const first = text.find(','),
+               second = first == std::string::npos ? first : text.find(',', first + 1);
+    if (second == std::string::npos) {
+        throw core::InputError(
+            fmt::format("{} {}: needs order, amplitude and phase; write for example {} \"3,0.1,30 deg\"",
+                        option, text, option));
+    }
+    theory::Harmonic harmonic{};
+    harmonic.order = read_count(option, text.substr(0, first), "\"3,0.1,30 deg\"", 1, 1000);
+    harmonic.amplitude = read_number_within(option, text.substr(first + 1, second - first - 1),
+                                            "\"3,0.1,30 deg\"", -1000, 1000);
+    harmonic.phase = read_angle(option, text.substr(second + 1), "3,0.1,30 deg", -720, 720);
+    return harmonic;
+}
+
+}  // namespace
+
+void TheoryOptions::add_to(CLI::App& command, Extent extent) {
+    command.add_option("--throw-number", throw_number_,
+                       "Gamma = omega^2 r sin(beta) / (g cos(alpha)): above 1 the mass flies");
+    command.add_option("--machine-number", machine_number_, "K = omega^2 r / g, instead of --throw-number");
+    command.add_option("--vibration-angle", vibration_angle_,
+                       "beta, between the direction of vibration and the trough, with its unit: \"30 deg\"");
+    command.add_option("--tan-vibration-angle", tan_vibration_angle_,
+                       "tan(beta), instead of --vibration-angle");
+    command.add_option("--inclination", inclination_,
+                       "alpha, uphill positive, with its unit: \"-3 deg\" (level when not given)");
+    command.add_option("--tan-inclination", tan_inclination_, "tan(alpha), instead of --inclination");
+    command.add_option("--friction", friction_, "mu, friction coefficient of the mass on the trough");
+    if (extent == Extent::complete) add_extensions(command);
+}
+
+void TheoryOptions::add_extensions(CLI::App& command) {
+    char const* const group = "Beyond Sloot & Kruyt's plastic point mass";
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command.add_option(name, text, help)->group(group);
+    };
+    add("--restitution", restitution_, "e, normal, 0 (plastic) to below 1 (Eq. 23)");
+    add("--slowest-rebound", slowest_rebound_,
+        "Slower rebounds are contact, in omega r sin(beta); 1e-6 when not given");
+    add("--static-friction", static_friction_, "At least --friction, which is then the kinetic one");
+    add("--landing-friction", landing_friction_,
+        "mu in the impulse of a landing, as --friction when not given");
+    add("--air-drag", air_drag_, "kappa: drag force = m omega kappa times velocity");
+    add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along over r cos(beta)");
+    add("--along-phase", along_phase_,
+        "Elliptical drive: lead of the motion along, with its unit: \"20 deg\"");
+    add("--wall-friction", wall_friction_, "Friction coefficient of the layer on the side walls");
+    add("--wall-pressure-ratio", wall_pressure_ratio_,
+        "Janssen's k, horizontal over vertical stress; 0.5 when not given");
+    add("--height-over-width", height_over_width_, "Of the layer, for side-wall friction");
+    command
+        .add_option("--harmonic-along", along_,
+                    "\"ORDER,AMPLITUDE,PHASE\" of further acceleration along, for example \"3,0.1,30 deg\"; "
+                    "repeatable")
+        ->group(group);
+    command.add_option("--harmonic-normal", normal_, "The same normal to the trough; repeatable")
+        ->group(group);
+    command
+        .add_flag("--table-1-rule", table_1_rule_,
+                  "Start a flight that interrupts an N' slide with the trough's velocity. Not physics: only "
+                  "reproduces "
+                  "the paper's Table 1 at e > 0")
+        ->group(group);
+}
+
+theory::Inputs TheoryOptions::given() const {
+    refuse_both("--throw-number", throw_number_, "--machine-number", machine_number_);
+    refuse_both("--vibration-angle", vibration_angle_, "--tan-vibration-angle", tan_vibration_angle_);
+    refuse_both("--inclination", inclination_, "--tan-inclination", tan_inclination_);
+    theory::Inputs inputs;
+    if (throw_number_) inputs.set(Input::throw_number, read_throw("--throw-number", *throw_number_));
+    if (machine_number_) inputs.set(Input::machine_number, read_throw("--machine-number", *machine_number_));
+    if (vibration_angle_) {
+        double const beta =
+            read_angle("--vibration-angle", *vibration_angle_, "30 deg", machine_number_ ? -1e-12 : 0, 90);
+        inputs.set(Input::tan_vibration_angle, std::tan(beta));
+    }
+    if (inclination_) {
+        inputs.set(Input::tan_inclination,
+                   std::tan(read_angle("--inclination", *inclination_, "-3 deg", -90, 90)));
+    }
+    if (along_phase_) {
+        inputs.set(Input::along_phase_deg,
+                   read_angle("--along-phase", *along_phase_, "20 deg", -720, 720) / degree);
+    }
+    auto const set = [&](Input input, char const* option, Text const& text, char const* example, double low,
+                         double high) {
+        if (text) inputs.set(input, read_number_within(option, *text, example, low, high));
+    };
+    set(Input::tan_vibration_angle, "--tan-vibration-angle", tan_vibration_angle_, "0.5",
+        machine_number_ ? 0 : 1e-300, 1e6);
+    set(Input::tan_inclination, "--tan-inclination", tan_inclination_, "-0.05", -1e6, 1e6);
+    set(Input::friction, "--friction", friction_, "0.3", 0, 1e6);
+    set(Input::static_friction, "--static-friction", static_friction_, "0.4", 0, 1e6);
+    set(Input::landing_friction, "--landing-friction", landing_friction_, "0.1", 0, 1e6);
+    set(Input::restitution, "--restitution", restitution_, "0.2", 0, 0.999999);
+    set(Input::air_drag, "--air-drag", air_drag_, "0.01", 0, 1000);
+    set(Input::along_ratio, "--along-ratio", along_ratio_, "0.8", -1000, 1000);
+    set(Input::wall_friction, "--wall-friction", wall_friction_, "0.3", 0, 1000);
+    set(Input::wall_pressure_ratio, "--wall-pressure-ratio", wall_pressure_ratio_, "0.5", 0, 1);
+    set(Input::height_over_width, "--height-over-width", height_over_width_, "0.2", 0, 1000);
+    auto const standing = inputs.get(Input::static_friction), kinetic = inputs.get(Input::friction);
+    if (standing && kinetic && *standing < *kinetic) {
+        throw core::InputError(
+            fmt::format("--static-friction {}: is below --friction {}; write a value that is not",
+                        *static_friction_, *friction_));
+    }
+    return inputs;
+}
+
+void require_complete(theory::Inputs const& inputs) {
+    auto const missing = [](char const* option, char const* example) {
+        throw core::InputError(
+            fmt::format("{} is missing; write for example {} {}", option, option, example));
+    };
+    if (!inputs.get(Input::throw_number) && !inputs.get(Input::machine_number))
+        missing("--throw-number", "2");
+    if (!inputs.get(Input::tan_vibration_angle) && !inputs.get(Input::vibration_angle_deg)) {
+        missing("--vibration-angle", "\"30 deg\"");
+    }
+    if (!inputs.get(Input::friction)) missing("--friction", "0.3");
+    if (auto const problem = inputs.incomplete()) throw core::InputError(*problem);
+}
+
+bool TheoryOptions::plastic() const {
+    return given().plastic() && along_.empty() && normal_.empty() && !table_1_rule_;
+}
+
+theory::Conveyor TheoryOptions::conveyor() const {
+    theory::Inputs const inputs = given();
+    require_complete(inputs);
+    theory::Conveyor conveyor = inputs.conveyor();
+    if (slowest_rebound_) {
+        conveyor.slowest_rebound =
+            read_number_within("--slowest-rebound", *slowest_rebound_, "1e-6", 1e-9, 1);
+    }
+    for (auto const& text : along_) conveyor.along.push_back(read_harmonic("--harmonic-along", text));
+    for (auto const& text : normal_) conveyor.normal.push_back(read_harmonic("--harmonic-normal", text));
+    if (table_1_rule_) conveyor.flight_start = theory::FlightStart::trough_velocity_rule;
+    return conveyor;
+}
+
+}  // namespace vibrotrough::app

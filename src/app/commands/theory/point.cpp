@@ -1,0 +1,168 @@
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "theory/quantities.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    TheoryOptions motion;
+    Text amplitude, gravity, bulk_density, layer_height, layer_width;
+    bool json = false;
+};
+
+using Json = nlohmann::ordered_json;
+
+/// A speed without bound has no number in JSON: null.
+Json finite_or_null(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json phases_as_json(theory::Motion const& motion) {
+    Json phases = Json::array();
+    for (theory::Phase const& phase : motion.phases) {
+        phases.push_back({{"kind", theory::to_string(phase.kind)},
+                          {"start_rad", phase.start},
+                          {"end_rad", phase.end},
+                          {"relative_displacement", phase.relative_displacement}});
+    }
+    return phases;
+}
+
+Json as_json(theory::Conveyor const& input, theory::ConveyorMotion const& answer) {
+    theory::Motion const& motion = answer.motion;
+    return {{"velocity_efficiency", finite_or_null(motion.velocity_efficiency)},
+            {"half_width", answer.half_width},
+            {"mode", motion.mode},
+            {"phases", phases_as_json(motion)},
+            {"flight_number", motion.flight_number},
+            {"period_cycles", motion.period_cycles},
+            {"converged", motion.converged},
+            {"outcome", theory::to_string(motion.outcome)},
+            {"throw_number", input.point.throw_number},
+            {"machine_number", theory::machine_number(input.point)},
+            {"tan_vibration_angle", input.point.tan_vibration_angle},
+            {"tan_inclination", input.point.tan_inclination},
+            {"friction", input.point.friction}};
+}
+
+struct Quantity {
+    char const* name;
+    char const* unit;
+    double value;
+};
+
+std::vector<Quantity> listed(theory::EngineerQuantities const& q) {
+    return {{"frequency", "Hz", q.frequency},
+            {"conveying_speed", "m/s", q.conveying_speed},
+            {"mass_flow", "kg/s", q.mass_flow},
+            {"impact_speed", "m/s", q.impact_speed},
+            {"normal_impact_speed", "m/s", q.normal_impact_speed},
+            {"impacts_per_cycle", "1", q.impacts_per_cycle},
+            {"friction_energy", "J/kg per cycle", q.friction_energy},
+            {"impact_energy", "J/kg per cycle", q.impact_energy},
+            {"trough_work", "J/kg per cycle", q.trough_work},
+            {"mean_power", "W/kg", q.mean_power},
+            {"largest_normal_force", "N/kg", q.largest_normal_force},
+            {"largest_tangential_force", "N/kg", q.largest_tangential_force},
+            {"largest_impulse", "N s/kg", q.largest_impulse}};
+}
+
+void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer) {
+    theory::Motion const& motion = answer.motion;
+    fmt::print("throw number         {:.6g}\n", input.point.throw_number);
+    fmt::print("machine number       {:.6g}\n", theory::machine_number(input.point));
+    std::string const interval =
+        answer.half_width > 0 ? fmt::format(" +- {:.6f} (95 %)", answer.half_width) : "";
+    fmt::print("velocity efficiency  {:.6f}{}   mean relative velocity / (omega r cos(beta))\n",
+               motion.velocity_efficiency, interval);
+    fmt::print("outcome              {}\n", theory::to_string(motion.outcome));
+    if (!motion.converged) return;
+    fmt::print("mode                 {}\n", motion.mode);
+    fmt::print("period               {} cycle{}\n", motion.period_cycles,
+               motion.period_cycles == 1 ? "" : "s");
+    fmt::print("flight number        {:.6f}\n\n", motion.flight_number);
+    fmt::print("phase   from [deg]     to [deg]   relative displacement [r cos(beta)]\n");
+    double const degrees = 180 / std::numbers::pi;
+    for (theory::Phase const& phase : motion.phases) {
+        fmt::print("{:<5} {:>12.4f} {:>12.4f}   {:>12.6f}\n", theory::to_string(phase.kind),
+                   phase.start * degrees, phase.end * degrees, phase.relative_displacement);
+    }
+}
+
+theory::Machine read_machine(Options const& o) {
+    theory::Machine machine{.amplitude = read_positive_quantity("--amplitude", *o.amplitude, "m", "6 mm")};
+    if (o.gravity) machine.gravity = read_positive_quantity("--gravity", *o.gravity, "m/s2", "9.81 m/s2");
+    if (o.bulk_density) {
+        machine.bulk_density =
+            read_positive_quantity("--bulk-density", *o.bulk_density, "kg/m3", "800 kg/m3");
+    }
+    if (o.layer_height)
+        machine.layer_height = read_positive_quantity("--layer-height", *o.layer_height, "m", "12 mm");
+    if (o.layer_width)
+        machine.layer_width = read_positive_quantity("--layer-width", *o.layer_width, "m", "200 mm");
+    return machine;
+}
+
+void run(Options const& options) {
+    theory::Conveyor const input = options.motion.conveyor();
+    std::optional<theory::Machine> machine;
+    if (options.amplitude) machine = read_machine(options);
+    theory::ConveyorMotion answer;
+    if (options.motion.plastic()) answer.motion = theory::solve(input.point);
+    if (!options.motion.plastic() || options.amplitude) {
+        theory::Motion const exact = answer.motion;
+        answer = theory::solve(input);
+        if (options.motion.plastic()) answer.motion = exact;
+    }
+    Json json = as_json(input, answer);
+    if (!options.json) print_text(input, answer);
+    if (machine && !answer.pieces.empty()) {
+        if (!options.json) fmt::print("\n");
+        for (auto const& q : listed(theory::engineer_quantities(answer, *machine))) {
+            json["quantities"][q.name] = {{"value", q.value}, {"units", q.unit}};
+            if (!options.json) fmt::print("{:<26} {:>12.6g} {}\n", q.name, q.value, q.unit);
+        }
+    }
+    if (options.json) fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void add_theory_point(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "point",
+        "Solve one point-mass motion (Sloot & Kruyt 1996, and beyond): how it slides, rests and flies, and "
+        "how\n"
+        "fast it is conveyed; with --amplitude also speed, flow, impacts, energies and forces in SI units.\n"
+        "Example: vibrotrough theory point --throw-number 2 --vibration-angle \"30 deg\" --friction 0.23\n"
+        "Example: vibrotrough theory point --throw-number 2 --vibration-angle \"30 deg\" --friction 0.23 \\\n"
+        "           --amplitude \"6 mm\" --layer-height \"12 mm\" --layer-width \"0.2 m\" --bulk-density "
+        "\"800 kg/m3\"");
+    auto const options = std::make_shared<Options>();
+    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command->add_option(name, text, help)->group("The machine");
+    };
+    add("--amplitude", options->amplitude, "r in the direction of vibration, half the stroke: \"6 mm\"");
+    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
+    add("--bulk-density", options->bulk_density, "Of the layer, for the mass flow: \"800 kg/m3\"");
+    add("--layer-height", options->layer_height, "\"12 mm\"");
+    add("--layer-width", options->layer_width, "\"200 mm\"");
+    command->add_flag("--json", options->json, "Print JSON; angles in omega t, displacements in r cos(beta)");
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,64 @@
+#include "theory/sensitivity.hpp"
+
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "core/error.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    TheoryOptions motion;
+    bool json = false;
+};
+
+void run(Options const& options) {
+    theory::Inputs const inputs = options.motion.given();
+    require_complete(inputs);
+    std::vector<theory::Sensitivity> answers;
+    try {
+        answers = theory::sensitivities(inputs);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("{}; write other inputs", error.what()));
+    }
+    if (!options.json)
+        fmt::print("{:<22} {:>12} {:>18} {:>22}\n", "input", "value", "d eta / d input",
+                   "relative (elasticity)");
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (theory::Sensitivity const& s : answers) {
+        json.push_back({{"input", theory::name_of(s.input)},
+                        {"value", s.value},
+                        {"derivative", s.derivative},
+                        {"elasticity", s.elasticity}});
+        if (options.json) continue;
+        fmt::print("{:<22} {:>12.6g} {:>18.6g} {:>22.6g}\n", theory::name_of(s.input), s.value, s.derivative,
+                   s.elasticity);
+    }
+    if (options.json) fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void add_theory_sensitivity(CLI::App& theory, int& exit_code) {
+    CLI::App* const command = theory.add_subcommand(
+        "sensitivity",
+        "Print how the velocity efficiency answers to each input: derivative and relative derivative.\n"
+        "Example: vibrotrough theory sensitivity --throw-number 2 --tan-vibration-angle 0.5 "
+        "--tan-inclination 0 --friction 0.3");
+    auto const options = std::make_shared<Options>();
+    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

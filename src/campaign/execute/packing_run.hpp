@@ -1,0 +1,84 @@
+#pragma once
+
+#include "campaign/execute/settled_packings.hpp"
+#include "campaign/measured_packing.hpp"
+#include "campaign/state/checkpoint.hpp"
+#include "campaign/state/plan.hpp"
+#include "deck/deck.hpp"
+#include "engine/engine.hpp"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace vibrotrough::campaign {
+
+/// How a packing's run ended.
+struct PackingOutcome {
+    bool well;            ///< the packing is finished and marked so
+    std::string outcome;  ///< name of the failure
+    std::string message;
+};
+
+/// One packing being simulated: its settled packing, the engine on the moving trough, and the question after
+/// each look at its cycles whether they are enough. A run that was cut goes on from its last checkpoint.
+class PackingRun {
+  public:
+    /// Starts the run. `on_end` is called once, from `context`; not after destruction. All references must
+    /// outlive the run.
+    /// @throws MissingError when the disk refuses or the engine cannot be started (also from `context`)
+    PackingRun(boost::asio::io_context& context, engine::Engine const& engine, SettledPackings& settled,
+               PlannedCase const& planned, int packing, std::function<void(PackingOutcome const&)> on_end);
+    ~PackingRun();
+
+    /// Looks at the cycles written so far; seals a new checkpoint; tells the engine to end when the cycles
+    /// are known well enough.
+    void look();
+
+    /// Ends the engine soon; `on_end` then reports "interrupted".
+    void interrupt();
+
+    PlannedCase const& planned() const { return planned_; }
+    int packing() const { return packing_; }
+    int cycles() const { return cycles_; }
+
+    /// What was measured, once the run has ended well.
+    MeasuredPacking take_measured() { return std::move(measured_.value()); }
+
+    /// Of the cycles seen so far; nothing before the first look at them.
+    std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
+
+  private:
+    void start_on(Settled const& settled);
+    void start_engine(std::optional<Checkpoint> const& checkpoint);
+    void seal();
+    double wall_time() const;
+    PackingOutcome judge(engine::ExitStatus status);
+    PackingOutcome judge_outputs(PackingOutputs const& outputs, long last_step);
+
+    boost::asio::io_context& context_;
+    engine::Engine const& engine_;
+    SettledPackings& settled_;
+    PlannedCase const& planned_;
+    int packing_;
+    std::function<void(PackingOutcome const&)> on_end_;
+    std::filesystem::path folder_;
+    deck::Deck deck_;
+    std::chrono::steady_clock::time_point start_;
+    double earlier_wall_time_ = 0;  ///< s, of the engine before the checkpoint
+    std::string started_;
+    std::string engine_certificate_;
+    int cycles_ = 0;
+    std::optional<measure::PackingEstimate> estimate_;
+    std::optional<MeasuredPacking> measured_;
+    int sealed_cycle_ = 0;
+    bool told_to_end_ = false;
+    bool interrupted_ = false;
+    std::uintmax_t seen_size_ = 0;
+    std::unique_ptr<engine::EngineProcess> process_;
+    std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+};
+
+}  // namespace vibrotrough::campaign

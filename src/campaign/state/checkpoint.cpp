@@ -1,0 +1,160 @@
+#include "campaign/state/checkpoint.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr char const* seal_file = "checkpoint.json";
+
+/// The tables of a run whose rows begin with their step.
+constexpr char const* tables[] = {"cycles.csv", "phases.csv", "dump/frames.csv"};
+
+std::optional<long> leading_number(std::string_view line) {
+    long number = 0;
+    auto const [end, failure] = std::from_chars(line.data(), line.data() + line.size(), number);
+    if (failure != std::errc() || (end != line.data() + line.size() && *end != ',')) return {};
+    return number;
+}
+
+/// Whole lines, each with its end.
+std::vector<std::string_view> whole_lines(std::string_view text) {
+    std::vector<std::string_view> lines;
+    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+        lines.push_back(text.substr(0, end + 1));
+        text.remove_prefix(end + 1);
+    }
+    return lines;
+}
+
+std::string_view without_end(std::string_view line) {
+    line.remove_suffix(1);
+    return line;
+}
+
+std::string rows_up_to(std::string const& text, long step) {
+    std::string kept;
+    for (std::string_view const line : whole_lines(text)) {
+        auto const number = leading_number(without_end(line));
+        if (!number || *number <= step) kept += line;
+    }
+    return kept;
+}
+
+bool has_row(std::string const& text, long step) {
+    for (std::string_view const line : whole_lines(text)) {
+        if (leading_number(without_end(line)) == step) return true;
+    }
+    return false;
+}
+
+long step_of(deck::Deck const& deck, int cycle) {
+    return static_cast<long>(cycle) * deck.time.steps_per_cycle;
+}
+
+std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
+    if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + end.size())
+        return {};
+    return leading_number(name.substr(start.size(), name.size() - start.size() - end.size()));
+}
+
+/// checkpoint.<cycle>.restart
+std::optional<long> checkpoint_cycle(std::string const& name) {
+    return number_between(name, "checkpoint.", ".restart");
+}
+
+std::vector<fs::path> restart_files(fs::path const& folder) {
+    std::vector<fs::path> files;
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(folder, missing)) {
+        if (checkpoint_cycle(entry.path().filename().string())) files.push_back(entry.path());
+    }
+    return files;
+}
+
+}  // namespace
+
+std::optional<int> last_checkpoint(fs::path const& folder) {
+    std::error_code missing;
+    if (!fs::is_regular_file(folder / deck::checkpoint_list, missing)) return {};
+    std::string const list = core::read_file(folder / deck::checkpoint_list);
+    auto const lines = whole_lines(list);
+    if (lines.empty()) return {};
+    auto const cycle = leading_number(without_end(lines.back()));
+    return cycle ? std::optional(static_cast<int>(*cycle)) : std::nullopt;
+}
+
+void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint const& checkpoint) {
+    Json const seal{{"cycle", checkpoint.cycle},
+                    {"file", checkpoint.file},
+                    {"restart_sha256", core::sha256_hex(core::read_file(folder / checkpoint.file))},
+                    {"deck_sha256", core::sha256_hex(deck.files.at(deck::drive_file))},
+                    {"started", checkpoint.started},
+                    {"wall_time", checkpoint.wall_time}};
+    core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
+    for (fs::path const& file : restart_files(folder)) {
+        // The engine may be writing the next one.
+        std::error_code ignored;
+        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) fs::remove(file, ignored);
+    }
+}
+
+std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck const& deck) {
+    try {
+        if (!fs::is_regular_file(folder / seal_file)) return {};
+        Json const seal = Json::parse(core::read_file(folder / seal_file));
+        Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
+                                    seal.at("wall_time")};
+        bool const known =
+            checkpoint_cycle(checkpoint.file) &&
+            seal.at("deck_sha256") == core::sha256_hex(deck.files.at(deck::drive_file)) &&
+            seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
+        if (known && has_row(core::read_file(folder / "cycles.csv"), step_of(deck, checkpoint.cycle)))
+            return checkpoint;
+    } catch (Json::exception const&) {
+        // Damaged: the run starts anew.
+    } catch (core::Error const&) {
+    }
+    return {};
+}
+
+bool has_checkpoint(fs::path const& folder) {
+    std::error_code missing;
+    return fs::is_regular_file(folder / seal_file, missing);
+}
+
+void cut_outputs(fs::path const& folder, deck::Deck const& deck, Checkpoint const& checkpoint) {
+    long const step = step_of(deck, checkpoint.cycle);
+    for (char const* table : tables) {
+        if (fs::is_regular_file(folder / table))
+            core::write_file_atomically(folder / table, rows_up_to(core::read_file(folder / table), step));
+    }
+    if (!fs::is_directory(folder / "dump")) return;
+    std::vector<fs::path> later;
+    for (auto const& entry : fs::directory_iterator(folder / "dump")) {
+        auto const frame = number_between(entry.path().filename().string(), "frames.", ".dump");
+        if (frame && *frame > step) later.push_back(entry.path());
+    }
+    for (fs::path const& frame : later) fs::remove(frame);
+}
+
+void remove_checkpoints(fs::path const& folder) {
+    std::error_code ignored;
+    for (fs::path const& file : restart_files(folder)) fs::remove(file, ignored);
+    fs::remove(folder / seal_file, ignored);
+    fs::remove(folder / deck::checkpoint_list, ignored);
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,122 @@
+#include "scenario/model/drive.hpp"
+
+#include "scenario/model/scenario.hpp"
+#include "scenario/reader/number_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr int highest_waveform_order = 30;
+constexpr std::size_t fewest_samples = 8;
+constexpr double two_pi = 2 * std::numbers::pi;
+
+using Sample = std::array<double, 3>;  // time, x, z
+
+std::vector<Sample> read_samples(std::string_view csv) {
+    std::vector<Sample> samples;
+    for (auto const& row : read_number_table<3>(csv, "time_s,x_m,z_m", "three"))
+        samples.push_back(row.values);
+    return samples;
+}
+
+void check_even(std::vector<Sample> const& samples, double period) {
+    if (samples.size() < fewest_samples) {
+        throw std::invalid_argument(
+            fmt::format("{} samples are fewer than {}", samples.size(), fewest_samples));
+    }
+    double const spacing = period / static_cast<double>(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        double const expected = spacing * static_cast<double>(i);
+        if (std::abs(samples[i][0] - expected) > 1e-3 * spacing) {
+            throw std::invalid_argument(
+                fmt::format("sample {} is at {:.6g} s; {} even samples of one cycle of {:.6g} s have it at "
+                            "{:.6g} s (the next cycle's first sample is left out)",
+                            i + 1, samples[i][0], samples.size(), period, expected));
+        }
+    }
+}
+
+/// x_i = sum_k a_k sin(k theta_i + phi_k), with a_k e^(i phi_k) = 2/N sum x_i (sin + i cos)(k theta_i).
+std::vector<DriveTerm> fourier(std::vector<Sample> const& samples, std::size_t column) {
+    auto const count = static_cast<double>(samples.size());
+    int const highest = std::min(highest_waveform_order, static_cast<int>(samples.size() - 1) / 2);
+    std::vector<DriveTerm> terms;
+    for (int order = 1; order <= highest; ++order) {
+        double sine = 0, cosine = 0;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            double const angle = two_pi * order * static_cast<double>(i) / count;
+            sine += 2 / count * samples[i][column] * std::sin(angle);
+            cosine += 2 / count * samples[i][column] * std::cos(angle);
+        }
+        terms.push_back({order, std::hypot(sine, cosine), std::atan2(cosine, sine)});
+    }
+    return terms;
+}
+
+void drop_small(std::vector<DriveTerm>& terms, double least) {
+    std::erase_if(terms, [least](DriveTerm const& term) { return term.amplitude < least; });
+}
+
+double sum_of(std::vector<DriveTerm> const& terms, int power) {
+    double sum = 0;
+    for (DriveTerm const& term : terms) sum += std::abs(term.amplitude) * std::pow(term.order, power);
+    return sum;
+}
+
+}  // namespace
+
+DriveMotion drive_motion(Trough const& trough) {
+    if (trough.waveform) return read_waveform(trough.waveform->content, 1 / trough.frequency);
+    DriveMotion motion;
+    double const along = trough.amplitude * std::cos(trough.vibration_angle);
+    double const normal = trough.amplitude * std::sin(trough.vibration_angle);
+    if (along != 0) motion.along.push_back({1, along, trough.along_phase});
+    if (normal != 0) motion.normal.push_back({1, normal, 0});
+    for (DriveHarmonic const& harmonic : trough.harmonics) {
+        // X'' = -a sin(k t + phase) is X = a / k^2 sin(k t + phase).
+        double const ratio = harmonic.ratio / (static_cast<double>(harmonic.order) * harmonic.order);
+        if (along != 0) motion.along.push_back({harmonic.order, along * ratio, harmonic.phase});
+        if (normal != 0) motion.normal.push_back({harmonic.order, normal * ratio, harmonic.phase});
+    }
+    return motion;
+}
+
+double largest_excursion(DriveMotion const& motion) {
+    return std::hypot(sum_of(motion.along, 0), sum_of(motion.normal, 0));
+}
+
+double largest_speed(DriveMotion const& motion, double omega) {
+    return omega * std::hypot(sum_of(motion.along, 1), sum_of(motion.normal, 1));
+}
+
+int highest_order(DriveMotion const& motion) {
+    int order = 1;
+    for (auto const* terms : {&motion.along, &motion.normal}) {
+        for (DriveTerm const& term : *terms) order = std::max(order, term.order);
+    }
+    return order;
+}
+
+DriveMotion read_waveform(std::string_view csv, double period) {
+    std::vector<Sample> const samples = read_samples(csv);
+    check_even(samples, period);
+    DriveMotion motion{fourier(samples, 1), fourier(samples, 2)};
+    double largest = 0;
+    for (auto const* terms : {&motion.along, &motion.normal}) {
+        for (DriveTerm const& term : *terms) largest = std::max(largest, term.amplitude);
+    }
+    if (!(largest > 0)) throw std::invalid_argument("the trough does not move");
+    drop_small(motion.along, 1e-6 * largest);
+    drop_small(motion.normal, 1e-6 * largest);
+    return motion;
+}
+
+}  // namespace vibrotrough::scenario

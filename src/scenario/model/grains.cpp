@@ -1,0 +1,170 @@
+#include "scenario/model/grains.hpp"
+
+#include "scenario/reader/number_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr int continuous_classes = 10;
+constexpr double lognormal_cut = 2.5;  // standard deviations
+constexpr std::size_t most_spheres = 1000;
+
+double cube(double value) {
+    return value * value * value;
+}
+
+std::vector<SizeClass> three_classes(Grains const& grains) {
+    double const d = grains.diameter, s = grains.diameter_spread;
+    return {{d * (1 + s), 1.0 / 3}, {d, 1.0 / 3}, {d * (1 - s), 1.0 / 3}};
+}
+
+/// Mean of d^3 between a and b, each diameter as frequent: (b^4 - a^4) / (4 (b - a)).
+std::vector<SizeClass> uniform_classes(Grains const& grains) {
+    std::vector<SizeClass> classes;
+    double const least = grains.diameter * (1 - grains.diameter_spread);
+    double const width = 2 * grains.diameter * grains.diameter_spread / continuous_classes;
+    for (int i = continuous_classes; i-- > 0;) {
+        double const a = least + width * i, b = a + width;
+        classes.push_back({std::cbrt((a + b) * (a * a + b * b) / 4), 1.0 / continuous_classes});
+    }
+    return classes;
+}
+
+/// With d = m exp(s z), z normal: E[d^3; a < z < b] = m^3 exp(9 s^2 / 2) (Phi(b - 3 s) - Phi(a - 3 s)).
+std::vector<SizeClass> lognormal_classes(Grains const& grains) {
+    boost::math::normal const normal;
+    double const s = grains.diameter_spread;
+    double const tail = cdf(normal, -lognormal_cut), inside = 1 - 2 * tail;
+    std::vector<SizeClass> classes;
+    for (int i = continuous_classes; i-- > 0;) {
+        double const a = quantile(normal, tail + inside * i / continuous_classes);
+        double const b = quantile(normal, tail + inside * (i + 1) / continuous_classes);
+        double const volume = std::exp(4.5 * s * s) * (cdf(normal, b - 3 * s) - cdf(normal, a - 3 * s)) *
+                              continuous_classes / inside;
+        classes.push_back({grains.diameter * std::cbrt(volume), 1.0 / continuous_classes});
+    }
+    return classes;
+}
+
+std::vector<SizeClass> listed_classes(Grains const& grains) {
+    std::vector<SizeClass> classes;
+    for (std::size_t i = 0; i < grains.diameters.size(); ++i) {
+        double const d = grains.diameters[i];
+        classes.push_back({d, grains.number_fractions.empty() ? grains.mass_fractions[i] / cube(d)
+                                                              : grains.number_fractions[i]});
+    }
+    double const sum =
+        std::accumulate(classes.begin(), classes.end(), 0.0,
+                        [](double so_far, auto const& size) { return so_far + size.number_fraction; });
+    for (SizeClass& size : classes) size.number_fraction /= sum;
+    std::ranges::sort(classes, std::greater(), &SizeClass::diameter);
+    return classes;
+}
+
+/// Corner spheres of a cube with edge 1: a rounded cube.
+std::vector<Sphere> cube_spheres() {
+    constexpr double radius = 0.3, centre = 0.5 - radius;
+    std::vector<Sphere> spheres;
+    for (int const i : {-1, 1}) {
+        for (int const j : {-1, 1}) {
+            for (int const k : {-1, 1}) spheres.push_back({i * centre, j * centre, k * centre, radius});
+        }
+    }
+    return spheres;
+}
+
+/// A rod twice as long as thick.
+std::vector<Sphere> rod_spheres() {
+    return {{-0.5, 0, 0, 0.5}, {0, 0, 0, 0.5}, {0.5, 0, 0, 0.5}};
+}
+
+std::vector<Sphere> read_spheres(std::string_view text) {
+    std::vector<Sphere> spheres;
+    for (auto const& [values, line] : read_number_table<4>(text, "x,y,z,radius", "four")) {
+        if (!(values[3] > 0)) throw std::invalid_argument(fmt::format("line {} has no radius above 0", line));
+        spheres.push_back({values[0], values[1], values[2], values[3]});
+    }
+    if (spheres.size() > most_spheres)
+        throw std::invalid_argument(fmt::format("more than {} spheres", most_spheres));
+    if (spheres.empty()) throw std::invalid_argument("no spheres");
+    return spheres;
+}
+
+}  // namespace
+
+std::string_view name_of(Rotation rotation) {
+    switch (rotation) {
+        case Rotation::free:
+            return "free";
+        case Rotation::rolling:
+            return "rolling";
+        case Rotation::blocked:
+            return "blocked";
+    }
+    throw std::invalid_argument("no such rotation");
+}
+
+std::string_view name_of(SizeLaw law) {
+    switch (law) {
+        case SizeLaw::three_classes:
+            return "three-classes";
+        case SizeLaw::uniform:
+            return "uniform";
+        case SizeLaw::lognormal:
+            return "lognormal";
+        case SizeLaw::listed:
+            return "listed";
+    }
+    throw std::invalid_argument("no such size law");
+}
+
+std::vector<SizeClass> size_classes(Grains const& grains) {
+    if (grains.size_law == SizeLaw::listed) return listed_classes(grains);
+    if (grains.diameter_spread == 0) return {{grains.diameter, 1}};
+    switch (grains.size_law) {
+        case SizeLaw::uniform:
+            return uniform_classes(grains);
+        case SizeLaw::lognormal:
+            return lognormal_classes(grains);
+        default:
+            return three_classes(grains);
+    }
+}
+
+double largest_diameter(Grains const& grains) {
+    return size_classes(grains).front().diameter;
+}
+
+double smallest_diameter(Grains const& grains) {
+    return size_classes(grains).back().diameter;
+}
+
+double mean_grain_volume(Grains const& grains) {
+    double volume = 0;
+    for (SizeClass const& size : size_classes(grains)) {
+        volume += size.number_fraction * std::numbers::pi / 6 * cube(size.diameter);
+    }
+    return volume;
+}
+
+bool is_clump(Grains const& grains) {
+    return grains.shape != "sphere";
+}
+
+std::vector<Sphere> shape_spheres(Grains const& grains) {
+    if (grains.shape == "cube") return cube_spheres();
+    if (grains.shape == "rod") return rod_spheres();
+    if (grains.shape_file) return read_spheres(grains.shape_file->content);
+    return {{0, 0, 0, 0.5}};
+}
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,123 @@
+#include "scenario/model/scenario.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+// fmt's "{}" prints the shortest text that reads back as the same double.
+
+std::string trough_toml(Trough const& t) {
+    std::string text = fmt::format(
+        "[trough]\ninclination = \"{} radian\"\nvibration_angle = \"{} radian\"\namplitude = \"{} m\"\n"
+        "frequency = \"{} Hz\"\nfriction = {}\nrestitution = {}\n",
+        t.inclination, t.vibration_angle, t.amplitude, t.frequency, t.friction, t.restitution);
+    if (t.side_wall_friction) text += fmt::format("side_wall_friction = {}\n", *t.side_wall_friction);
+    if (t.along_phase != 0) text += fmt::format("along_phase = \"{} radian\"\n", t.along_phase);
+    if (!t.harmonics.empty()) {
+        std::vector<std::string> list;
+        for (DriveHarmonic const& harmonic : t.harmonics) {
+            list.push_back(
+                fmt::format("\"{}, {}, {} radian\"", harmonic.order, harmonic.ratio, harmonic.phase));
+        }
+        text += fmt::format("harmonics = [{}]\n", fmt::join(list, ", "));
+    }
+    if (t.waveform) text += fmt::format("waveform = \"{}\"\n", t.waveform->name);
+    return text + "\n";
+}
+
+std::string sizes_toml(Grains const& g) {
+    if (g.size_law == SizeLaw::listed) {
+        std::vector<std::string> diameters;
+        for (double const diameter : g.diameters) diameters.push_back(fmt::format("\"{} m\"", diameter));
+        bool const by_number = !g.number_fractions.empty();
+        return fmt::format("diameters = [{}]\n{} = [{}]\n", fmt::join(diameters, ", "),
+                           by_number ? "number_fractions" : "mass_fractions",
+                           fmt::join(by_number ? g.number_fractions : g.mass_fractions, ", "));
+    }
+    std::string const text =
+        fmt::format("diameter = \"{} m\"\ndiameter_spread = {}\n", g.diameter, g.diameter_spread);
+    return text + fmt::format("size_law = \"{}\"\n", name_of(g.size_law));
+}
+
+std::string grains_toml(Grains const& g) {
+    std::string text =
+        "[grains]\n" + sizes_toml(g) +
+        fmt::format(
+            "density = \"{} kg/m3\"\nyoungs_modulus = \"{} Pa\"\npoisson_ratio = {}\n"
+            "friction = {}\nrestitution = {}\nrolling_friction = {}\n",
+            g.density, g.youngs_modulus, g.poisson_ratio, g.friction, g.restitution, g.rolling_friction);
+    text += fmt::format("rotation = \"{}\"\n", name_of(g.rotation));
+    if (is_clump(g)) text += fmt::format("shape = \"{}\"\n", g.shape);
+    return text + "\n";
+}
+
+std::string layer_toml(Layer const& l) {
+    std::string const text = fmt::format("[layer]\nlength = \"{} m\"\nwidth = \"{} m\"\n", l.length, l.width);
+    if (l.block != Block::none) return text + fmt::format("block = \"{}\"\n\n", name_of(l.block));
+    if (l.height) return text + fmt::format("height = \"{} m\"\n\n", *l.height);
+    return text + fmt::format("grains = {}\n\n", l.grains);
+}
+
+}  // namespace
+
+std::string_view name_of(Block block) {
+    switch (block) {
+        case Block::none:
+            return "none";
+        case Block::point:
+            return "point";
+        case Block::plate:
+            return "plate";
+    }
+    throw std::invalid_argument("no such block");
+}
+
+double angular_frequency(Trough const& trough) {
+    return 2 * std::numbers::pi * trough.frequency;
+}
+
+double machine_number(Trough const& trough) {
+    double const omega = angular_frequency(trough);
+    return omega * omega * trough.amplitude / gravity;
+}
+
+double throw_number(Trough const& trough) {
+    return machine_number(trough) * std::sin(trough.vibration_angle) / std::cos(trough.inclination);
+}
+
+double velocity_scale(Trough const& trough) {
+    return angular_frequency(trough) * trough.amplitude * std::cos(trough.vibration_angle);
+}
+
+double layer_height(Scenario const& s) {
+    if (s.layer.height) return *s.layer.height;
+    return s.layer.grains * mean_grain_volume(s.grains) /
+           (settled_solid_fraction * s.layer.length * s.layer.width);
+}
+
+std::string to_toml(Scenario const& s) {
+    return fmt::format("[campaign]\nname = \"{}\"\n\n", s.campaign) + trough_toml(s.trough) +
+           grains_toml(s.grains) + layer_toml(s.layer) +
+           fmt::format(
+               "[measure]\npackings = {}\nconfidence = {}\nhalf_width = {}\nmax_cycles = {}\n\n"
+               "[output]\nframes_per_cycle = {}\ncheckpoint_cycles = {}\n\n"
+               "[solver]\nrayleigh_fraction = {}\nblock_stiffness = {}\n",
+               s.measure.packings, s.measure.confidence, s.measure.half_width, s.measure.max_cycles,
+               s.output.frames_per_cycle, s.output.checkpoint_cycles, s.solver.rayleigh_fraction,
+               s.solver.block_stiffness);
+}
+
+std::vector<NamedFile> named_files(Scenario const& scenario) {
+    std::vector<NamedFile> files;
+    if (scenario.grains.shape_file) files.push_back(*scenario.grains.shape_file);
+    if (scenario.trough.waveform) files.push_back(*scenario.trough.waveform);
+    return files;
+}
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,90 @@
+#include "scenario/reader/campaign_file.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "scenario/reader/case_values.hpp"
+#include "scenario/reader/file_reader.hpp"
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr std::size_t most_cases = 100'000;
+
+std::size_t count_cases(CampaignText const& text, std::string const& file) {
+    std::size_t count = 1;
+    auto const multiply = [&](std::size_t values, Position where) {
+        count *= values;
+        if (count > most_cases) {
+            throw_at({file, where}, "sweep", fmt::format("the sweep makes more than {} cases", most_cases),
+                     "list fewer values");
+        }
+    };
+    for (Axis const& axis : text.sweep) multiply(axis.values.size(), axis.where);
+    for (PointList const& list : text.lists) multiply(list.points.size(), list.where);
+    return count;
+}
+
+/// Sets a key, in the place of the one it excludes.
+void set(CaseValues& values, std::string const& key, Value const& value) {
+    std::string_view const group = find_key(key)->group;
+    if (!group.empty()) {
+        std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == group; });
+    }
+    values[key] = value;
+}
+
+/// The values of case number `index`: the last list runs fastest, then the last axis.
+CaseValues pick(CampaignText const& text, std::size_t index) {
+    CaseValues values = text.base;
+    for (auto list = text.lists.rbegin(); list != text.lists.rend(); ++list) {
+        auto const& point = list->points[index % list->points.size()];
+        for (std::size_t k = 0; k < point.size(); ++k) set(values, list->keys[k], point[k]);
+        index /= list->points.size();
+    }
+    for (auto axis = text.sweep.rbegin(); axis != text.sweep.rend(); ++axis) {
+        set(values, axis->key, {axis->values[index % axis->values.size()], axis->where});
+        index /= axis->values.size();
+    }
+    return values;
+}
+
+}  // namespace
+
+Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source) {
+    CampaignText const parsed = read_campaign_text(text, name);
+    Campaign campaign{parsed.name, {}, parsed.run, parsed.files, 0};
+    std::size_t const count = count_cases(parsed, name);
+    for (std::size_t index = 0; index < count; ++index) {
+        CaseValues const values = pick(parsed, index);
+        Scenario scenario = make_scenario(parsed.name, values, name, source);
+        if (is_excluded(scenario, values, parsed.exclusions)) {
+            ++campaign.excluded;
+        } else {
+            campaign.cases.push_back(std::move(scenario));
+        }
+    }
+    if (campaign.cases.empty()) {
+        throw_at({name, parsed.exclusions.front().front().where}, "exclude", "leaves no case over",
+                 "exclude fewer");
+    }
+    return campaign;
+}
+
+Campaign read_campaign(std::filesystem::path const& path) {
+    constexpr std::uintmax_t largest = 4 << 20;
+    std::error_code failure;
+    if (std::filesystem::file_size(path, failure) > largest && !failure) {
+        throw core::InputError(
+            fmt::format("{}: the file is larger than 4 MiB, which no campaign needs; is it the right one?",
+                        path.string()));
+    }
+    if (!std::filesystem::is_regular_file(path, failure)) {
+        throw core::InputError(
+            fmt::format("{}: there is no such file; give the path of a campaign file (TOML)", path.string()));
+    }
+    return parse_campaign(core::read_file(path), path.string(), {path.parent_path(), {}});
+}
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,328 @@
+#include "scenario/reader/design_reader.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "scenario/reader/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr std::size_t most_points = 100'000;
+
+Position position(toml::source_region const& source) {
+    return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
+}
+
+bool is_word(Key const& key) {
+    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
+}
+
+/// Keys with one value: no lists, and not the campaign's name.
+bool can_vary(Key const& key) {
+    return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
+           is_word(key);
+}
+
+std::vector<std::string> split_row(std::string line) {
+    if (line.ends_with('\r')) line.pop_back();
+    std::vector<std::string> cells;
+    std::istringstream text(line + ",");
+    for (std::string cell; std::getline(text, cell, ',');) {
+        auto const first = cell.find_first_not_of(" \t\"");
+        auto const last = cell.find_last_not_of(" \t\"");
+        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+    }
+    return cells;
+}
+
+class DesignReader {
+  public:
+    DesignReader(std::string const& file, ContentReader const& read, CampaignText& campaign)
+        : file_(file), read_(read), campaign_(campaign) {}
+
+    void read(std::string_view name, toml::node const& node) {
+        if (name == "points" || name == "exclude") {
+            read_tables(name, node);
+            return;
+        }
+        if (!node.is_table())
+            fail(node.source(), name, "is a section, not a key",
+                 fmt::format("write [{}] on a line of its own", name));
+        if (name == "zip") read_zip(*node.as_table());
+        if (name == "points_from") read_csv(*node.as_table());
+        if (name == "sample") read_sample(*node.as_table());
+    }
+
+  private:
+    [[noreturn]] void fail(toml::source_region const& source, std::string_view key, std::string_view wrong,
+                           std::string_view instead) const {
+        throw_at({file_, position(source)}, key, wrong, instead);
+    }
+
+    Key const& known_key(std::string_view path, toml::source_region const& source) const {
+        Key const* const key = find_key(path);
+        if (key != nullptr && can_vary(*key)) return *key;
+        std::string_view const nearest = nearest_key(path);
+        fail(source, core::printable(path, 60), key ? "cannot vary" : "unknown key",
+             nearest.empty() || key ? "vary a physical input" : fmt::format("did you mean {}?", nearest));
+    }
+
+    void add(PointList list) {
+        if (list.points.empty())
+            throw_at({file_, list.where}, "design", "has no points", "list at least one");
+        campaign_.lists.push_back(std::move(list));
+    }
+
+    void read_tables(std::string_view name, toml::node const& node) {
+        toml::array const* const tables = node.as_array();
+        if (tables == nullptr || tables->empty() || !tables->is_homogeneous<toml::table>()) {
+            fail(node.source(), name, "is a list of sections", fmt::format("write [[{}]] above each", name));
+        }
+        PointList list;
+        list.where = position(node.source());
+        for (toml::node const& table : *tables) {
+            name == "points" ? read_point(*table.as_table(), list) : read_exclusion(*table.as_table());
+        }
+        if (name == "points") add(std::move(list));
+    }
+
+    void read_point(toml::table const& table, PointList& list) {
+        std::vector<std::string> keys;
+        std::vector<Value> point;
+        for (auto const& [name, node] : table) {
+            Key const& key = known_key(name.str(), name.source());
+            keys.emplace_back(name.str());
+            point.push_back({read_(key, node), position(name.source())});
+        }
+        if (list.points.empty()) list.keys = keys;
+        if (keys != list.keys || keys.empty()) {
+            fail(table.source(), "points", "has other keys than the point before",
+                 "give every point the same keys, in quotes: \"trough.throw_number\" = 2.0");
+        }
+        list.points.push_back(std::move(point));
+    }
+
+    void read_exclusion(toml::table const& table) {
+        Exclusion exclusion;
+        for (auto const& [name, node] : table) {
+            Key const& key = known_key(name.str(), name.source());
+            Condition condition{std::string(name.str()), {}, {}, {}, position(name.source())};
+            toml::table const* const bounds = node.as_table();
+            if (bounds == nullptr) {
+                condition.equals = read_(key, node);
+            } else {
+                for (auto const& [bound, value] : *bounds) {
+                    if (bound.str() != "above" && bound.str() != "below")
+                        fail(bound.source(), name.str(),
+                             fmt::format("'{}' is no bound", core::printable(bound.str(), 60)),
+                             "write { above = a }, { below = b } or a value");
+                    if (is_word(key))
+                        fail(value.source(), name.str(), "has no order", "write one of its values");
+                    (bound.str() == "above" ? condition.above : condition.below) =
+                        std::get<double>(read_(key, value));
+                }
+            }
+            exclusion.push_back(std::move(condition));
+        }
+        if (exclusion.empty())
+            fail(table.source(), "exclude", "would leave out every case",
+                 "write a condition such as \"trough.throw_number\" = { above = 3 }");
+        campaign_.exclusions.push_back(std::move(exclusion));
+    }
+
+    void read_zip(toml::table const& table) {
+        PointList list;
+        list.where = position(table.source());
+        for (auto const& [name, node] : table) {
+            Key const& key = known_key(name.str(), name.source());
+            toml::array const* const values = node.as_array();
+            if (values == nullptr || values->size() > most_points)
+                fail(node.source(), name.str(), "is no list of at most 100000 values", "write [a, b, c]");
+            if (list.keys.empty()) list.points.resize(values->size());
+            if (values->size() != list.points.size())
+                fail(node.source(), name.str(),
+                     fmt::format("has {} values where {} has {}", values->size(), list.keys.front(),
+                                 list.points.size()),
+                     "zipped lists go in step: give them the same length");
+            list.keys.emplace_back(name.str());
+            for (std::size_t i = 0; i < values->size(); ++i)
+                list.points[i].push_back({read_(key, *values->get(i)), position(name.source())});
+        }
+        add(std::move(list));
+    }
+
+    int whole(toml::table const& table, char const* name, int least, int most) const {
+        toml::node const* const node = table.get(name);
+        std::int64_t const value = node != nullptr ? node->value_exact<std::int64_t>().value_or(-1) : -1;
+        if (value < least || value > most)
+            fail(node ? node->source() : table.source(), fmt::format("sample.{}", name),
+                 node ? "is no whole number in its range" : "is missing",
+                 fmt::format("write {} = {}, in the range {} to {}", name, std::max(least, 64), least, most));
+        return static_cast<int>(value);
+    }
+
+    void read_sample(toml::table const& table) {
+        auto const method = table["method"].value<std::string>().value_or("");
+        if (method != "sobol" && method != "latin-hypercube")
+            fail(table.source(), "sample.method", "is neither \"sobol\" nor \"latin-hypercube\"",
+                 "write method = \"sobol\"");
+        int const count = whole(table, "count", 1, most_points);
+        int const seed = table.contains("seed") ? whole(table, "seed", 0, 2'147'483'647) : 1;
+        PointList list;
+        list.where = position(table.source());
+        std::vector<std::array<double, 2>> ranges;
+        for (auto const& [name, node] : table) {
+            if (name.str() == "method" || name.str() == "count" || name.str() == "seed") continue;
+            Key const& key = known_key(name.str(), name.source());
+            ranges.push_back(read_range(key, name, node));
+            list.keys.emplace_back(name.str());
+        }
+        if (ranges.empty() || ranges.size() > 40)
+            fail(table.source(), "sample", "needs ranges for 1 to 40 keys",
+                 "write \"trough.throw_number\" = { from = 1, to = 3 }");
+        auto const cube = sample_cube(method == "sobol" ? SampleMethod::sobol : SampleMethod::latin_hypercube,
+                                      count, static_cast<int>(ranges.size()), static_cast<unsigned>(seed));
+        for (auto const& row : cube) {
+            std::vector<Value> point;
+            for (std::size_t k = 0; k < row.size(); ++k) {
+                double const value = ranges[k][0] + row[k] * (ranges[k][1] - ranges[k][0]);
+                bool const integer = find_key(list.keys[k])->kind == KeyKind::integer;
+                point.push_back({integer ? std::round(value) : value, list.where});
+            }
+            list.points.push_back(std::move(point));
+        }
+        add(std::move(list));
+    }
+
+    std::array<double, 2> read_range(Key const& key, toml::key const& name, toml::node const& node) const {
+        toml::table const* const range = node.as_table();
+        bool const whole_range =
+            range != nullptr && range->size() == 2 && range->contains("from") && range->contains("to");
+        if (!whole_range) fail(name.source(), name.str(), "is no range", "write { from = a, to = b }");
+        if (is_word(key)) fail(name.source(), name.str(), "has no order", "sample a number");
+        std::array<double, 2> const ends{std::get<double>(read_(key, *range->get("from"))),
+                                         std::get<double>(read_(key, *range->get("to")))};
+        if (!(ends[0] < ends[1]))
+            fail(name.source(), name.str(), "the range is empty", "write { from = a, to = b } with a < b");
+        return ends;
+    }
+
+    void read_csv(toml::table const& table) {
+        auto const name = table["file"].value<std::string>().value_or("");
+        bool const plain = PlainName::from(name).has_value() && name.ends_with(".csv");
+        if (!plain || table.size() != 1)
+            fail(table.source(), "points_from.file",
+                 fmt::format("'{}' is no plain name of a CSV file", core::printable(name, 60)),
+                 "write file = \"points.csv\", of a file beside the campaign file");
+        std::filesystem::path const path = std::filesystem::path(file_).parent_path() / name;
+        std::error_code failure;
+        if (!std::filesystem::is_regular_file(path, failure) ||
+            std::filesystem::file_size(path, failure) > (16u << 20))
+            fail(table.source(), "points_from.file",
+                 fmt::format("there is no file {} of at most 16 MiB", path.string()),
+                 "put it beside the campaign file");
+        campaign_.files.push_back(path);
+        PointList list;
+        list.where = position(table.source());
+        std::istringstream lines(core::read_file(path));
+        int number = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+            read_csv_row(path, number, split_row(line), list);
+        }
+        add(std::move(list));
+    }
+
+    void read_csv_row(std::filesystem::path const& path, int number, std::vector<std::string> const& cells,
+                      PointList& list) {
+        std::string const file = path.string();
+        Position const where{static_cast<unsigned>(number), 1};
+        if (list.keys.empty()) {
+            for (std::string const& cell : cells) {
+                Key const* const key = find_key(cell);
+                if (key == nullptr || !can_vary(*key))
+                    throw_at({file, where}, core::printable(cell, 60), "is no key that can vary",
+                             "write keys such as trough.throw_number in the first line");
+            }
+            list.keys = cells;
+            return;
+        }
+        if (cells.size() != list.keys.size() || list.points.size() >= most_points)
+            throw_at({file, where}, "points_from",
+                     fmt::format("has {} values for {} keys", cells.size(), list.keys.size()),
+                     "write one value for each key of the first line, in at most 100000 lines");
+        std::vector<Value> point;
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            point.push_back({read_cell(file, where, *find_key(list.keys[k]), cells[k]), list.where});
+        list.points.push_back(std::move(point));
+    }
+
+    /// A cell holds what would stand right of the equals sign, without quotes.
+    Content read_cell(std::string const& file, Position where, Key const& key,
+                      std::string const& cell) const {
+        double number = 0;
+        auto const [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+        bool const bare = failure == std::errc() && end == cell.data() + cell.size();
+        bool const integral = bare && std::abs(number) < 1e15 && number == std::round(number);
+        try {
+            if (key.kind == KeyKind::integer && integral)
+                return read_(key, toml::value<std::int64_t>(std::llround(number)));
+            if (bare && !is_word(key)) return read_(key, toml::value<double>(number));
+            return read_(key, toml::value<std::string>(cell));
+        } catch (core::InputError const& error) {
+            // The value has no place in the campaign file: its place is the CSV file's.
+            std::string const message = error.what();
+            std::string const prefix = file_ + ":1:1: ";
+            throw core::InputError(
+                fmt::format("{}:{}: {}", file, where.line,
+                            message.substr(message.starts_with(prefix) ? prefix.size() : 0)));
+        }
+    }
+
+    std::string const& file_;
+    ContentReader const& read_;
+    CampaignText& campaign_;
+};
+
+}  // namespace
+
+bool is_design_section(std::string_view name) {
+    constexpr std::array<std::string_view, 5> names{"zip", "points", "points_from", "sample", "exclude"};
+    return std::ranges::find(names, name) != names.end();
+}
+
+void read_design_section(std::string_view name, toml::node const& node, std::string const& file,
+                         ContentReader const& read, CampaignText& campaign) {
+    DesignReader(file, read, campaign).read(name, node);
+}
+
+void check_design(CampaignText const& campaign, std::string const& file) {
+    std::vector<std::pair<std::string, Position>> seen;
+    for (Axis const& axis : campaign.sweep) seen.emplace_back(axis.key, axis.where);
+    for (PointList const& list : campaign.lists) {
+        for (std::string const& key : list.keys) {
+            for (auto const& [other, where] : seen) {
+                bool const excludes =
+                    !find_key(key)->group.empty() && find_key(key)->group == find_key(other)->group;
+                if (key != other && !excludes) continue;
+                throw_at({file, list.where}, key,
+                         fmt::format("{} varies as well, on line {}", other, where.line),
+                         "keep one of the two");
+            }
+            seen.emplace_back(key, list.where);
+        }
+    }
+}
+
+}  // namespace vibrotrough::scenario

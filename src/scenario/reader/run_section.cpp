@@ -1,0 +1,152 @@
+#include "scenario/reader/run_section.hpp"
+
+#include "core/text.hpp"
+#include "scenario/reader/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::array keys{
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", none, "\"slurm\"",
+        "who runs the packings: this machine, or job arrays of Slurm"},
+    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0, "2",
+        "of a packing, after an outcome for which the table of outcomes says so"},
+    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", none, "2",
+        "MPI ranks of every engine; without it chosen from the number of grains"},
+    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", none, "\"12 hours\"",
+        "wall clock of a packing, outcome time-limit beyond it; without it none"},
+    Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        none, "\"compute\"", "without it Slurm's default, as for all of these"},
+    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", none,
+        "\"granular\"", "that the time is charged to"},
+    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", none, "\"12 hours\"",
+        "wall clock that a packing may take; Slurm counts whole minutes"},
+    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", none, "\"2 GB\"",
+        "of a packing; 1 GB is 1024 MB"},
+    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", none, "100",
+        "at most so many packings of one array at a time"},
+};
+
+bool is_letter_or_digit(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+/// "2 GB" in MiB; nothing when the text is no such amount.
+std::optional<std::int64_t> parse_memory(std::string_view text) {
+    double amount = 0;
+    auto const [rest, failure] = std::from_chars(text.data(), text.data() + text.size(), amount);
+    std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+    if (failure != std::errc()) return {};
+    if (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    if (unit == "GB" || unit == "GiB") {
+        amount *= 1024;
+    } else if (unit != "MB" && unit != "MiB") {
+        return {};
+    }
+    if (!(amount >= 1 && amount <= 1024e6)) return {};
+    return std::llround(amount);
+}
+
+class RunSection {
+  public:
+    RunSection(std::string const& file, ContentReader const& read) : file_(file), read_(read) {}
+
+    RunSettings read(toml::table const& section) {
+        for (auto const& [name, node] : section) {
+            if (name.str() == "slurm" && node.is_table()) {
+                for (auto const& [key, value] : *node.as_table()) read_entry("run.slurm.", key, value);
+            } else {
+                read_entry("run.", name, node);
+            }
+        }
+        return settings_;
+    }
+
+  private:
+    [[noreturn]] void fail(toml::source_region const& source, std::string_view key, std::string_view wrong,
+                           std::string_view instead) const {
+        throw_at({file_, {std::max(1u, source.begin.line), std::max(1u, source.begin.column)}}, key, wrong,
+                 instead);
+    }
+
+    void read_entry(std::string_view section, toml::key const& name, toml::node const& node) {
+        std::string const path = fmt::format("{}{}", section, name.str());
+        auto const found = std::ranges::find(keys, path, &Key::path);
+        if (found == keys.end()) {
+            std::vector<std::string_view> names;
+            for (Key const& key : keys) {
+                std::string_view const rest = key.path.substr(std::min(section.size(), key.path.size()));
+                if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
+            }
+            fail(name.source(), core::printable(path, 60), "unknown key",
+                 fmt::format("this section has {}", fmt::join(names, ", ")));
+        }
+        found->kind == KeyKind::name || found->kind == KeyKind::choice ? read_text(*found, node)
+                                                                       : read_number(*found, node);
+    }
+
+    void read_text(Key const& key, toml::node const& node) {
+        std::string_view const name = key.path.substr(key.path.rfind('.') + 1);
+        std::string const given = node.value<std::string>().value_or("");
+        auto const refuse = [&] {
+            fail(node.source(), key.path,
+                 node.is_string() ? fmt::format("'{}' is not allowed", core::printable(given, 60))
+                                  : "is not a text",
+                 fmt::format("write {} = {}: {}", name, key.example, key.range));
+        };
+        if (name == "executor") {
+            if (given != "local" && given != "slurm") refuse();
+            settings_.executor = given == "slurm" ? ExecutorKind::slurm : ExecutorKind::local;
+        } else if (name == "memory") {
+            settings_.slurm.memory = parse_memory(given);
+            if (!settings_.slurm.memory) refuse();
+        } else {
+            auto const plain = PlainName::from(given);
+            if (!plain) refuse();
+            (name == "partition" ? settings_.slurm.partition : settings_.slurm.account) = plain;
+        }
+    }
+
+    void read_number(Key const& key, toml::node const& node) {
+        double const value = std::get<double>(read_(key, node));
+        int const whole = static_cast<int>(std::lround(value));
+        if (key.path == "run.retries") settings_.retries = whole;
+        if (key.path == "run.ranks") settings_.ranks = whole;
+        if (key.path == "run.time_limit") settings_.time_limit = value;
+        if (key.path == "run.slurm.time") settings_.slurm.minutes = static_cast<int>(std::ceil(value / 60));
+        if (key.path == "run.slurm.concurrent_tasks") settings_.slurm.concurrent_tasks = whole;
+    }
+
+    std::string const& file_;
+    ContentReader const& read_;
+    RunSettings settings_;
+};
+
+}  // namespace
+
+std::span<Key const> run_keys() {
+    return keys;
+}
+
+std::optional<PlainName> PlainName::from(std::string_view text) {
+    bool const plain = std::ranges::all_of(
+        text, [](char c) { return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-'; });
+    if (text.empty() || text.size() > 64 || !plain || !is_letter_or_digit(text.front())) return {};
+    return PlainName(text);
+}
+
+RunSettings read_run_section(toml::table const& section, std::string const& file, ContentReader const& read) {
+    return RunSection(file, read).read(section);
+}
+
+}  // namespace vibrotrough::scenario

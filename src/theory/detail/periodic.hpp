@@ -1,0 +1,83 @@
+#pragma once
+
+#include "theory/detail/contact.hpp"
+#include "theory/detail/flight.hpp"
+
+#include <cmath>
+
+// The periodic motion along the trough as a fixed point. Internal to the room.
+namespace vibrotrough::theory::detail {
+
+/// Eqs. 17, 18: the landing slows the slip by mu tan(beta) times the approach velocity, and at most stops it.
+inline Tangent landed(Tangent s, double impulse) {
+    if (std::abs(s.v) <= impulse) return {0, 0};
+    return {s.v - std::copysign(impulse, s.v), s.slope};
+}
+
+/// One period of the normal motion along the trough, from velocity v at its start.
+template <class Record>
+Tangent follow_period(Law const& law, NormalMotion const& normal, double v, Hints& hints, Record&& record) {
+    Tangent s{v, 1};
+    hints.next = 0;
+    auto const& flights = normal.flights;
+    if (flights.empty()) return follow_contact(law, s, normal.start, normal.end, false, hints, record);
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        Flight const& flight = flights[i];
+        double const h = flight.duration();
+        // Eq. 16: no friction, only gravity along the trough.
+        double const moved = s.v * h - law.gravity * h * h / 2 - sine_excess(flight.start, flight.end);
+        record(PhaseKind::flight, flight.start, flight.end, moved, s.slope);
+        s.v += -law.gravity * h - (flight.end.cosine - flight.start.cosine);
+        s = landed(s, law.friction_tangent * flight.approach);
+        Instant const next = i + 1 < flights.size() ? flights[i + 1].start : normal.end;
+        s = follow_contact(law, s, flight.end, next, true, hints, record);
+    }
+    return s;
+}
+
+/// Without flight the period may start anywhere: where a slide begins, so that a rest before it makes v = 0
+/// exact. @return false when no slide ever begins
+inline bool start_at_slide(Law const& law, NormalMotion& normal) {
+    normal.flights.clear();
+    if (!law.positive.can_start() && !law.negative.can_start()) return false;
+    normal.start = (law.positive.can_start() ? law.positive : law.negative).begin();
+    normal.end = normal.start;
+    normal.end.t += two_pi;
+    normal.cycles = 1;
+    return true;
+}
+
+struct FixedPoint {
+    double v;      ///< velocity at which the map was evaluated last
+    double error;  ///< Newton's estimate of the fixed point minus v
+};
+
+/// The fixed point of a map v -> (f(v), f'(v)) with 0 <= f' <= 1, by Newton within a bracket.
+///
+/// f(v) - v never rises, so every evaluation tells on which side the fixed point is. Where f' = 1 the motion
+/// drifts by the same amount every period; the step is then doubled until it leaves that stretch.
+/// Range: the fixed point exists (|tan(alpha)| <= mu). Throws PhaseError otherwise.
+/// @param tolerance  stops when the estimated error of v is below tolerance (1 + |v|)
+template <class Map>
+FixedPoint fixed_point(Map const& map, double v, double tolerance) {
+    double lo = -HUGE_VAL, hi = HUGE_VAL, stride = 1;
+    for (int i = 0; i < 2000; ++i) {
+        Tangent const after = map(v);
+        double const drift = after.v - v, scale = 1 + std::abs(v);
+        if (std::abs(drift) <= 1e-15 * scale) return {v, 0};
+        (drift > 0 ? lo : hi) = v;
+        double const step = after.slope < 1 ? drift / (1 - after.slope) : drift * (stride *= 2);
+        double next = v + step;
+        bool const inside = next > lo && next < hi;
+        if (inside && after.slope < 1 && std::abs(step) <= tolerance * scale) return {v, step};
+        if (hi - lo <= 1e-15 * scale || next == v) return {v, 0};
+        if (!inside) {
+            bool const bracketed = std::isfinite(lo) && std::isfinite(hi);
+            next = bracketed ? lo + (hi - lo) / 2 : v + drift * (stride *= 2);
+        }
+        v = next;
+    }
+    throw PhaseError("the velocity at the start of the period was not found");
+}
+
+}  // namespace vibrotrough::theory::detail
