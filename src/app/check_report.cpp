@@ -53,11 +53,15 @@ std::string CheckReport::first_error() const {
 
 CheckReport check_campaign(scenario::Campaign const& campaign) {
     CheckReport report;
+    prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
+        prepare::PreparedCase const prepared = preparer.prepare(scenario);
         ++report.cases;
-        for (deck::Finding const& finding : deck::check(scenario)) add(report, finding, report.cases);
-        report.grain_steps += deck::expected_work(scenario);
-        report.bytes += deck::expected_bytes(scenario);
+        for (deck::Finding const& finding : deck::check(prepared)) add(report, finding, report.cases);
+        report.grain_steps += deck::expected_work(prepared);
+        report.bytes += deck::expected_bytes(prepared);
+        report.packings += scenario.measure.packings;
+        report.cycles += scenario.measure.packings * deck::expected_cycles(prepared);
     }
     return report;
 }

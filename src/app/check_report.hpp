@@ -20,6 +20,8 @@ struct CheckReport {
     int cases = 0;
     double grain_steps = 0;  ///< of the whole campaign, expected
     double bytes = 0;        ///< on disk, expected
+    double packings = 0;
+    double cycles = 0;  ///< of all packings, expected
 
     int warnings() const;
     int errors() const;

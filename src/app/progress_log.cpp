@@ -24,7 +24,7 @@ Json known(double value) {
 
 Json describe(campaign::RunningPacking const& one) {
     Json json{{"case", one.planned->id},  {"packing", one.packing},
-              {"cycles", one.cycles},     {"max_cycles", one.planned->scenario.measure.max_cycles},
+              {"cycles", one.cycles},     {"max_cycles", one.planned->scenario().measure.max_cycles},
               {"efficiency", nullptr},    {"efficiency_half_width", nullptr},
               {"elapsed_s", one.elapsed}, {"time_to_go_s", known(one.time_to_go)}};
     if (one.estimate && std::isfinite(one.estimate->mean)) {
@@ -57,12 +57,12 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
     fmt::print(stderr, "{}\n", json.dump());
 }
 
-void JsonProgress::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+void JsonProgress::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                               std::string const& message) {
     Json const json{{"event", "case_ended"},
                     {"time", core::utc_now()},
                     {"case", planned.id},
-                    {"outcome", outcome},
+                    {"outcome", name_of(outcome)},
                     {"message", message}};
     fmt::print(stderr, "{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -105,12 +105,12 @@ void LoggingObserver::progressed(campaign::Progress const& progress) {
     next_.progressed(progress);
 }
 
-void LoggingObserver::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+void LoggingObserver::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                                  std::string const& message) {
     if (message.empty()) {
-        log().info(fmt::format("case {}: {}", planned.id, outcome));
+        log().info(fmt::format("case {}: {}", planned.id, name_of(outcome)));
     } else {
-        log().warn(fmt::format("case {}: {}: {}", planned.id, outcome, message));
+        log().warn(fmt::format("case {}: {}: {}", planned.id, name_of(outcome), message));
     }
     next_.case_ended(planned, outcome, message);
 }

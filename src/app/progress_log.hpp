@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/execute/local_executor.hpp"
+#include "campaign/execute/campaign_driver.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -17,7 +17,7 @@ namespace vibrotrough::app {
 class JsonProgress : public campaign::Observer {
   public:
     void progressed(campaign::Progress const& progress) override;
-    void case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+    void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
   private:
@@ -28,7 +28,7 @@ class JsonProgress : public campaign::Observer {
 class NoProgress : public campaign::Observer {
   public:
     void progressed(campaign::Progress const&) override {}
-    void case_ended(campaign::PlannedCase const&, std::string const&, std::string const&) override {}
+    void case_ended(campaign::PlannedCase const&, core::Outcome, std::string const&) override {}
 };
 
 /// The campaign's log file, DIR/campaign.log: a line with its time per event, added to at every run. A disk
@@ -50,7 +50,7 @@ class LoggingObserver : public campaign::Observer {
     /// driver's
     LoggingObserver(campaign::Observer& next, std::filesystem::path folder);
     void progressed(campaign::Progress const& progress) override;
-    void case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+    void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
   private:

@@ -28,7 +28,7 @@ std::string describe(campaign::Progress const& progress) {
 /// "  6f285f55cce4 packing 2: cycle 45 of at most 300, eta 0.793 +- 0.051, 0:12 gone, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
     std::string text = fmt::format("  {} packing {}: cycle {} of at most {}", one.planned->id, one.packing,
-                                   one.cycles, one.planned->scenario.measure.max_cycles);
+                                   one.cycles, one.planned->scenario().measure.max_cycles);
     if (one.estimate && std::isfinite(one.estimate->mean))
         text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
     text += fmt::format(", {} gone", clock_time(one.elapsed));
@@ -81,15 +81,14 @@ void ProgressPrinter::progressed(campaign::Progress const& progress) {
     printed_ = now;
 }
 
-void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                                  std::string const& message) {
     clear_lines();
-    scenario::Trough const& trough = planned.scenario.trough;
-    constexpr double degrees = 180 / std::numbers::pi;
-    fmt::print(stderr,
-               "case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",
-               planned.id, throw_number(trough), trough.vibration_angle * degrees,
-               trough.inclination * degrees, outcome, message.empty() ? "" : ": ", message);
+    scenario::Trough const& trough = planned.scenario().trough;
+    fmt::print(
+        stderr, "case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",
+        planned.id, planned.prepared->throw_number, scenario::in_degrees(trough.vibration_angle),
+        scenario::in_degrees(trough.inclination), name_of(outcome), message.empty() ? "" : ": ", message);
 }
 
 void ProgressPrinter::clear_lines() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/execute/local_executor.hpp"
+#include "campaign/execute/campaign_driver.hpp"
 
 #include <chrono>
 #include <string>
@@ -17,7 +17,7 @@ class ProgressPrinter : public campaign::Observer {
     ~ProgressPrinter() override;
 
     void progressed(campaign::Progress const& progress) override;
-    void case_ended(campaign::PlannedCase const& planned, std::string const& outcome,
+    void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
   private:

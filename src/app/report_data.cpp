@@ -22,11 +22,11 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// One period of the point mass; none when its motion has no period.
-std::string point_mass_csv(scenario::Scenario const& scenario) {
-    auto const found = point_mass_beside(scenario);
+std::string point_mass_csv(prepare::PreparedCase const& prepared) {
+    auto const found = point_mass_beside(prepared);
     if (!found) return {};
     auto const& [motion, along, normal, phase_at_start] = *found;
-    double const omega = angular_frequency(scenario.trough);
+    double const omega = prepared.angular_frequency;
     constexpr int per_cycle = 360;
     std::string text =
         "cycles,phase,gap_m,relative_displacement_m,velocity_x_m_per_s,velocity_z_m_per_s,"
@@ -53,32 +53,20 @@ Json case_list(std::vector<campaign::CaseOverview> const& cases, std::vector<com
     for (std::size_t i = 0; i < cases.size(); ++i) {
         list[i]["message"] = cases[i].message;
         list[i]["packings_done"] = cases[i].packings_done;
-        list[i]["packings_wanted"] = cases[i].planned->scenario.measure.packings;
+        list[i]["packings_wanted"] = cases[i].planned->scenario().measure.packings;
     }
     return list;
-}
-
-/// Makes campaign.h5 anew when a case was finished after it was written: figures can be drawn while cases
-/// run.
-void renew_campaign_file(campaign::Plan const& plan) {
-    std::error_code none;
-    fs::file_time_type const written = fs::last_write_time(plan.folder / "campaign.h5", none);
-    bool const there = !none;
-    for (campaign::PlannedCase const& planned : plan.cases) {
-        fs::file_time_type const finished = fs::last_write_time(planned.result_file(), none);
-        if (!none && (!there || finished > written)) return campaign::write_campaign_file(plan);
-    }
 }
 
 }  // namespace
 
 int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
-    renew_campaign_file(plan);
+    if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
     auto const [cases, rows] = compared_cases(plan);
     core::make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
         core::write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
-                                    point_mass_csv(one.planned->scenario));
+                                    point_mass_csv(*one.planned->prepared));
     }
     Json const json{{"campaign", plan.name},
                     {"program_version", core::program_version()},

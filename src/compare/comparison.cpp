@@ -1,6 +1,5 @@
 #include "compare/comparison.hpp"
 
-#include "compare/point_mass_motion.hpp"
 #include "theory/point_mass.hpp"
 
 #include <cmath>
@@ -14,26 +13,19 @@
 namespace vibrotrough::compare {
 namespace {
 
-/// Converted quantities keep 12 digits: 30 degrees is 30, not 30.000000000000004.
-double rounded(double value) {
-    if (value == 0 || !std::isfinite(value)) return value;
-    double const scale = std::pow(10.0, 11 - std::floor(std::log10(std::abs(value))));
-    return std::round(value * scale) / scale;
-}
-
-void add_theory(Row& row, scenario::Scenario const& scenario) {
-    theory::Motion const motion = point_mass_motion(scenario, scenario.trough.friction);
+void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
+    theory::Motion const motion = solve(point_mass);
     row.mode_theory = motion.mode;
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
-void add_layer_theory(Row& row, scenario::Scenario const& scenario, MeasuredFriction const& measured) {
+/// The effect of side walls is already included in the measured friction.
+void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
+                      MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
-    scenario::Scenario without_walls = scenario;  // what they do is in the measured friction
-    without_walls.trough.side_wall_friction.reset();
-    theory::Motion const motion = point_mass_motion(without_walls, measured.friction);
+    theory::Motion const motion = solve(prepare::with_friction(point_mass, measured.friction));
     row.mode_theory_layer = motion.mode;
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
@@ -52,7 +44,7 @@ std::optional<double> mean_of(store::CaseRecord const& record, double measure::L
     return sum / count;
 }
 
-void add_measurement(Row& row, store::CaseRecord const& record) {
+void add_measurement(Row& row, store::CaseRecord const& record, double velocity_scale) {
     row.packings = record.estimate.packings;
     if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
     row.cycles_measured = row.cycles_discarded = 0;
@@ -62,12 +54,12 @@ void add_measurement(Row& row, store::CaseRecord const& record) {
         *row.cycles_discarded += packing.estimate.discarded;
         *row.wall_s += packing.wall_time;
     }
-    if (record.outcome == "not-steady") return;  // a mean of what is no steady state is no number
+    if (record.outcome == "not-steady") return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     if (std::isfinite(record.estimate.half_width)) row.efficiency_dem_half_width = record.estimate.half_width;
     row.efficiency_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
     row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
-    row.speed_dem_m_per_s = record.estimate.mean * velocity_scale(record.scenario.trough);
+    row.speed_dem_m_per_s = record.estimate.mean * velocity_scale;
 }
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -108,23 +100,23 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     return text;
 }
 
-Row compare(std::string const& id, scenario::Scenario const& scenario,
+Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<store::CaseRecord> const& record, std::string const& outcome,
             std::optional<MeasuredFriction> const& friction) {
-    scenario::Trough const& trough = scenario.trough;
+    scenario::Trough const& trough = prepared.scenario.trough;
     Row row{};
     row.id = id;
-    row.throw_number = rounded(throw_number(trough));
-    row.machine_number = rounded(machine_number(trough));
-    row.vibration_angle_deg = rounded(trough.vibration_angle * degrees);
-    row.inclination_deg = rounded(trough.inclination * degrees);
+    row.throw_number = prepared.throw_number;
+    row.machine_number = prepared.machine_number;
+    row.vibration_angle_deg = scenario::in_degrees(trough.vibration_angle);
+    row.inclination_deg = scenario::in_degrees(trough.inclination);
     row.friction = trough.friction;
     row.amplitude_m = trough.amplitude;
-    row.frequency_hz = rounded(trough.frequency);
+    row.frequency_hz = trough.frequency;
     row.outcome = record ? record->outcome : outcome;
-    add_theory(row, scenario);
-    if (friction) add_layer_theory(row, scenario, *friction);
-    if (record) add_measurement(row, *record);
+    add_theory(row, prepared.point_mass);
+    if (friction) add_layer_theory(row, prepared.point_mass, *friction);
+    if (record) add_measurement(row, *record, prepared.velocity_scale);
     return row;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/model/scenario.hpp"
+#include "prepare/prepared_case.hpp"
 #include "store/case_record.hpp"
 
 #include <optional>
@@ -47,7 +47,7 @@ struct MeasuredFriction {
 /// @param record    the case's result, when it has one
 /// @param outcome   what to say of a case without a result, e.g. "lost-grains" or "open"
 /// @param friction  of the layer, when a friction test has measured it
-Row compare(std::string const& id, scenario::Scenario const& scenario,
+Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<store::CaseRecord> const& record, std::string const& outcome,
             std::optional<MeasuredFriction> const& friction = {});
 

@@ -1,7 +1,6 @@
 #include "deck/check.hpp"
 
 #include "deck/estimates.hpp"
-#include "deck/time_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +40,9 @@ char const* stiffness_key(scenario::Scenario const& s) {
 
 /// eta was measured to be the same at 10, 20, 30 and 40 % of the Rayleigh time. A contact of fewer than ten
 /// steps is not integrated but guessed (the engine's certificate: e is off by 0.02 at 14 steps).
-void look_at_time(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
+void look_at_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    prepare::TimeGrid const& time = c.time;
     char const* const key = stiffness_key(s);
     if (!is_block(s)) {
         findings.push_back(most("time step / Rayleigh time", "solver.rayleigh_fraction",
@@ -61,28 +62,32 @@ void look_at_time(std::vector<Finding>& findings, scenario::Scenario const& s, T
 /// A soft grain saves time steps, but overlaps of some percent change the packing, and above some ten percent
 /// Hertz's law has no meaning. eta changes by 0.03 between E = 1 and 20 MPa where the impact overlap goes
 /// from 8 to 2 % of the diameter.
-void look_at_overlaps(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
+void look_at_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    prepare::TimeGrid const& time = c.time;
     double const diameter = s.grains.diameter;
     char const* const stiffen = "raise it: the overlap goes with its power -2/3 at rest, -2/5 at impact";
     findings.push_back(most("overlap under the layer's own weight / diameter", "grains.youngs_modulus",
-                            overlap_under(s, bottom_load(s)) / diameter, 0.01, 0.1, stiffen));
+                            overlap_under(c, bottom_load(c)) / diameter, 0.01, 0.1, stiffen));
     findings.push_back(most("overlap of a grain at impact at twice the trough's speed / diameter",
-                            "grains.youngs_modulus", overlap_at_impact(s, time.impact_speed) / diameter, 0.1,
+                            "grains.youngs_modulus", overlap_at_impact(c, time.impact_speed) / diameter, 0.1,
                             0.3, stiffen));
 }
 
 /// An impact is meant to be short against what happens between impacts. The layer's collision passes
 /// through it grain by grain: the height in diameters times a grain's contact time.
-void look_at_contact_time(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
+void look_at_contact_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    prepare::TimeGrid const& time = c.time;
     double const speed = time.impact_speed / 2;
-    double const contact = impact_duration(s, speed), cycle = 1 / s.trough.frequency;
-    double const layers = is_block(s) ? 1 : std::max(1.0, layer_height(s) / s.grains.diameter);
+    double const contact = impact_duration(c, speed), cycle = 1 / s.trough.frequency;
+    double const layers = is_block(s) ? 1 : std::max(1.0, c.layer_height / s.grains.diameter);
     std::string const key = stiffness_key(s);
     std::string const stiffen =
         "raise it: contacts are shorter by its power " + std::string(is_block(s) ? "-1" : "-2/5");
     findings.push_back(
         most("contact time at the trough's speed / cycle", key, contact / cycle, 0.02, 0.1, stiffen));
-    double const flight = flight_time(s);
+    double const flight = flight_time(c);
     if (flight <= 0) return;
     findings.push_back(
         most("contact time at the trough's speed / flight time", key, contact / flight, 0.05, 0.3, stiffen));
@@ -92,32 +97,35 @@ void look_at_contact_time(std::vector<Finding>& findings, scenario::Scenario con
 }
 
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
-void look_at_box(std::vector<Finding>& findings, scenario::Scenario const& s) {
+void look_at_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
     double const diameter = s.grains.diameter;
     findings.push_back(least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
                              "lengthen the box: a grain should not meet its own image's neighbours"));
     findings.push_back(
         least("periodic width / diameter", "layer.width", s.layer.width / diameter, 5, 4, "widen the box"));
     findings.push_back(least("periodic length / layer height", "layer.length",
-                             s.layer.length / layer_height(s), 1, 0,
+                             s.layer.length / c.layer_height, 1, 0,
                              "lengthen the box: waves and convection in the layer need room"));
-    findings.push_back(least("layer height / diameter", "layer.height", layer_height(s) / diameter, 1, 0,
+    findings.push_back(least("layer height / diameter", "layer.height", c.layer_height / diameter, 1, 0,
                              "take more grains: this is no layer but single grains"));
 }
 
 /// The periodic mesh moves in the box; its nodes go round.
-void look_at_stroke(std::vector<Finding>& findings, scenario::Scenario const& s) {
+void look_at_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
     double const stroke = 2 * s.trough.amplitude * std::cos(s.trough.vibration_angle);
     findings.push_back(most("stroke along the trough / periodic length", "layer.length",
                             stroke / s.layer.length, 1, 2,
                             "lengthen the box: the mesh moves by more than a whole image of itself"));
 }
 
-void look_at_engine(std::vector<Finding>& findings, scenario::Scenario const& s, TimeGrid const& time) {
+void look_at_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    prepare::TimeGrid const& time = c.time;
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
-                             "grains.diameter", steps_between_rebuilds(s, time.impact_speed), 5, 1,
+                             "grains.diameter", steps_between_rebuilds(c, time.impact_speed), 5, 1,
                              "shorten the time step: grains outrun their neighbour lists"));
-    Finding disk = most("disk", "output.frames_per_cycle", expected_bytes(s), 1e10, 1e12,
+    Finding disk = most("disk", "output.frames_per_cycle", expected_bytes(c), 1e10, 1e12,
                         "write fewer frames (output.frames_per_cycle)");
     disk.unit = "byte";
     findings.push_back(disk);
@@ -137,15 +145,14 @@ std::string to_string(Severity severity) {
     return "unknown";
 }
 
-std::vector<Finding> check(scenario::Scenario const& scenario) {
-    TimeGrid const time = choose_time_step(scenario);
+std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
-    look_at_time(findings, scenario, time);
-    if (!is_block(scenario)) look_at_overlaps(findings, scenario, time);
-    look_at_contact_time(findings, scenario, time);
-    if (!is_block(scenario)) look_at_box(findings, scenario);
-    look_at_stroke(findings, scenario);
-    look_at_engine(findings, scenario, time);
+    look_at_time(findings, prepared);
+    if (!is_block(prepared.scenario)) look_at_overlaps(findings, prepared);
+    look_at_contact_time(findings, prepared);
+    if (!is_block(prepared.scenario)) look_at_box(findings, prepared);
+    look_at_stroke(findings, prepared);
+    look_at_engine(findings, prepared);
     return findings;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/model/scenario.hpp"
+#include "prepare/prepared_case.hpp"
 
 #include <string>
 #include <vector>
@@ -32,7 +32,6 @@ std::string to_string(Severity severity);
 /// Looks at everything about a case that a person would look at before spending hours on it: time step, steps
 /// per cycle and contact, overlaps, contact against flight time, the box, neighbour lists, disk. All items
 /// are given, fine ones too, always in the same order. The formulas are in `estimates.hpp`.
-/// @throws InputError when there is no usable time step (see choose_time_step)
-std::vector<Finding> check(scenario::Scenario const& scenario);
+std::vector<Finding> check(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::deck

@@ -17,6 +17,9 @@ namespace {
 
 namespace mustache = kainjow::mustache;
 
+constexpr std::string_view processors_line =
+    "\nprocessors      * * 1                      # the floor is shared out, not the height";
+
 /// Tags on lines of their own leave blank lines: one between two parts is enough, none within a comment.
 std::string tidy(std::string const& text) {
     std::string result;
@@ -64,37 +67,37 @@ std::string render(char const* name, mustache::data const& data) {
     return tidy(result);
 }
 
-std::map<std::string, std::string> meshes(scenario::Scenario const& scenario, DeckNumbers const& numbers) {
+std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared) {
+    scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * scenario.grains.diameter;
     std::map<std::string, std::string> files{{"trough.stl", flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
-        files["left.stl"] = side_wall_stl(length, numbers.wall_height, 0, coarse);
-        files["right.stl"] = side_wall_stl(length, numbers.wall_height, width, coarse);
+        files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
+        files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
     }
     return files;
 }
 
 }  // namespace
 
-Deck make_deck(scenario::Scenario const& scenario, int packing) {
+Deck make_deck(prepare::PreparedCase const& prepared, int packing) {
     if (packing < 1 || packing > 1000)
         throw std::invalid_argument(fmt::format("no packing number {}", packing));
-    DeckNumbers const numbers = make_numbers(scenario);
     Deck deck;
-    deck.time = numbers.time;
-    deck.seed = seed_number(3 * (packing - 1));
-    deck.mass = numbers.mass;
-    deck.weight = deck.mass * scenario::gravity * std::cos(scenario.trough.inclination);
-    mustache::data data = describe(scenario, numbers, packing);
-    for (auto const& [name, value] : phase_sampling(scenario, numbers.time)) data.set(name, value);
-    deck.settle_files = meshes(scenario, numbers);
+    mustache::data data = describe(prepared, packing);
+    for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
+    deck.settle_files = meshes(prepared);
     deck.settle_files[settle_file] = render(settle_file, data);
     deck.files = deck.settle_files;
     deck.files[drive_file] = render(drive_file, data);
     deck.files[control_file] = control_go_on;
     return deck;
+}
+
+int packing_seed(int packing) {
+    return seed_number(3 * (packing - 1));
 }
 
 std::string checkpoint_file(int cycle) {
@@ -104,13 +107,17 @@ std::string checkpoint_file(int cycle) {
 std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> files, int ranks) {
     if (ranks == 1) return files;
     constexpr std::string_view before = "\ncommunicate ";
-    constexpr std::string_view line =
-        "\nprocessors      * * 1                      # the floor is shared out, not the height";
     for (auto& [name, content] : files) {
         auto const at = content.find(before);
-        if (at != std::string::npos) content.insert(at, line);
+        if (at != std::string::npos) content.insert(at, processors_line);
     }
     return files;
+}
+
+std::string for_one_rank(std::string content) {
+    auto const at = content.find(processors_line);
+    if (at != std::string::npos) content.erase(at, processors_line.size());
+    return content;
 }
 
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "deck/time_grid.hpp"
-#include "scenario/model/scenario.hpp"
+#include "prepare/prepared_case.hpp"
 
 #include <filesystem>
 #include <map>
@@ -14,10 +13,6 @@ namespace vibrotrough::deck {
 struct Deck {
     std::map<std::string, std::string> settle_files;  ///< of the first deck, which knows nothing of the drive
     std::map<std::string, std::string> files;         ///< of both, name and content
-    TimeGrid time;
-    int seed;       ///< of the packing, a prime as the engine wants it
-    double mass;    ///< kg, of all grains
-    double weight;  ///< N, what the layer at rest presses onto the trough: m g cos(alpha)
 };
 
 /// Lines that the decks print and the driver looks for.
@@ -38,8 +33,10 @@ constexpr char const* control_stop = "variable stop equal 1\n";
 
 /// The deck of packing number `packing` (from 1). Different packings differ by their seeds only.
 /// @throws std::invalid_argument when `packing` is below 1 or above 1000
-/// @throws InputError when the scenario cannot be cut into steps
-Deck make_deck(scenario::Scenario const& scenario, int packing);
+Deck make_deck(prepare::PreparedCase const& prepared, int packing);
+
+/// The seed of packing number `packing` (from 1), a prime as the engine wants it.
+int packing_seed(int packing);
 
 /// Name of the restart file that the deck writes after this cycle.
 std::string checkpoint_file(int cycle);
@@ -48,6 +45,9 @@ std::string checkpoint_file(int cycle);
 /// its faces are smallest; it is tall and empty above, so that all grains would be one rank's. Files for one
 /// rank are as they were.
 std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> files, int ranks);
+
+/// The deck for one rank again, from one that for_ranks made.
+std::string for_one_rank(std::string content);
 
 /// Writes files into the folder, which is made.
 /// @throws MissingError when the disk refuses

@@ -28,7 +28,8 @@ bool is_body(scenario::Scenario const& s) {
     return is_clump(s.grains) || s.layer.block == scenario::Block::plate;
 }
 
-std::string template_of(scenario::Scenario const& s, DeckNumbers const& n, double diameter, int index) {
+std::string template_of(prepare::PreparedCase const& n, double diameter, int index) {
+    scenario::Scenario const& s = n.scenario;
     std::string const start =
         fmt::format("{} {} atom_type 1 density constant {}", is_body(s) ? "multisphere" : "sphere",
                     seed_number(4000 + index), s.grains.density);
@@ -43,20 +44,20 @@ std::string template_of(scenario::Scenario const& s, DeckNumbers const& n, doubl
                        fmt::join(inertia, " "), turns ? "" : " tflag off off off");
 }
 
-mustache::list describe_classes(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
+mustache::list describe_classes(prepare::PreparedCase const& n, int packing) {
     mustache::list list;
     int index = 0;
     int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
     // Packings have seeds of their own: three primes each for three classes, as many as there are for more.
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
-    for (ClassCount const& size : n.classes) {
+    for (prepare::ClassCount const& size : n.classes) {
         mustache::data entry;
         so_far += size.count;
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
         entry.set("count", std::to_string(size.count));
         entry.set("count_so_far", std::to_string(so_far));
-        entry.set("template", template_of(s, n, size.diameter, index));
+        entry.set("template", template_of(n, size.diameter, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
         list.push_back(entry);
@@ -111,17 +112,17 @@ std::string repeated(int times, double value) {
         "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
 }
 
-void describe_block_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n,
-                            int types) {
-    BlockContact const contact =
-        block_contact(s, n.mass, n.clump ? static_cast<int>(n.clump->spheres.size()) : 1);
+void describe_block_contact(mustache::data& data, prepare::PreparedCase const& n, int types) {
+    scenario::Scenario const& s = n.scenario;
+    prepare::BlockContact const contact = prepare::block_contact(s, n.mass, n.spheres_per_grain);
     auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
     data.set("contact_stiffness", rounded(contact.stiffness));
     data.set("contact_stiffnesses", everywhere(contact.stiffness));
     data.set("contact_dampings", everywhere(contact.damping));
 }
 
-void describe_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
+void describe_contact(mustache::data& data, prepare::PreparedCase const& n) {
+    scenario::Scenario const& s = n.scenario;
     bool const block = s.layer.block != scenario::Block::none,
                rolls = s.grains.rotation == scenario::Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
@@ -145,7 +146,7 @@ void describe_contact(mustache::data& data, scenario::Scenario const& s, DeckNum
     data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));
     double const rolling = s.grains.rolling_friction;
     data.set("rolling_frictions", per_pair(types, rolling, rolling, rolling));
-    if (block) describe_block_contact(data, s, n, types);
+    if (block) describe_block_contact(data, n, types);
 }
 
 std::string integrator(scenario::Scenario const& s) {
@@ -153,14 +154,17 @@ std::string integrator(scenario::Scenario const& s) {
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
 }
 
-void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time) {
+void describe_drive(mustache::data& data, prepare::PreparedCase const& n) {
+    scenario::Scenario const& s = n.scenario;
+    prepare::TimeGrid const& time = n.time;
     data.set("vibration_angle_deg", rounded(s.trough.vibration_angle * degrees));
     data.set("amplitude", text(s.trough.amplitude));
     data.set("frequency", text(s.trough.frequency));
-    data.set("throw_number", rounded(throw_number(s.trough)));
-    data.set("machine_number", rounded(machine_number(s.trough)));
+    data.set("throw_number", rounded(n.throw_number));
+    data.set("machine_number", rounded(n.machine_number));
     std::string remark;
-    if (s.trough.waveform) remark = fmt::format(",\n#             waveform of {}", s.trough.waveform->name);
+    if (s.trough.waveform)
+        remark = fmt::format(",\n#             waveform of {}", s.trough.waveform->file.name);
     if (s.trough.along_phase != 0)
         remark += fmt::format(",\n#             x ahead of z by {:.6g} deg", s.trough.along_phase * degrees);
     for (scenario::DriveHarmonic const& harmonic : s.trough.harmonics) {
@@ -169,9 +173,8 @@ void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid 
             harmonic.order, harmonic.ratio, harmonic.phase * degrees);
     }
     data.set("drive_remark", remark);
-    scenario::DriveMotion const motion = drive_motion(s.trough);
     mustache::list lines;
-    for (auto const& [axis, terms] : {std::pair{"x", &motion.along}, std::pair{"z", &motion.normal}}) {
+    for (auto const& [axis, terms] : {std::pair{"x", &n.motion.along}, std::pair{"z", &n.motion.normal}}) {
         DriveFormula const formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
             mustache::data entry;
@@ -190,7 +193,8 @@ void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid 
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
-void describe_output(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time, int packing) {
+void describe_output(mustache::data& data, scenario::Scenario const& s, prepare::TimeGrid const& time,
+                     int packing) {
     bool const frames = packing == 1 && s.output.frames_per_cycle > 0;  // frames show the first packing
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
@@ -200,13 +204,14 @@ void describe_output(mustache::data& data, scenario::Scenario const& s, TimeGrid
 }
 
 /// Where the grains are poured from, and how long that may take.
-void describe_packing(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
+void describe_packing(mustache::data& data, prepare::PreparedCase const& n) {
+    scenario::Scenario const& s = n.scenario;
     bool const walls = s.trough.side_wall_friction.has_value();
     double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
     double const chunk_time = std::sqrt(diameter / scenario::gravity);
     double const mean_mass = n.mass / s.layer.grains;
-    int const spheres = n.clump ? static_cast<int>(n.clump->spheres.size()) : 1;
+    int const spheres = n.spheres_per_grain;
     data.set("integrator", integrator(s));
     data.set("orientation",
              is_body(s) && s.layer.block == scenario::Block::none ? "orientation random " : "");
@@ -237,9 +242,10 @@ int seed_number(int index) {
     return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
 }
 
-mustache::data describe(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
+mustache::data describe(prepare::PreparedCase const& n, int packing) {
+    scenario::Scenario const& s = n.scenario;
     mustache::data data;
-    mustache::list const classes = describe_classes(s, n, packing);
+    mustache::list const classes = describe_classes(n, packing);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
     data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));
@@ -248,9 +254,9 @@ mustache::data describe(scenario::Scenario const& s, DeckNumbers const& n, int p
     data.set("packing_number", std::to_string(packing));
     data.set("seed", std::to_string(seed_number(3 * (packing - 1))));
     describe_inputs(data, s);
-    describe_contact(data, s, n);
-    describe_packing(data, s, n);
-    describe_drive(data, s, n.time);
+    describe_contact(data, n);
+    describe_packing(data, n);
+    describe_drive(data, n);
     describe_output(data, s, n.time, packing);
     return data;
 }

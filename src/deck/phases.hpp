@@ -1,6 +1,6 @@
 #pragma once
 
-#include "deck/time_grid.hpp"
+#include "prepare/prepared_case.hpp"
 
 #include <map>
 #include <string>
@@ -14,6 +14,6 @@ constexpr int profile_stride = 3;
 
 /// Numbers of the template `phases` by name: how often the layer is looked at within a cycle, and in what
 /// bins. Lengths in m.
-std::map<std::string, std::string> phase_sampling(scenario::Scenario const& scenario, TimeGrid const& time);
+std::map<std::string, std::string> phase_sampling(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::deck

@@ -2,6 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/plan.hpp"
+#include "evaluate/packing.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -25,7 +26,7 @@ inline void overwrite(std::filesystem::path const& path, std::string const& byte
 /// cycles.csv as the deck writes it, for a layer whose velocity efficiency in cycle k = 1 ... n is eta(k).
 inline std::string cycles_text(scenario::Scenario const& scenario, int cycles,
                                std::function<double(int)> const& eta) {
-    int const steps = deck::choose_time_step(scenario).steps_per_cycle;
+    int const steps = prepare::prepare_case(scenario).time.steps_per_cycle;
     double const amplitude_x = scenario.trough.amplitude * std::cos(scenario.trough.vibration_angle);
     std::string text =
         "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n";
@@ -40,7 +41,7 @@ inline std::string cycles_text(scenario::Scenario const& scenario, int cycles,
 
 /// phases.csv of a layer that goes with the trough but for a steady slip, and one snapshot per profile.
 inline void write_layer(std::filesystem::path const& folder, scenario::Scenario const& scenario, int cycles) {
-    int const steps = deck::choose_time_step(scenario).steps_per_cycle;
+    int const steps = prepare::prepare_case(scenario).time.steps_per_cycle;
     double const beta = scenario.trough.vibration_angle, r = scenario.trough.amplitude;
     std::string text =
         "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,floor_z,touching,touching_vx,"
@@ -63,11 +64,12 @@ class CampaignFolder : public testing::Test {
     ~CampaignFolder() override { std::filesystem::remove_all(folder); }
 
     /// The packing's files as an engine that ended well leaves them.
-    void write_packing(int packing, std::string const& cycles, FinishedPacking const& marker = {}) const {
+    void write_packing(int packing, std::string const& cycles,
+                       evaluate::PackingMarker const& marker = {}) const {
         overwrite(planned.packing_folder(packing) / "in.liggghts", fmt::format("# deck {}\n", packing));
         overwrite(planned.packing_folder(packing) / "cycles.csv", cycles);
         write_layer(planned.packing_folder(packing), scenario, 60);
-        write_finished_packing(planned, packing, marker, read_outputs(planned.packing_folder(packing)));
+        evaluate::write_marker(evaluate::read_packing_files(planned.packing_folder(packing)), marker);
     }
 
     std::string campaign_text = with("packings = 3", "packings = 2");
@@ -75,7 +77,7 @@ class CampaignFolder : public testing::Test {
         std::filesystem::path(testing::TempDir()) / fmt::format("campaign_{}", ::getpid());
     Plan plan = make_plan(scenario::parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
     PlannedCase planned = plan.cases.front();
-    scenario::Scenario scenario = planned.scenario;
+    scenario::Scenario scenario = planned.scenario();
 };
 
 }  // namespace vibrotrough::campaign

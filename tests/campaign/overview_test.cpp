@@ -14,43 +14,43 @@ namespace fs = std::filesystem;
 class Overview : public CampaignFolder {
   protected:
     Overview() { fs::create_directories(folder); }
-    CaseOverview look() const { return look_at(plan).at(0); }
+    CaseOverview look() const { return survey(plan, {FolderLock::is_held(folder), {}}).at(0); }
 };
 
 TEST_F(Overview, OpenThenRunningThenInterrupted) {
-    EXPECT_EQ(look().outcome, "open");
+    EXPECT_EQ(look().label(), "open");
     EXPECT_EQ(look().packings_done, 0);
     {
         FolderLock const driver(folder);
-        EXPECT_EQ(look().outcome, "open") << "a driver that has not come to this case";
+        EXPECT_EQ(look().label(), "open") << "a driver that has not come to this case";
         write_packing(2, "cycles");
-        EXPECT_EQ(look().outcome, "open") << "one packing is done, none runs";
+        EXPECT_EQ(look().label(), "open") << "one packing is done, none runs";
         fs::create_directories(planned.packing_folder(1));
-        EXPECT_EQ(look().outcome, "running") << "a packing without its marker";
+        EXPECT_EQ(look().label(), "running") << "a packing without its marker";
     }
-    EXPECT_EQ(look().outcome, "interrupted");
+    EXPECT_EQ(look().label(), "interrupted");
     EXPECT_EQ(look().packings_done, 1);
     EXPECT_FALSE(look().record);
 }
 
 TEST_F(Overview, FailureUntilItIsTriedAgain) {
-    write_failure(planned, {"lost-grains", "3 grains left the box", 1, 1});
-    EXPECT_EQ(look().outcome, "lost-grains");
+    write_failure(planned, {core::Outcome::lost_grains, "3 grains left the box", 1, 1});
+    EXPECT_EQ(look().label(), "lost-grains");
     EXPECT_EQ(look().message, "3 grains left the box");
     FolderLock const driver(folder);
-    EXPECT_EQ(look().outcome, "lost-grains") << "also while other cases run";
+    EXPECT_EQ(look().label(), "lost-grains") << "also while other cases run";
     fs::remove(planned.failure_file());  // what the driver does when it tries again
     fs::create_directories(planned.packing_folder(1));
-    EXPECT_EQ(look().outcome, "running");
+    EXPECT_EQ(look().label(), "running");
     EXPECT_EQ(look().message, "");
 }
 
 TEST_F(Overview, ResultSaysTheOutcome) {
     fs::create_directories(planned.folder);
-    write_failure(planned, {"lost-grains", "3 grains left the box", 1, 1});
+    write_failure(planned, {core::Outcome::lost_grains, "3 grains left the box", 1, 1});
     store::write_result(planned.result_file(), store::sample_record(planned.id));
     FolderLock const driver(folder);
-    EXPECT_EQ(look().outcome, "not-precise");  // the sample's
+    EXPECT_EQ(look().label(), "not-precise");  // the sample's
     EXPECT_EQ(look().message, "");
     EXPECT_EQ(look().packings_done, 2);
     ASSERT_TRUE(look().record);

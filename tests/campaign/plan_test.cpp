@@ -1,5 +1,6 @@
 #include "campaign/state/plan.hpp"
 
+#include "campaign/state/campaign_folder.hpp"
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -69,7 +70,7 @@ TEST(CaseId, ChangesWithEveryInput) {
         {"amplitude", "along_phase = \"1 deg\"\namplitude"},
         {"36 mm", "36.001 mm"},
         {"18 mm", "18.001 mm"},
-        {"height = \"12 mm\"", "height = \"12.001 mm\""},
+        {"height = \"12 mm\"", "height = \"12.1 mm\""},
         {"height = \"12 mm\"", "grains = 500"},
         // What is measured and written is part of the case, too.
         {"packings = 3", "packings = 4"},
@@ -83,6 +84,11 @@ TEST(CaseId, ChangesWithEveryInput) {
         EXPECT_TRUE(ids.insert(id_of(with(from, to))).second) << from << " -> " << to << " kept an id";
     }
     EXPECT_TRUE(ids.insert(ids_of(example_campaign, "LIGGGHTS 3.9.0").at(0)).second) << "engine version";
+}
+
+// A height that gives the same number of grains is the same run of the engine.
+TEST(CaseId, IsOfWhatTheEngineDoes) {
+    EXPECT_EQ(id_of(with("height = \"12 mm\"", "height = \"12.001 mm\"")), id_of(example_campaign));
 }
 
 TEST(MakePlan, PutsEachCaseBelowTheFolder) {
@@ -139,9 +145,9 @@ TEST_F(OpenPlan, KeepsTheCertificateOfItsEngineOnly) {
 
 TEST_F(OpenPlan, RefusesAFolderThatIsNone) {
     fs::remove(folder / "engine.json");
-    EXPECT_NE(refusal().find(folder.string() + " is no campaign folder"), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find(folder.string() + " is not a campaign folder"), std::string::npos) << refusal();
     fs::remove_all(folder);
-    EXPECT_NE(refusal().find("is no campaign folder"), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("is not a campaign folder"), std::string::npos) << refusal();
 }
 
 TEST_F(OpenPlan, NamesTheDamagedFile) {

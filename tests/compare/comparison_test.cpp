@@ -24,7 +24,7 @@ scenario::Scenario scenario_at(double vibration_angle_deg, double inclination_de
 }
 
 TEST(Compare, ShowsTheInputs) {
-    Row const row = compare("0123456789ab", record.scenario, {}, "open");
+    Row const row = compare("0123456789ab", prepare::prepare_case(record.scenario), {}, "open");
     EXPECT_EQ(row.id, "0123456789ab");
     EXPECT_EQ(row.friction, 0.23);
     EXPECT_EQ(row.amplitude_m, 0.006);
@@ -42,10 +42,12 @@ TEST(Compare, ShowsTheInputs) {
 
 TEST(Compare, ShowsAnglesAsTheyWereWritten) {
     for (double const angle : {1.0, 12.5, 20.0, 30.0, 45.0, 60.0, 89.0}) {
-        EXPECT_EQ(compare("", scenario_at(angle, 0), {}, "open").vibration_angle_deg, angle);
+        EXPECT_EQ(compare("", prepare::prepare_case(scenario_at(angle, 0)), {}, "open").vibration_angle_deg,
+                  angle);
     }
     for (double const angle : {-45.0, -2.86, 0.0, 3.0, 15.1}) {
-        EXPECT_EQ(compare("", scenario_at(30, angle), {}, "open").inclination_deg, angle);
+        EXPECT_EQ(compare("", prepare::prepare_case(scenario_at(30, angle)), {}, "open").inclination_deg,
+                  angle);
     }
 }
 
@@ -56,7 +58,7 @@ TEST(Compare, PredictsWithTheTheory) {
                                                  .tan_inclination = std::tan(-0.05),
                                                  .friction = 0.23});
     ASSERT_TRUE(motion.converged);
-    Row const row = compare("", record.scenario, {}, "open");
+    Row const row = compare("", prepare::prepare_case(record.scenario), {}, "open");
     EXPECT_EQ(row.efficiency_theory, motion.velocity_efficiency);
     EXPECT_EQ(row.mode_theory, motion.mode);
 }
@@ -70,7 +72,8 @@ TEST(Compare, KnowsTheFactsSheetsPointMass) {
     trough.frequency =
         std::sqrt(2 * scenario::gravity / (trough.amplitude * std::sin(trough.vibration_angle))) /
         (2 * std::numbers::pi);
-    EXPECT_NEAR(compare("", scenario, {}, "open").efficiency_theory.value(), 0.5815, 0.0005);
+    EXPECT_NEAR(compare("", prepare::prepare_case(scenario), {}, "open").efficiency_theory.value(), 0.5815,
+                0.0005);
 }
 
 // The theory's commands and the campaigns stand on the same ground.
@@ -81,13 +84,13 @@ TEST(Compare, OneGravity) {
 
 // A trough that shakes along itself, horizontal: forward and backward slides are mirror images, eta = 0.
 TEST(Compare, HasTheoryForADriveAlongTheTrough) {
-    Row const row = compare("", scenario_at(0, 0), {}, "open");
+    Row const row = compare("", prepare::prepare_case(scenario_at(0, 0)), {}, "open");
     EXPECT_NEAR(row.efficiency_theory.value(), 0, 1e-9);  // the theory takes tan(beta) = 1e-12 there
     EXPECT_EQ(row.throw_number, 0);
 }
 
 TEST(Compare, ShowsTheMeasurement) {
-    Row const row = compare("0123456789ab", record.scenario, record, "not looked at");
+    Row const row = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "not looked at");
     EXPECT_EQ(row.outcome, "not-precise");
     EXPECT_EQ(row.efficiency_dem, 0.82);
     EXPECT_EQ(row.efficiency_dem_half_width, 0.127);
@@ -103,24 +106,25 @@ TEST(Compare, ShowsTheMeasurement) {
 
 // Theory at the friction that was measured, beside theory at the grain's.
 TEST(Compare, HasTheoryAtTheLayersFriction) {
-    Row const row = compare("", record.scenario, {}, "open", MeasuredFriction{0.15, 0.14, 0.17});
+    Row const row =
+        compare("", prepare::prepare_case(record.scenario), {}, "open", MeasuredFriction{0.15, 0.14, 0.17});
     EXPECT_EQ(row.friction_layer, 0.15);
     EXPECT_EQ(row.friction_layer_low, 0.14);
     EXPECT_EQ(row.friction_layer_high, 0.17);
     scenario::Scenario smooth = record.scenario;
     smooth.trough.friction = 0.15;
-    Row const wanted = compare("", smooth, {}, "open");
+    Row const wanted = compare("", prepare::prepare_case(smooth), {}, "open");
     EXPECT_EQ(row.efficiency_theory_layer, wanted.efficiency_theory);
     EXPECT_EQ(row.mode_theory_layer, wanted.mode_theory);
     EXPECT_NE(row.efficiency_theory_layer, row.efficiency_theory);
-    EXPECT_FALSE(compare("", record.scenario, {}, "open").friction_layer);
-    EXPECT_FALSE(compare("", record.scenario, {}, "open").efficiency_theory_layer);
+    EXPECT_FALSE(compare("", prepare::prepare_case(record.scenario), {}, "open").friction_layer);
+    EXPECT_FALSE(compare("", prepare::prepare_case(record.scenario), {}, "open").efficiency_theory_layer);
 }
 
 TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
     store::CaseRecord unsteady = record;
     unsteady.outcome = "not-steady";
-    Row const row = compare("", record.scenario, unsteady, "");
+    Row const row = compare("", prepare::prepare_case(record.scenario), unsteady, "");
     EXPECT_EQ(row.outcome, "not-steady");
     EXPECT_FALSE(row.efficiency_dem);
     EXPECT_FALSE(row.efficiency_dem_half_width);
@@ -133,14 +137,14 @@ TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
 TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
     store::CaseRecord unknown = record;
     unknown.estimate.half_width = std::numeric_limits<double>::infinity();
-    Row const row = compare("", record.scenario, unknown, "");
+    Row const row = compare("", prepare::prepare_case(record.scenario), unknown, "");
     EXPECT_EQ(row.efficiency_dem, 0.82);
     EXPECT_FALSE(row.efficiency_dem_half_width);
 }
 
 TEST(Compare, HasNoMeasurementWithoutARecord) {
     for (char const* outcome : {"open", "running", "interrupted", "lost-grains"}) {
-        Row const row = compare("", record.scenario, {}, outcome);
+        Row const row = compare("", prepare::prepare_case(record.scenario), {}, outcome);
         EXPECT_EQ(row.outcome, outcome);
         EXPECT_FALSE(row.efficiency_dem);
         EXPECT_FALSE(row.efficiency_dem_half_width);

@@ -67,10 +67,10 @@ store::CaseRecord record_at(double degrees, std::string const& outcome) {
 /// A finished case, one that was never steady, one that failed and one that is open.
 std::vector<Row> some_rows() {
     store::CaseRecord const finished = record_at(30, "finished"), unsteady = record_at(10, "not-steady");
-    return {compare("0123456789ab", finished.scenario, finished, ""),
-            compare("123456789abc", unsteady.scenario, unsteady, ""),
-            compare("23456789abcd", finished.scenario, {}, "insertion-incomplete"),
-            compare("3456789abcde", finished.scenario, {}, "open")};
+    return {compare("0123456789ab", prepare::prepare_case(finished.scenario), finished, ""),
+            compare("123456789abc", prepare::prepare_case(unsteady.scenario), unsteady, ""),
+            compare("23456789abcd", prepare::prepare_case(finished.scenario), {}, "insertion-incomplete"),
+            compare("3456789abcde", prepare::prepare_case(finished.scenario), {}, "open")};
 }
 
 std::vector<std::string> lines_of(std::string const& text) {

@@ -23,7 +23,7 @@ scenario::Scenario scenario(std::string const& text = example_campaign) {
 
 /// Both decks, one after the other.
 std::string decks(scenario::Scenario const& s, int packing = 1) {
-    Deck const deck = make_deck(s, packing);
+    Deck const deck = make_deck(prepare::prepare_case(s), packing);
     return deck.files.at("settle.liggghts") + deck.files.at("in.liggghts");
 }
 
@@ -34,58 +34,14 @@ double number_after(std::string const& deck, std::string const& before) {
     return std::stod(deck.substr(at + before.size()));
 }
 
-// Rayleigh time by hand for R = 1.35 mm, rho = 1400, E = 5 MPa, nu = 0.35:
-// G = 5e6 / 2.7 = 1.851852e6, pi R sqrt(rho / G) / (0.1631 nu + 0.8766) = 1.24895e-4 s.
-TEST(Deck, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
-    scenario::Scenario const s = scenario();
-    TimeGrid const time = choose_time_step(s);
-    double const rayleigh = 1.24895e-4;
-    EXPECT_LE(time.time_step, 0.2 * rayleigh * 1.0001);  // the hand value has six digits
-    EXPECT_GE(time.time_step,
-              0.2 * rayleigh * 0.96);  // 2600 steps are made a multiple of 100
-    EXPECT_NEAR(time.time_step / time.rayleigh_fraction, rayleigh, 1e-4 * rayleigh);
-    EXPECT_NEAR(time.time_step * time.steps_per_cycle * s.trough.frequency, 1, 1e-14);
-}
-
-// t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5): a hundred times faster impacts shorten it by 100^(1/5) = 2.5.
-TEST(Deck, FastImpactsShortenTheTimeStep) {
-    scenario::Scenario fast = scenario();
-    fast.trough.amplitude *= 100;
-    TimeGrid const time = choose_time_step(fast);
-    EXPECT_NEAR(time.contact_fraction, 0.1, 2e-3);  // 5,000 steps are made a multiple of 100
-    EXPECT_LT(time.rayleigh_fraction, 0.2);
-}
-
-// The Rayleigh time of a 30 mm grain is ten cycles of 10 kHz: the sinusoid itself needs steps, too.
-TEST(Deck, TheSinusoidHasSteps) {
-    scenario::Scenario s = scenario();
-    s.grains.diameter = 0.03;
-    s.trough.amplitude = 1e-6;
-    s.trough.frequency = 1e4;
-    EXPECT_EQ(choose_time_step(s).steps_per_cycle, 500);
-    s.grains.diameter = 1e-6;
-    s.grains.youngs_modulus = 1e12;
-    s.trough.frequency = 0.01;
-    EXPECT_THROW(choose_time_step(s), core::InputError);
-}
-
-TEST(Deck, StepsDivideIntoFrames) {
-    for (int const frames : {1, 7, 12, 100}) {
-        scenario::Scenario s = scenario();
-        s.output.frames_per_cycle = frames;
-        EXPECT_EQ(choose_time_step(s).steps_per_cycle % frames, 0) << frames;
-        EXPECT_EQ(choose_time_step(s).steps_per_cycle % phases_per_cycle, 0) << frames;
-    }
-}
-
 // m = rho pi / 6 sum d^3 over three classes of equal number.
 TEST(Deck, KnowsItsMassAndWeight) {
     scenario::Scenario const s =
         scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
-    Deck const deck = make_deck(s, 1);
+    prepare::PreparedCase const prepared = prepare::prepare_case(s);
     double const volume = 100 * pi / 6 * (std::pow(2.7e-3, 3) + std::pow(3e-3, 3) + std::pow(3.3e-3, 3));
-    EXPECT_NEAR(deck.mass, 1400 * volume, 1e-12);
-    EXPECT_NEAR(deck.weight, deck.mass * scenario::gravity * std::cos(10 * pi / 180), 1e-12);
+    EXPECT_NEAR(prepared.mass, 1400 * volume, 1e-12);
+    EXPECT_NEAR(prepared.weight, prepared.mass * scenario::gravity * std::cos(10 * pi / 180), 1e-12);
 }
 
 TEST(Deck, CountsEqualWithinOne) {
@@ -119,7 +75,7 @@ TEST(Deck, OneSizeIsOneClass) {
 TEST(Deck, CutsTheLayerIntoBins) {
     scenario::Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
     std::string const deck = decks(s);
-    int const n = choose_time_step(s).steps_per_cycle;
+    int const n = prepare::prepare_case(s).time.steps_per_cycle;
     EXPECT_EQ(number_after(deck, "window all ave/time 1 "), n / 100);
     EXPECT_EQ(number_after(deck, "phases all print "), n / 100);
     EXPECT_EQ(number_after(deck, "profiles all ave/spatial "), 3 * n / 10);
@@ -159,7 +115,9 @@ TEST(Deck, AvoidsTheKnownPitfalls) {
 
 // A sweep over drives settles once: the first deck does not know the drive.
 TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
-    auto const settle = [](std::string const& text) { return make_deck(scenario(text), 1).settle_files; };
+    auto const settle = [](std::string const& text) {
+        return make_deck(prepare::prepare_case(scenario(text)), 1).settle_files;
+    };
     auto const first = settle(example_campaign);
     EXPECT_EQ(first, settle(with("throw_number = 2.0", "throw_number = 3.0")));
     EXPECT_EQ(first, settle(with("vibration_angle = \"30 deg\"", "vibration_angle = \"20 deg\"")));
@@ -170,14 +128,14 @@ TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
               settle(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"3, 0.1, 0 deg\"]")));
     EXPECT_NE(first, settle(with("friction = 0.23", "friction = 0.24")));
     EXPECT_NE(first, settle(with("\"0 deg\"", "\"1 deg\"")));
-    EXPECT_NE(first, make_deck(scenario(), 2).settle_files);
+    EXPECT_NE(first, make_deck(prepare::prepare_case(scenario()), 2).settle_files);
 }
 
 // Every order has 50 steps in its period.
 TEST(Deck, HarmonicsHaveSteps) {
     scenario::Scenario s =
         scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"100, 0.2, 0 deg\"]"));
-    EXPECT_GE(choose_time_step(s).steps_per_cycle, 5000);
+    EXPECT_GE(prepare::prepare_case(s).time.steps_per_cycle, 5000);
 }
 
 TEST(Deck, RotationChoosesTheIntegrator) {
@@ -193,8 +151,9 @@ TEST(Deck, RotationChoosesTheIntegrator) {
 }
 
 TEST(Deck, SideWallsAreMeshesThatMove) {
-    Deck const deck =
-        make_deck(scenario(with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3")), 1);
+    Deck const deck = make_deck(prepare::prepare_case(scenario(with(
+                                    "restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"))),
+                                1);
     std::string const& text = deck.files.at("in.liggghts");
     EXPECT_TRUE(deck.files.contains("left.stl") && deck.files.contains("right.stl"));
     EXPECT_NE(text.find("boundary        p f f"), std::string::npos);
@@ -213,14 +172,14 @@ TEST(Deck, SoftGrainsNeedAWord) {
 TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
     scenario::Scenario s = scenario();
     s.output.frames_per_cycle = 10;
-    Deck const first = make_deck(s, 1), second = make_deck(s, 2);
-    EXPECT_NE(first.seed, second.seed);
-    EXPECT_EQ(first.time.steps_per_cycle, second.time.steps_per_cycle);
+    Deck const first = make_deck(prepare::prepare_case(s), 1),
+               second = make_deck(prepare::prepare_case(s), 2);
+    EXPECT_NE(packing_seed(1), packing_seed(2));
     EXPECT_NE(first.files.at("in.liggghts").find("dump            frames"), std::string::npos);
     EXPECT_EQ(second.files.at("in.liggghts").find("dump            frames"), std::string::npos);
-    EXPECT_THROW(make_deck(s, 0), std::invalid_argument);
-    EXPECT_THROW(make_deck(s, 1001), std::invalid_argument);
-    EXPECT_NO_THROW(make_deck(s, 1000));
+    EXPECT_THROW(make_deck(prepare::prepare_case(s), 0), std::invalid_argument);
+    EXPECT_THROW(make_deck(prepare::prepare_case(s), 1001), std::invalid_argument);
+    EXPECT_NO_THROW(make_deck(prepare::prepare_case(s), 1000));
 }
 
 // Gold deck: a change of the deck shows here, a change of the physics in tests/end_to_end. When a template
@@ -228,7 +187,8 @@ TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
 //   vibrotrough deck tests/deck/gold/campaign.toml --output DIR
 TEST(Deck, IsTheGoldDeck) {
     std::filesystem::path const gold = GOLD_FOLDER;
-    Deck const deck = make_deck(scenario::read_campaign(gold / "campaign.toml").cases.front(), 2);
+    Deck const deck =
+        make_deck(prepare::prepare_case(scenario::read_campaign(gold / "campaign.toml").cases.front()), 2);
     for (auto const& [name, content] : deck.files) EXPECT_EQ(content, core::read_file(gold / name)) << name;
 }
 

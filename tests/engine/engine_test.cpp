@@ -1,7 +1,7 @@
 #include "engine/engine.hpp"
 
 #include "core/error.hpp"
-#include "engine/outcome.hpp"
+#include "engine/run_report.hpp"
 
 #include <csignal>
 #include <fstream>
@@ -62,7 +62,7 @@ TEST_F(EngineTest, RunsADeckInItsFolder) {
     EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
         ++ended;
         RunReport const report = examine_run(folder, status, Stage::driving);
-        EXPECT_EQ(report.outcome, Outcome::completed) << report.message;
+        EXPECT_FALSE(report.failure) << report.message;
         EXPECT_EQ(report.last_step, 7);
     });
     context.run();
@@ -74,7 +74,7 @@ TEST_F(EngineTest, AnErrorMessageIsKept) {
     write_deck("fix nonsense all no/such/style\n");
     EngineProcess const process(context, find_engine({}), folder, [&](ExitStatus status) {
         RunReport const report = examine_run(folder, status, Stage::driving);
-        EXPECT_EQ(report.outcome, Outcome::engine_error);
+        EXPECT_EQ(report.failure, core::Outcome::engine_error);
         EXPECT_EQ(report.message.find("ERROR"), 0u) << report.message;
     });
     context.run();

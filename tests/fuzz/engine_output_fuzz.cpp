@@ -2,7 +2,7 @@
 // crashes its driver.
 
 #include "core/error.hpp"
-#include "engine/outcome.hpp"
+#include "engine/run_report.hpp"
 #include "measure/cycle_series.hpp"
 
 #include <cstdint>

@@ -57,7 +57,7 @@ std::string samples(int count, double period, double spoilt = 0) {
 
 // The discrete Fourier series of a sum of sines below half the sampling frequency is that sum: to rounding.
 TEST(Drive, WaveformBecomesItsFourierSeries) {
-    scenario::DriveMotion const motion = scenario::read_waveform(samples(16, 0.1), 0.1);
+    scenario::DriveMotion const motion = scenario::read_waveform({"w.csv", samples(16, 0.1)})->motion;
     ASSERT_EQ(motion.along.size(), 2u);
     EXPECT_NEAR(motion.along[0].amplitude, 5e-3, 1e-15);
     EXPECT_NEAR(motion.along[0].phase, 0.3, 1e-12);
@@ -71,7 +71,7 @@ TEST(Drive, WaveformBecomesItsFourierSeries) {
 TEST(Drive, WaveformMistakesAreNamed) {
     auto const error_of = [](std::string const& text) -> std::string {
         try {
-            scenario::read_waveform(text, 0.1);
+            check_samples(*scenario::read_waveform({"w.csv", text}), 0.1);
         } catch (std::invalid_argument const& error) {
             return error.what();
         }

@@ -83,9 +83,8 @@ TEST(Grains, ShapeFilesAreReadAndTheirMistakesNamed) {
     EXPECT_EQ(shape_spheres(g).size(), 8u);
     g.shape = "two.csv";
     auto const error_of = [&](std::string const& text) -> std::string {
-        g.shape_file = scenario::NamedFile{"two.csv", text};
         try {
-            shape_spheres(g);
+            g.shape_file = scenario::read_shape({"two.csv", text});
         } catch (std::invalid_argument const& error) {
             return error.what();
         }

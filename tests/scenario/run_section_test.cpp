@@ -14,7 +14,7 @@ scenario::RunSettings parse(std::string const& section) {
 
 TEST(RunSection, LocalByDefault) {
     scenario::RunSettings const settings = parse("");
-    EXPECT_EQ(settings.executor, scenario::ExecutorKind::local);
+    EXPECT_EQ(settings.executor, "local");
     EXPECT_EQ(settings.retries, 0);
     EXPECT_FALSE(settings.ranks || settings.time_limit || settings.slurm.partition || settings.slurm.minutes);
 }
@@ -25,7 +25,7 @@ TEST(RunSection, ReadsAllItsKeys) {
         "[run.slurm]\npartition = \"compute\"\naccount = \"granular-1\"\ntime = \"90 s\"\nmemory = \"1.5 "
         "GB\"\n"
         "concurrent_tasks = 7\n");
-    EXPECT_EQ(settings.executor, scenario::ExecutorKind::slurm);
+    EXPECT_EQ(settings.executor, "slurm");
     EXPECT_EQ(settings.retries, 2);
     EXPECT_EQ(settings.ranks, 4);
     EXPECT_EQ(settings.time_limit, 7200);

@@ -64,14 +64,16 @@ Json describe(deck::Finding const& finding) {
 void print_json(scenario::Campaign const& campaign, CheckReport const& report, Speed const& speed) {
     Json cases = Json::array();
     int index = 0;
+    prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
+        prepare::PreparedCase const prepared = preparer.prepare(scenario);
         Json findings = Json::array();
-        for (deck::Finding const& finding : deck::check(scenario)) findings.push_back(describe(finding));
-        double const work = deck::expected_work(scenario);
+        for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
+        double const work = deck::expected_work(prepared);
         cases.push_back({{"case", ++index},
-                         {"throw_number", throw_number(scenario.trough)},
+                         {"throw_number", prepared.throw_number},
                          {"findings", findings},
-                         {"expected_cycles_per_packing", deck::expected_cycles(scenario)},
+                         {"expected_cycles_per_packing", deck::expected_cycles(prepared)},
                          {"expected_grain_steps", work},
                          {"expected_core_hours", work / speed.grain_steps_per_second / 3600}});
     }
@@ -86,7 +88,7 @@ void print_json(scenario::Campaign const& campaign, CheckReport const& report, S
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(scenario::Campaign const& campaign, CheckReport const& report, Speed const& speed) {
+void print_text(CheckReport const& report, Speed const& speed) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
     for (CheckRow const& row : report.rows) {
         fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(row.worst.severity), row.worst.item,
@@ -97,15 +99,10 @@ void print_text(scenario::Campaign const& campaign, CheckReport const& report, S
         if (row.worst.severity != deck::Severity::fine)
             fmt::print("{}: {}\n", to_string(row.worst.severity), describe(row, report.cases));
     }
-    double cycles = 0, packings = 0;
-    for (scenario::Scenario const& scenario : campaign.cases) {
-        packings += scenario.measure.packings;
-        cycles += scenario.measure.packings * deck::expected_cycles(scenario);
-    }
     fmt::print(
         "{} cases, {} packings of about {:.0f} cycles (start-up, and what their half_width needs), {:.2g} "
         "MB\n",
-        report.cases, packings, cycles / packings, report.bytes / 1e6);
+        report.cases, report.packings, report.cycles / report.packings, report.bytes / 1e6);
     fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})\n",
                report.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
                speed.source);
@@ -115,7 +112,7 @@ int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     CheckReport const report = check_campaign(campaign);
     Speed const speed = engine_speed(options.engine);
-    options.json ? print_json(campaign, report, speed) : print_text(campaign, report, speed);
+    options.json ? print_json(campaign, report, speed) : print_text(report, speed);
     return report.errors() > 0 ? wrong_input : all_well;
 }
 

@@ -1,7 +1,7 @@
 #include "app/commands.hpp"
 #include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
-#include "campaign/state/plan.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "compare/comparison.hpp"
 #include "compare/select.hpp"
 

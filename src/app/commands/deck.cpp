@@ -2,7 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
-#include "campaign/state/plan.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "core/shell.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -25,15 +25,17 @@ struct Options {
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     int number = 0;
+    prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
+        prepare::PreparedCase const prepared = preparer.prepare(scenario);
         fs::path const folder = fs::path(options.output) / fmt::format("case-{:03}", ++number);
         for (int packing = 1; packing <= scenario.measure.packings; ++packing) {
-            deck::write_deck(deck::make_deck(scenario, packing), folder / fmt::format("packing-{}", packing));
+            deck::write_deck(deck::make_deck(prepared, packing), folder / fmt::format("packing-{}", packing));
         }
-        campaign::write_case_files({{}, scenario, folder});
+        campaign::write_scenario(scenario, folder);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
-                   folder.string(), throw_number(scenario.trough), machine_number(scenario.trough),
-                   scenario.layer.grains, scenario.measure.packings);
+                   folder.string(), prepared.throw_number, prepared.machine_number, scenario.layer.grains,
+                   scenario.measure.packings);
     }
     fmt::print(
         "{} cases written; run one by hand with: cd {} && liggghts -in settle.liggghts && liggghts -in "

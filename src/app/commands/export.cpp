@@ -2,12 +2,11 @@
 #include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
 #include "app/point_mass.hpp"
-#include "campaign/state/plan.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "compare/select.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
-#include "deck/deck.hpp"
 #include "view/frames.hpp"
 #include "view/table_vtk.hpp"
 
@@ -77,20 +76,20 @@ void print_table(campaign::Plan const& plan) {
 /// Exports the frames that a case's first packing has written so far; nothing when it has none.
 std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
     fs::path const packing = planned.packing_folder(1);
-    if (planned.scenario.output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
+    if (planned.scenario().output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
         return {};
-    scenario::Trough const& trough = planned.scenario.trough;
+    scenario::Trough const& trough = planned.scenario().trough;
     view::FrameSource const source{
         .folder = packing / "dump",
         .trough = packing / "trough.stl",
-        .time_step = deck::choose_time_step(planned.scenario).time_step,
-        .angular_frequency = angular_frequency(trough),
-        .drive = drive_motion(trough),
-        .width = planned.scenario.layer.width,
-        .point_mass = point_mass_beside(planned.scenario),
+        .time_step = planned.prepared->time.time_step,
+        .angular_frequency = planned.prepared->angular_frequency,
+        .drive = planned.prepared->motion,
+        .width = planned.scenario().layer.width,
+        .point_mass = point_mass_beside(*planned.prepared),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
-                               planned.scenario.campaign, planned.id, throw_number(trough),
-                               machine_number(trough), trough.friction)};
+                               planned.scenario().campaign, planned.id, planned.prepared->throw_number,
+                               planned.prepared->machine_number, trough.friction)};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     auto exported = view::export_frames(source, planned.folder / "frames", [&](int written, int all) {
         if (terminal) fmt::print(stderr, "\r{}: {} of {} frames\x1b[K", planned.id, written, all);
@@ -122,7 +121,7 @@ int run(Options const& options) {
                                            options.folder, options.id, options.folder));
     }
     bool const asked_for = std::ranges::any_of(
-        plan.cases, [](auto const& planned) { return planned.scenario.output.frames_per_cycle > 0; });
+        plan.cases, [](auto const& planned) { return planned.scenario().output.frames_per_cycle > 0; });
     if (exported == 0 && asked_for) {
         throw core::InputError(
             fmt::format("{} holds no frames yet; wait until its first cases run", options.folder));

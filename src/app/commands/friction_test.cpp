@@ -1,10 +1,10 @@
-#include "campaign/friction_test.hpp"
-
 #include "app/commands.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
-#include "campaign/execute/local_executor.hpp"
+#include "campaign/execute/campaign_driver.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/friction_results.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -34,7 +34,7 @@ struct Options {
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
-void print(campaign::LayerFriction const& test) {
+void print(evaluate::LayerFriction const& test) {
     fmt::print("layer {}, grain friction {:.3g}, K = {:.3f}: ", test.layer, test.grain_friction,
                test.machine_number);
     if (test.displacement) {
@@ -52,7 +52,7 @@ void print(campaign::LayerFriction const& test) {
     fmt::print("\n");
 }
 
-int exit_code_of(campaign::Summary const& summary, std::vector<campaign::LayerFriction> const& tests) {
+int exit_code_of(campaign::Summary const& summary, std::vector<evaluate::LayerFriction> const& tests) {
     if (summary.interrupted) return interrupted;
     bool const all = std::ranges::all_of(tests, [](auto const& test) { return test.friction.has_value(); });
     return all ? all_well : some_cases_failed;
@@ -66,7 +66,9 @@ int run(Options const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     fs::path const test_folder = folder / "friction-test";
-    double const k = options.machine_number.value_or(campaign::default_machine_number(campaign));
+    double friction = 0;
+    for (scenario::Scenario const& one : campaign.cases) friction = std::max(friction, one.trough.friction);
+    double const k = options.machine_number.value_or(evaluate::default_machine_number(friction));
 
     core::make_folder(test_folder);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
@@ -75,16 +77,18 @@ int run(Options const& options) {
     for (fs::path const& file : campaign.files)
         core::write_file_atomically(test_folder / file.filename(), core::read_file(file));
     core::write_file_atomically(test_file, scenario::shake_test_campaign(options.campaign_file, k));
-    campaign::Plan const plan =
+    campaign::Plan plan =
         campaign::make_plan(scenario::read_campaign(test_file), test_folder, engine.version);
     campaign::Summary summary;
     {
         ProgressPrinter printer;
-        summary = campaign::run_locally(plan, test_file, engine, campaign.run, options.jobs, printer);
+        summary = campaign::run_campaign(
+            plan, test_file, *campaign::make_policy(), campaign::executor_kind("local"),
+            {test_folder, engine, campaign.run, options.jobs, {}}, campaign::Until::done, printer);
     }
     campaign::write_campaign_file(plan);
     auto const tests = campaign::measure_friction(plan);
-    for (campaign::LayerFriction const& test : tests) print(test);
+    for (evaluate::LayerFriction const& test : tests) print(test);
     if (summary.interrupted) {
         fmt::print("interrupted: the same command goes on where it stopped\n");
         return interrupted;

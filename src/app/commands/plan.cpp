@@ -3,7 +3,9 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/error.hpp"
 
@@ -22,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Options {
     std::string campaign_file;
@@ -57,17 +58,17 @@ void print_json(Seen const& seen) {
     Json list = Json::array();
     for (std::size_t i = 0; i < seen.cases.size(); ++i) {
         campaign::CaseOverview const& one = seen.cases[i];
-        scenario::Trough const& trough = one.planned->scenario.trough;
+        scenario::Trough const& trough = one.planned->scenario().trough;
         list.push_back({{"case", one.planned->id},
-                        {"throw_number", throw_number(trough)},
-                        {"machine_number", machine_number(trough)},
-                        {"vibration_angle_deg", trough.vibration_angle * degrees},
-                        {"inclination_deg", trough.inclination * degrees},
+                        {"throw_number", one.planned->prepared->throw_number},
+                        {"machine_number", one.planned->prepared->machine_number},
+                        {"vibration_angle_deg", scenario::in_degrees(trough.vibration_angle)},
+                        {"inclination_deg", scenario::in_degrees(trough.inclination)},
                         {"friction", trough.friction},
-                        {"grains", one.planned->scenario.layer.grains},
-                        {"packings", one.planned->scenario.measure.packings},
+                        {"grains", one.planned->scenario().layer.grains},
+                        {"packings", one.planned->scenario().measure.packings},
                         {"packings_done", one.packings_done},
-                        {"outcome", one.outcome},
+                        {"outcome", one.label()},
                         {"core_time_s", seen.cost.cases[i]}});
     }
     Json const json{{"campaign", seen.plan.name},
@@ -87,12 +88,14 @@ void print_text(Seen const& seen) {
         "case          Gamma       K   beta  alpha    mu   grains  packings  outcome       core time\n");
     for (std::size_t i = 0; i < seen.cases.size(); ++i) {
         campaign::CaseOverview const& one = seen.cases[i];
-        scenario::Scenario const& scenario = one.planned->scenario;
+        scenario::Scenario const& scenario = one.planned->scenario();
         fmt::print("{}  {:5.3f}  {:6.3f}  {:5.2f}  {:5.2f}  {:4.2f}  {:7}  {:>4}/{:<3}  {:<12}  {:>9}\n",
-                   one.planned->id, throw_number(scenario.trough), machine_number(scenario.trough),
-                   scenario.trough.vibration_angle * degrees, scenario.trough.inclination * degrees,
-                   scenario.trough.friction, scenario.layer.grains, one.packings_done,
-                   scenario.measure.packings, one.outcome, clock_time(seen.cost.cases[i]));
+                   one.planned->id, one.planned->prepared->throw_number,
+                   one.planned->prepared->machine_number,
+                   scenario::in_degrees(scenario.trough.vibration_angle),
+                   scenario::in_degrees(scenario.trough.inclination), scenario.trough.friction,
+                   scenario.layer.grains, one.packings_done, scenario.measure.packings, one.label(),
+                   clock_time(seen.cost.cases[i]));
     }
     fmt::print("campaign {}: {} cases, {} known already", seen.plan.name, seen.cases.size(), seen.known);
     if (seen.campaign.excluded > 0) fmt::print(", {} left out by [[exclude]]", seen.campaign.excluded);
@@ -111,7 +114,7 @@ int run(Options const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
-    auto const cases = campaign::look_at(plan);
+    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
     campaign::Forecast const cost = campaign::forecast(cases);
     Seen seen{campaign, plan, cases, cost};
     for (campaign::CaseOverview const& one : cases) seen.known += one.record ? 1 : 0;

@@ -2,7 +2,7 @@
 #include "app/exit_code.hpp"
 #include "app/python.hpp"
 #include "app/report_data.hpp"
-#include "campaign/state/plan.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "app/exit_code.hpp"
 #include "app/progress_log.hpp"
 #include "app/progress_printer.hpp"
-#include "campaign/execute/local_executor.hpp"
-#include "campaign/execute/slurm_executor.hpp"
+#include "campaign/execute/campaign_driver.hpp"
+#include "campaign/schedule/policy.hpp"
 #include "campaign/state/folder_lock.hpp"
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
@@ -19,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -33,6 +34,7 @@ struct Options {
     bool quiet = false;
     bool accept_failed_probes = false;
     bool accept_findings = false;
+    bool wait = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -47,13 +49,13 @@ std::unique_ptr<campaign::Observer> make_observer(Options const& options) {
     return std::make_unique<ProgressPrinter>();
 }
 
-std::string describe(campaign::Summary const& summary, std::size_t cases) {
+std::string describe(campaign::Summary const& summary, std::size_t cases, bool goes_on) {
     std::size_t const left =
         cases - static_cast<std::size_t>(summary.finished + summary.unsure + summary.failed);
     std::string text = fmt::format("{} of {} cases finished", summary.finished, cases);
     if (summary.unsure > 0) text += fmt::format(", {} not steady or not precise", summary.unsure);
     if (summary.failed > 0) text += fmt::format(", {} failed", summary.failed);
-    if (left > 0) text += fmt::format(", {} left", left);
+    if (left > 0 && !goes_on) text += fmt::format(", {} left", left);
     return text + (summary.interrupted ? "; interrupted: the same command goes on where it stopped" : "");
 }
 
@@ -65,27 +67,17 @@ void say_what_is_left_aside(campaign::Plan const& plan) {
                    (plan.folder / "cases").string());
 }
 
-/// Leaves the packings to Slurm and says what it found and did.
-int submit(campaign::Plan const& plan, scenario::Campaign const& campaign, Options const& options,
-           engine::Engine const& engine) {
-    fs::path const program = fs::read_symlink("/proc/self/exe");
-    campaign::Submission const done =
-        campaign::submit_to_slurm(plan, options.campaign_file, engine, campaign.run, program);
-    campaign::write_campaign_file(plan);
-    fmt::print("{} of {} cases finished", done.finished, plan.cases.size());
-    if (done.unsure > 0) fmt::print(", {} not steady or not precise", done.unsure);
-    if (done.in_queue > 0) fmt::print("; {} packings are in Slurm's queue already", done.in_queue);
-    if (done.submitted > 0) {
-        fmt::print("; {} packings submitted as job {}", done.submitted, fmt::join(done.jobs, ", "));
-        if (done.again > 0) fmt::print(" ({} of them once more)", done.again);
+/// What the executor was given, for packings that go on when this command has returned.
+std::string describe_submission(campaign::Summary const& summary, std::string_view executor) {
+    std::string text;
+    if (summary.in_queue > 0)
+        text += fmt::format("; {} packings are in {}'s queue already", summary.in_queue, executor);
+    if (summary.submitted > 0) {
+        text += fmt::format("; {} packings submitted as {}", summary.submitted,
+                            fmt::join(summary.references, "; "));
+        if (summary.again > 0) text += fmt::format(" ({} of them once more)", summary.again);
     }
-    fmt::print("\n");
-    say_what_is_left_aside(plan);
-    CampaignLog(plan.folder)
-        .info(fmt::format("submitted {} packings to Slurm, job {}", done.submitted,
-                          fmt::join(done.jobs, ", ")));
-    fmt::print("follow with: vibrotrough status {}\n", core::shell_word(plan.folder));
-    return done.unsure > 0 && done.submitted + done.in_queue == 0 ? some_cases_failed : all_well;
+    return text;
 }
 
 /// Shows what the check warns of. Errors refuse the campaign unless the user accepts them.
@@ -96,6 +88,24 @@ void check(Options const& options, scenario::Campaign const& campaign) {
     throw core::InputError(
         fmt::format("{}: {}; mend it, see 'vibrotrough check', or run all the same with --accept-findings",
                     options.campaign_file, report.first_error()));
+}
+
+/// Says what the run came to, on standard output and in the log, and gives the exit code.
+int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind) {
+    bool const goes_on = !summary.references.empty() || summary.in_queue > 0;
+    std::string const end = describe(summary, plan.cases.size(), goes_on) +
+                            (goes_on ? describe_submission(summary, kind.title) : "");
+    CampaignLog(plan.folder).info("run ends: " + end);
+    fmt::print("{}\n", end);
+    say_what_is_left_aside(plan);
+    std::string const folder = core::shell_word(plan.folder);
+    if (goes_on) {
+        fmt::print("follow with: vibrotrough status {}\n", folder);
+    } else {
+        fmt::print("results in {}; see them with: vibrotrough compare {}\n", plan.folder.string(), folder);
+    }
+    if (goes_on && !summary.interrupted) return all_well;
+    return exit_code_of(summary);
 }
 
 int run(Options const& options) {
@@ -112,25 +122,20 @@ int run(Options const& options) {
     }
     check(options, campaign);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
-    campaign::Plan const plan = campaign::make_plan(campaign, folder, engine.version);
-
-    if (campaign.run.executor == scenario::ExecutorKind::slurm)
-        return submit(plan, campaign, options, engine);
+    campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
+    campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
+    campaign::ExecutorInputs const inputs{folder, engine, campaign.run, options.jobs,
+                                          fs::read_symlink("/proc/self/exe")};
+    auto const until = options.wait ? campaign::Until::done : campaign::Until::submitted;
     campaign::Summary summary;
     {
         auto const shown = make_observer(options);
         LoggingObserver observer(*shown, folder);
-        summary =
-            campaign::run_locally(plan, options.campaign_file, engine, campaign.run, options.jobs, observer);
+        summary = campaign::run_campaign(plan, options.campaign_file, *campaign::make_policy(), kind, inputs,
+                                         until, observer);
     }
-    std::string const end = describe(summary, plan.cases.size());
-    CampaignLog(folder).info("run ends: " + end);
     campaign::write_campaign_file(plan);
-    fmt::print("{}\n", end);
-    say_what_is_left_aside(plan);
-    fmt::print("results in {}; see them with: vibrotrough compare {}\n", folder.string(),
-               core::shell_word(folder));
-    return exit_code_of(summary);
+    return report(summary, plan, kind);
 }
 
 }  // namespace
@@ -158,6 +163,8 @@ void add_run(CLI::App& program, int& exit_code) {
                       "Run although the engine failed its probes (see probe-engine)");
     command->add_flag("--accept-findings", options->accept_findings,
                       "Run although the check of the campaign found errors (see check)");
+    command->add_flag("--wait", options->wait,
+                      "Stay until all packings have ended also where a cluster runs them");
     command->footer(
         "The campaign is checked first, see 'vibrotrough check --help'. The engine is probed once per "
         "binary, see\n'vibrotrough probe-engine --help'.\n"
@@ -167,8 +174,8 @@ void add_run(CLI::App& program, int& exit_code) {
         "wrong;\n"
         "3 something is missing (no liggghts, one that failed its probes, no disk);\n130 interrupted.\n"
         "With executor = \"slurm\" under [run] the packings are submitted as job arrays and the command "
-        "returns;\n"
-        "the same command sees which tasks died and submits them again.\n"
+        "returns,\n"
+        "unless --wait is given; the same command finds the tasks that died and submits them again.\n"
         "Example: vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -1,5 +1,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "campaign/execute/executors.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
 
 #include <algorithm>
@@ -28,15 +30,18 @@ struct Counts {
 Counts count(std::vector<campaign::CaseOverview> const& cases) {
     Counts counts;
     for (campaign::CaseOverview const& one : cases) {
-        if (one.record) {
-            ++(one.outcome == "finished" ? counts.finished : counts.unsure);
-        } else if (one.outcome == "running") {
-            ++counts.running;
-        } else if (one.outcome == "open" || one.outcome == "interrupted" || one.outcome == "queued" ||
-                   one.outcome == "unknown") {
-            ++counts.left;
-        } else {
-            ++counts.failed;
+        switch (one.status) {
+            case campaign::CaseStatus::ended:
+                ++(one.outcome == core::Outcome::finished ? counts.finished : counts.unsure);
+                break;
+            case campaign::CaseStatus::running:
+                ++counts.running;
+                break;
+            case campaign::CaseStatus::failed:
+                ++counts.failed;
+                break;
+            default:
+                ++counts.left;
         }
     }
     return counts;
@@ -47,10 +52,10 @@ void print_json(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
     Json list = Json::array();
     for (campaign::CaseOverview const& one : cases) {
         list.push_back({{"case", one.planned->id},
-                        {"outcome", one.outcome},
+                        {"outcome", one.label()},
                         {"message", one.message},
                         {"packings_done", one.packings_done},
-                        {"packings", one.planned->scenario.measure.packings}});
+                        {"packings", one.planned->scenario().measure.packings}});
     }
     Json const json{
         {"campaign", plan.name},       {"engine", plan.engine_version}, {"cases_total", cases.size()},
@@ -62,9 +67,9 @@ void print_json(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
 void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
     Counts const counts = count(cases);
     for (campaign::CaseOverview const& one : cases) {
-        if (one.outcome == "open") continue;
-        fmt::print("{}  {:<14} packings {}/{}{}{}\n", one.planned->id, one.outcome, one.packings_done,
-                   one.planned->scenario.measure.packings, one.message.empty() ? "" : "  ", one.message);
+        if (one.status == campaign::CaseStatus::open) continue;
+        fmt::print("{}  {:<14} packings {}/{}{}{}\n", one.planned->id, one.label(), one.packings_done,
+                   one.planned->scenario().measure.packings, one.message.empty() ? "" : "  ", one.message);
     }
     fmt::print(
         "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
@@ -73,7 +78,7 @@ void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    auto const cases = campaign::look_at(plan);
+    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
     options.json ? print_json(plan, cases) : print_text(plan, cases);
     return all_well;
 }

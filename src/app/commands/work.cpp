@@ -1,7 +1,7 @@
-#include "campaign/execute/work.hpp"
-
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "campaign/execute/packing_worker.hpp"
+#include "campaign/execute/slurm_batch.hpp"
 
 #include <memory>
 
@@ -21,8 +21,9 @@ struct Options {
 
 int run(Options& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
-    campaign::Task const task = campaign::read_task(options.task_list, options.index);
-    campaign::WorkResult const result = campaign::work(options.folder, task, options.limits);
+    campaign::PackingId const packing = campaign::read_task(options.task_list, options.index);
+    campaign::WorkResult const result =
+        campaign::work(options.folder, packing, options.limits, *campaign::make_policy());
     fmt::print("{}\n", result.message);
     switch (result.kind) {
         case campaign::WorkResult::finished:

@@ -1,15 +1,12 @@
 #include "campaign/execute/packing_run.hpp"
 
-#include "campaign/layer.hpp"
-#include "campaign/state/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
-#include "engine/outcome.hpp"
-#include "measure/cycle_series.hpp"
+#include "engine/run_report.hpp"
 
-#include <cmath>
+#include <variant>
 
 #include <boost/asio/post.hpp>
 #include <fmt/format.h>
@@ -17,14 +14,8 @@
 namespace vibrotrough::campaign {
 namespace {
 
-/// The balance of momentum over whole cycles is exact up to the integrator; 1e-5 was seen.
-constexpr double balance_tolerance = 0.002;
-
-PackingOutcome wrong_weight(double force, double weight) {
-    return {false, "wrong-weight",
-            fmt::format("the layer presses with {:.4g} N on the trough over the cycles, less its gain of "
-                        "momentum; its weight is {:.4g} N",
-                        force, weight)};
+PackingEnd interrupted_end() {
+    return {core::Outcome::interrupted, "the run was interrupted"};
 }
 
 /// What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
@@ -36,7 +27,7 @@ void remove_content(std::filesystem::path const& folder) {
     for (std::filesystem::path const& path : left) std::filesystem::remove_all(path, ignored);
 }
 
-/// The packing's folder holds its settled packing, so that the deck runs there by hand.
+/// The packing's folder holds its settled packing, so that the deck can be run there by hand.
 void link_file(std::filesystem::path const& from, std::filesystem::path const& to) {
     std::error_code failure;
     std::filesystem::create_hard_link(from, to, failure);
@@ -52,7 +43,7 @@ void link_file(std::filesystem::path const& from, std::filesystem::path const& t
 
 PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& engine,
                        SettledPackings& settled, PlannedCase const& planned, int packing,
-                       std::function<void(PackingOutcome const&)> on_end)
+                       std::function<void(PackingEnd const&)> on_end)
     : context_(context),
       engine_(engine),
       settled_(settled),
@@ -60,32 +51,32 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       packing_(packing),
       on_end_(std::move(on_end)),
       folder_(planned.packing_folder(packing)),
-      deck_(deck::make_deck(planned.scenario, packing)),
+      deck_(deck::make_deck(*planned.prepared, packing)),
       start_(std::chrono::steady_clock::now()),
       started_(core::utc_now()),
       engine_certificate_(std::filesystem::is_regular_file(planned.certificate_file())
                               ? core::read_file(planned.certificate_file())
                               : std::string()) {
-    if (auto const checkpoint = read_checkpoint(folder_, deck_)) {
-        cut_outputs(folder_, deck_, *checkpoint);
+    if (auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle)) {
+        cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
         start_engine(checkpoint);
         return;
     }
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
-    settled_.obtain(deck_, [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
-        if (!alive.expired()) start_on(made);
-    });
+    settled_.obtain(deck_, planned_.prepared->weight,
+                    [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
+                        if (!alive.expired()) start_on(made);
+                    });
 }
 
 PackingRun::~PackingRun() = default;
 
 void PackingRun::start_on(Settled const& settled) {
-    if (!settled.well || interrupted_) {
-        // Posted: whoever is told may destroy this run.
-        PackingOutcome const outcome = interrupted_
-                                           ? PackingOutcome{false, "interrupted", "the run was interrupted"}
-                                           : PackingOutcome{false, settled.outcome, settled.message};
+    if (settled.failure || interrupted_) {
+        // Posted, because the receiver may destroy this run.
+        PackingEnd const outcome =
+            interrupted_ ? interrupted_end() : PackingEnd{settled.failure, settled.message, settled.signal};
         boost::asio::post(context_, [on_end = on_end_, alive = std::weak_ptr<bool>(alive_), outcome] {
             if (!alive.expired()) on_end(outcome);
         });
@@ -125,7 +116,7 @@ void PackingRun::seal() {
     sealed_cycle_ = *cycle;
 }
 
-void PackingRun::look() {
+void PackingRun::inspect() {
     if (!process_) return;  // the packing is still settling
     seal();
     std::error_code missing;
@@ -133,11 +124,10 @@ void PackingRun::look() {
     if (missing || size == seen_size_ || told_to_end_) return;
     seen_size_ = size;
     try {
-        auto const series = measure::read_cycles(folder_ / "cycles.csv", deck_.time.steps_per_cycle,
-                                                 planned_.scenario.layer.grains);
-        cycles_ = series.cycles();
-        if (cycles_ >= 2) estimate_ = estimate_series(planned_.scenario, series).estimate;
-        if (!enough_cycles(planned_.scenario, series)) return;
+        auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
+        cycles_ = interim.cycles;
+        if (interim.estimate) estimate_ = interim.estimate;
+        if (!interim.is_enough) return;
     } catch (core::InputError const&) {
         return;  // judged when the engine has ended
     }
@@ -154,49 +144,30 @@ void PackingRun::interrupt() {
     }
 }
 
-PackingOutcome PackingRun::judge(engine::ExitStatus status) {
-    // By hand the deck runs on as far as max_cycles.
+PackingEnd PackingRun::judge(engine::ExitStatus status) {
+    // Run by hand, the deck goes on to max_cycles.
     if (told_to_end_) core::replace_file(folder_ / deck::control_file, deck::control_go_on);
-    if (interrupted_) return {false, "interrupted", "the run was interrupted"};
+    if (interrupted_) return interrupted_end();
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
-    if (report.outcome != engine::Outcome::completed)
-        return {false, to_string(report.outcome), report.message};
-    auto const outputs = read_outputs(folder_);
-    try {
-        PackingOutcome const outcome = judge_outputs(outputs, report.last_step);
-        if (!outcome.well) return outcome;
-    } catch (core::Error const& error) {
-        return {false, "outputs-incomplete", error.what()};
-    }
+    if (report.failure) return {report.failure, report.message, report.signal};
+    // What the case's result needs must be there now; later it would be too late to run again.
+    auto const files = evaluate::read_packing_files(folder_);
+    auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_, files, report.last_step);
+    if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
+        return {fault->outcome, fault->message};
+    evaluate::PackingMarker const marker{wall_time(),
+                                         started_,
+                                         core::utc_now(),
+                                         std::string(core::program_version()),
+                                         std::string(core::program_commit()),
+                                         core::host_name(),
+                                         engine_certificate_};
+    evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
+    evaluated_->record.wall_time = marker.wall_time;
+    evaluated_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
     remove_checkpoints(folder_);
-    write_finished_packing(planned_, packing_, measured_->run, outputs);
-    return {true, {}, {}};
-}
-
-/// What the case's result needs must be there now; later it would be too late to run again.
-PackingOutcome PackingRun::judge_outputs(PackingOutputs const& outputs, long last_step) {
-    scenario::Scenario const& scenario = planned_.scenario;
-    auto const series =
-        measure::parse_cycles(outputs.cycles, deck_.time.steps_per_cycle, scenario.layer.grains);
-    if (static_cast<long>(series.cycles()) * deck_.time.steps_per_cycle != last_step) {
-        return {false, "outputs-incomplete",
-                fmt::format("cycles.csv holds {} cycles, the engine ended at step {}", series.cycles(),
-                            last_step)};
-    }
-    auto const phases = packing_phases(scenario, deck_, outputs.phases);
-    if (phases.cycles() != series.cycles()) {
-        return {false, "outputs-incomplete",
-                fmt::format("phases.csv holds {} cycles, cycles.csv {}", phases.cycles(), series.cycles())};
-    }
-    double const carried = measure::weight_by_momentum(series, deck_.mass, 1 / scenario.trough.frequency);
-    if (!(std::abs(carried - deck_.weight) <= balance_tolerance * deck_.weight))
-        return wrong_weight(carried, deck_.weight);
-    measured_ = {{wall_time(), started_, core::utc_now(), std::string(core::program_version()),
-                  std::string(core::program_commit()), core::host_name(), engine_certificate_},
-                 measure_packing(scenario, deck_, outputs, series, phases)};
-    measured_->record.wall_time = measured_->run.wall_time;
-    measured_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
-    return {true, {}, {}};
+    evaluate::write_marker(files, marker);
+    return {};
 }
 
 }  // namespace vibrotrough::campaign

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "campaign/execute/settled_packings.hpp"
-#include "campaign/measured_packing.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/plan.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
+#include "evaluate/packing.hpp"
 
 #include <chrono>
 #include <functional>
@@ -16,26 +16,27 @@
 namespace vibrotrough::campaign {
 
 /// How a packing's run ended.
-struct PackingOutcome {
-    bool well;            ///< the packing is finished and marked so
-    std::string outcome;  ///< name of the failure
-    std::string message;
+struct PackingEnd {
+    std::optional<core::Outcome> failure;  ///< none when the packing is finished and marked so
+    std::string message;                   ///< of a failure
+    int signal = 0;                        ///< that killed the engine; 0 when none did
 };
 
-/// One packing being simulated: its settled packing, the engine on the moving trough, and the question after
-/// each look at its cycles whether they are enough. A run that was cut goes on from its last checkpoint.
+/// One packing being simulated: its settled packing, then the engine on the moving trough, with the question
+/// at each inspection of its cycles whether they are enough. A run that was cut continues from its last
+/// checkpoint.
 class PackingRun {
   public:
     /// Starts the run. `on_end` is called once, from `context`; not after destruction. All references must
     /// outlive the run.
     /// @throws MissingError when the disk refuses or the engine cannot be started (also from `context`)
     PackingRun(boost::asio::io_context& context, engine::Engine const& engine, SettledPackings& settled,
-               PlannedCase const& planned, int packing, std::function<void(PackingOutcome const&)> on_end);
+               PlannedCase const& planned, int packing, std::function<void(PackingEnd const&)> on_end);
     ~PackingRun();
 
-    /// Looks at the cycles written so far; seals a new checkpoint; tells the engine to end when the cycles
-    /// are known well enough.
-    void look();
+    /// Inspects the cycles written so far, seals a new checkpoint, and asks the engine to stop when the mean
+    /// is known as precisely as the campaign asks.
+    void inspect();
 
     /// Ends the engine soon; `on_end` then reports "interrupted".
     void interrupt();
@@ -44,10 +45,10 @@ class PackingRun {
     int packing() const { return packing_; }
     int cycles() const { return cycles_; }
 
-    /// What was measured, once the run has ended well.
-    MeasuredPacking take_measured() { return std::move(measured_.value()); }
+    /// What was measured, once the packing is finished.
+    evaluate::EvaluatedPacking take_evaluated() { return std::move(evaluated_.value()); }
 
-    /// Of the cycles seen so far; nothing before the first look at them.
+    /// Of the cycles seen so far; none before the first inspection.
     std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
 
   private:
@@ -55,15 +56,14 @@ class PackingRun {
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
     double wall_time() const;
-    PackingOutcome judge(engine::ExitStatus status);
-    PackingOutcome judge_outputs(PackingOutputs const& outputs, long last_step);
+    PackingEnd judge(engine::ExitStatus status);
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
     SettledPackings& settled_;
     PlannedCase const& planned_;
     int packing_;
-    std::function<void(PackingOutcome const&)> on_end_;
+    std::function<void(PackingEnd const&)> on_end_;
     std::filesystem::path folder_;
     deck::Deck deck_;
     std::chrono::steady_clock::time_point start_;
@@ -72,7 +72,7 @@ class PackingRun {
     std::string engine_certificate_;
     int cycles_ = 0;
     std::optional<measure::PackingEstimate> estimate_;
-    std::optional<MeasuredPacking> measured_;
+    std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;
     bool told_to_end_ = false;
     bool interrupted_ = false;

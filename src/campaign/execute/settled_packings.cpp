@@ -1,9 +1,11 @@
 #include "campaign/execute/settled_packings.hpp"
 
+#include "campaign/state/older_cases.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "engine/outcome.hpp"
+#include "deck/commands.hpp"
+#include "engine/run_report.hpp"
 
 #include <cmath>
 #include <optional>
@@ -41,22 +43,21 @@ bool is_whole(fs::path const& folder) {
 
 Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) {
     engine::RunReport const report = engine::examine_run(folder, status, engine::Stage::settling);
-    if (report.outcome != engine::Outcome::completed)
-        return {false, to_string(report.outcome), report.message, {}};
-    if (!fs::is_regular_file(folder / deck::settled_file))
-        return {false, "outputs-incomplete", "the engine left no settled.restart; is the disk full?", {}};
+    if (report.failure) return {report.failure, report.message, report.signal};
+    if (!fs::is_regular_file(folder / deck::settled_file)) {
+        return {core::Outcome::outputs_incomplete,
+                fmt::format("the engine left no {}; is the disk full?", deck::settled_file)};
+    }
     if (std::abs(report.settled_force - weight) > rest_tolerance * weight) {
-        return {false,
-                "wrong-weight",
-                fmt::format("the layer presses with {:.4g} N on the trough at rest, its weight is {:.4g} N",
-                            report.settled_force, weight),
-                {}};
+        return {core::Outcome::wrong_weight,
+                fmt::format("the layer at rest presses on the trough with {:.4g} N; it weighs {:.4g} N",
+                            report.settled_force, weight)};
     }
     Json const seal{{"floor_force_N", report.settled_force},
                     {"weight_N", weight},
                     {"restart_sha256", core::sha256_hex(core::read_file(folder / deck::settled_file))}};
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
-    return {true, {}, {}, folder / deck::settled_file};
+    return {{}, {}, 0, folder / deck::settled_file};
 }
 
 /// Puts the finished folder in its place, unless another driver was faster.
@@ -77,8 +78,8 @@ void publish(fs::path const& made, fs::path const& place) {
 
 }  // namespace
 
-/// A packing that the engine is settling, and who waits for it.
-struct SettledPackings::Making {
+/// A packing that the engine is settling, and what waits for it.
+struct SettledPackings::Settling {
     fs::path folder;
     double weight;
     std::vector<Ready> waiting;
@@ -87,9 +88,8 @@ struct SettledPackings::Making {
 };
 
 std::string packing_key(deck::Deck const& deck, std::string const& engine_version) {
-    std::string all = engine_version;
-    for (auto const& [name, content] : deck.settle_files) all += name + content;
-    return core::sha256_hex(all).substr(0, 12);
+    return core::sha256_hex(engine_version + "\n" + deck::digest_of_commands(deck.settle_files))
+        .substr(0, 12);
 }
 
 SettledPackings::SettledPackings(boost::asio::io_context& context, engine::Engine const& engine,
@@ -98,67 +98,85 @@ SettledPackings::SettledPackings(boost::asio::io_context& context, engine::Engin
 
 SettledPackings::~SettledPackings() = default;
 
-void SettledPackings::obtain(deck::Deck const& deck, Ready ready) {
+/// packings/<key>, or the folder in which an older version of the program settled the same packing: its name
+/// is the hash that the old program computed from the files in it.
+fs::path SettledPackings::place_of(deck::Deck const& deck, std::string const& key) {
+    std::error_code missing;
+    if (fs::is_directory(folder_ / key, missing)) return folder_ / key;
+    if (!older_) {
+        older_.emplace();
+        for (auto const& entry : fs::directory_iterator(folder_, missing)) {
+            auto const files = deck::read_files(entry.path(), deck.settle_files);
+            if (older_packing_key(files, engine_.version) != entry.path().filename().string()) continue;
+            older_->emplace(packing_key({files, {}}, engine_.version), entry.path());
+        }
+    }
+    auto const found = older_->find(key);
+    return found == older_->end() ? folder_ / key : found->second;
+}
+
+void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready) {
     std::string const key = packing_key(deck, engine_.version);
-    if (auto const found = making_.find(key); found != making_.end()) {
+    if (auto const found = settling_.find(key); found != settling_.end()) {
         found->second->waiting.push_back(std::move(ready));
         return;
     }
-    if (is_whole(folder_ / key)) {
-        boost::asio::post(context_, [ready = std::move(ready), restart = folder_ / key / deck::settled_file] {
-            ready({true, {}, {}, restart});
+    if (fs::path const place = place_of(deck, key); is_whole(place)) {
+        boost::asio::post(context_, [ready = std::move(ready), restart = place / deck::settled_file] {
+            ready({{}, {}, 0, restart});
         });
         return;
     }
-    auto making = std::make_unique<Making>();
-    making->folder = folder_ / fmt::format("{}.making-{}", key, ::getpid());
-    making->weight = deck.weight;
-    making->waiting.push_back(std::move(ready));
-    fs::remove_all(making->folder);
-    deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), making->folder);
-    making->process = std::make_unique<engine::EngineProcess>(
-        context_, engine_, making->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
+    auto settling = std::make_unique<Settling>();
+    settling->folder = folder_ / fmt::format("{}.settling-{}", key, ::getpid());
+    settling->weight = weight;
+    settling->waiting.push_back(std::move(ready));
+    fs::remove_all(settling->folder);
+    deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
+    settling->process = std::make_unique<engine::EngineProcess>(
+        context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});
-    making_.emplace(key, std::move(making));
+    settling_.emplace(key, std::move(settling));
 }
 
 void SettledPackings::remove_leftovers() {
     std::vector<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        if (entry.path().filename().string().find(".making-") != std::string::npos)
-            leftovers.push_back(entry.path());
+        std::string const name = entry.path().filename().string();
+        bool const is_older = name.find(".making-") != std::string::npos;  // up to version 0.1
+        if (is_older || name.find(".settling-") != std::string::npos) leftovers.push_back(entry.path());
     }
     for (fs::path const& leftover : leftovers) fs::remove_all(leftover);
 }
 
 void SettledPackings::interrupt() {
-    for (auto& [key, making] : making_) {
-        making->interrupted = true;
-        making->process->terminate();
+    for (auto& [key, settling] : settling_) {
+        settling->interrupted = true;
+        settling->process->terminate();
     }
 }
 
 void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     // Whoever is told may ask for the next packing: the entry is gone by then.
-    std::shared_ptr<Making> const making = std::move(making_.at(key));
-    making_.erase(key);
-    boost::asio::post(context_, [making] {});  // the process is in the middle of its own call
-    Settled settled{false, "interrupted", "the settling was interrupted", {}};
-    if (!making->interrupted) settled = judge(making->folder, status, making->weight);
-    if (settled.well) {
-        publish(making->folder, folder_ / key);
+    std::shared_ptr<Settling> const settling = std::move(settling_.at(key));
+    settling_.erase(key);
+    boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
+    Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
+    if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+    if (!settled.failure) {
+        publish(settling->folder, folder_ / key);
         settled.restart = folder_ / key / deck::settled_file;
-    } else if (making->interrupted) {
-        fs::remove_all(making->folder);
+    } else if (settling->interrupted) {
+        fs::remove_all(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
         fs::path const kept = folder_ / (key + ".failed");
         fs::remove_all(kept);
-        fs::rename(making->folder, kept);
+        fs::rename(settling->folder, kept);
         settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
-    for (Ready const& ready : making->waiting) ready(settled);
+    for (Ready const& ready : settling->waiting) ready(settled);
 }
 
 }  // namespace vibrotrough::campaign

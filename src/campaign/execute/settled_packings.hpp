@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/outcome.hpp"
 #include "deck/deck.hpp"
 #include "engine/engine.hpp"
 
@@ -7,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,14 +16,15 @@ namespace vibrotrough::campaign {
 
 /// How the settling of a packing ended.
 struct Settled {
-    bool well;
-    std::string outcome, message;   ///< of a failure
-    std::filesystem::path restart;  ///< the settled packing, when it ended well
+    std::optional<core::Outcome> failure;  ///< none when the packing is settled
+    std::string message;                   ///< of a failure
+    int signal = 0;                        ///< that killed the engine; 0 when none did
+    std::filesystem::path restart = {};    ///< the settled packing
 };
 
 /// The campaign's settled packings, each made once and used by all cases that share grains, layer and trough:
-/// packings/<key>/, the key a hash of the settling deck and the engine's version. Each is made in a folder of
-/// its own and appears by rename, so that several drivers may make them at the same time.
+/// packings/<key>/, the key a hash of the commands of the settling deck and of the engine's version. Each is
+/// made in a folder of its own and appears by rename, so that several drivers may make them at the same time.
 class SettledPackings {
   public:
     /// Deck and engine must outlive the calls they are given to.
@@ -34,7 +37,8 @@ class SettledPackings {
     /// Calls `ready` once, from the context, when the packing is there: soon if it was made before, whole and
     /// undamaged, else after the engine has settled it. Asked twice for one packing, the engine runs once.
     /// @throws MissingError when the disk refuses or the engine cannot be started
-    void obtain(deck::Deck const& deck, Ready ready);
+    /// @param weight  N, of the layer on the trough at rest
+    void obtain(deck::Deck const& deck, double weight, Ready ready);
 
     /// Removes what killed drivers left half made. For a driver that is alone in the folder.
     void remove_leftovers();
@@ -43,13 +47,16 @@ class SettledPackings {
     void interrupt();
 
   private:
-    struct Making;
+    struct Settling;
+    std::filesystem::path place_of(deck::Deck const& deck, std::string const& key);
     void ended(std::string const& key, engine::ExitStatus status);
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
     std::filesystem::path folder_;
-    std::map<std::string, std::unique_ptr<Making>> making_;
+    std::map<std::string, std::unique_ptr<Settling>> settling_;
+    /// Folders of packings that an older version of the program settled, by today's key; read once.
+    std::optional<std::map<std::string, std::filesystem::path>> older_;
 };
 
 /// The key of a deck's settled packing: 12 hexadecimal digits.

@@ -1,140 +1,137 @@
 #include "campaign/execute/slurm_executor.hpp"
 
-#include "campaign/execute/batch.hpp"
-#include "campaign/execute/case_end.hpp"
-#include "campaign/schedule/time_to_go.hpp"
+#include "campaign/execute/slurm_batch.hpp"
+#include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/case_state.hpp"
-#include "campaign/state/folder_lock.hpp"
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::campaign {
 namespace {
 
-/// What is to be done about a campaign, told from its files and from Slurm.
-class Submitter {
-  public:
-    Submitter(Plan const& plan, scenario::RunSettings const& settings, std::filesystem::path const& program)
-        : plan_(plan), settings_(settings), program_(program) {}
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
 
-    Submission run() {
-        std::vector<Batch> batches = read_batches(plan_.folder);
-        for (TaskStatus const& status : look_at_tasks(batches)) known_.insert({status.task, status.state});
-        for (PlannedCase const& planned : plan_.cases) collect(planned);
-        submit();
-        return result_;
+class SlurmExecutor : public Executor {
+  public:
+    explicit SlurmExecutor(ExecutorInputs const& inputs) : inputs_(inputs) {}
+
+    std::vector<PackingActivity> given_before() override {
+        std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
+        remember_lost_tasks(batches);
+        return survey_tasks(batches);
     }
+
+    std::string submit(std::vector<PackingOrder> const& orders) override {
+        if (orders.empty()) return {};
+        std::vector<long> jobs;
+        auto const most = static_cast<std::size_t>(slurm::most_array_tasks());
+        for (std::size_t start = 0; start < orders.size(); start += most) {
+            std::size_t const end = std::min(start + most, orders.size());
+            jobs.push_back(submit_array({orders.begin() + static_cast<std::ptrdiff_t>(start),
+                                         orders.begin() + static_cast<std::ptrdiff_t>(end)}));
+        }
+        return fmt::format("job {}", fmt::join(jobs, ", "));
+    }
+
+    void adopt(PackingOrder const& order) override { held_[order.id()] = order.planned; }
+
+    void withdraw(PlannedCase const&) override {}  // Slurm has them; a failed case does not stop the others
+
+    std::vector<EndedPacking> wait() override {
+        std::this_thread::sleep_for(250ms);
+        std::vector<EndedPacking> ended;
+        if (Clock::now() < next_survey_) return ended;
+        std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
+        std::map<PackingId, PackingActivity> now;
+        for (PackingActivity& one : survey_tasks(batches)) now.emplace(one.id, std::move(one));
+        for (auto held = held_.begin(); held != held_.end();) {
+            auto const found = now.find(held->first);
+            bool const has_ended = found != now.end() && found->second.state == PackingActivity::ended;
+            if (has_ended) ended.push_back(end_of(*held->second, found->second));
+            held = has_ended ? held_.erase(held) : std::next(held);
+        }
+        next_survey_ = Clock::now() + 2s;
+        return ended;
+    }
+
+    bool is_idle() const override { return held_.empty() || is_interrupted_; }
+    void interrupt() override { is_interrupted_ = true; }
+    std::vector<RunningPacking> running() const override { return {}; }
+    bool outlives_driver() const override { return true; }
 
   private:
-    void collect(PlannedCase const& planned) {
-        try {
-            if (auto const result = finish_case(planned, plan_.engine_version)) {
-                ++(result->outcome == "finished" ? result_.finished : result_.unsure);
-                return;
-            }
-        } catch (core::InputError const&) {
-            // All packings have their markers and one is damaged all the same: all are run again.
-            for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing)
-                std::filesystem::remove(planned.packing_folder(packing) / "packing.json");
-        }
-        bool fresh = true;
-        for (int packing = 1; packing <= planned.scenario.measure.packings; ++packing) {
-            if (read_finished_packing(planned, packing) || is_in_queue({planned.id, packing})) continue;
-            if (std::exchange(fresh, false)) write_case_files(planned);
-            result_.again += known_.contains({planned.id, packing}) ? 1 : 0;
-            tasks_.push_back({time_to_go_.work(planned.scenario, 1), {planned.id, packing}});
-        }
-    }
-
-    bool is_in_queue(Task const& task) {
-        auto const found = known_.find(task);
-        if (found == known_.end() || found->second == TaskState::ended) return false;
-        if (found->second == TaskState::unknown) {
-            throw core::MissingError(
-                fmt::format("Slurm does not answer, so that nobody knows whether packing {} of case {} still "
-                            "runs; try again when it does",
-                            task.packing, task.case_id));
-        }
-        ++result_.in_queue;
-        return true;
-    }
-
-    /// What the task itself may use of Slurm's time, so that it ends with a word of its own.
+    /// What the task itself may use of Slurm's time, so that it can still write its exit marker.
     std::optional<double> time_limit() const {
-        std::optional<double> limit = settings_.time_limit;
-        if (settings_.slurm.minutes) {
-            double const slurm = *settings_.slurm.minutes * 60.0;
+        std::optional<double> limit = inputs_.settings.time_limit;
+        if (inputs_.settings.slurm.minutes) {
+            double const slurm = *inputs_.settings.slurm.minutes * 60.0;
             double const own = slurm - std::min(60.0, slurm / 4);
             limit = std::min(limit.value_or(own), own);
         }
         return limit;
     }
 
-    void submit() {
-        // The longest first: what starts last should not last longest.
-        std::ranges::stable_sort(tasks_, std::ranges::greater(), &Expected::work);
-        Job const job{program_, settings_.ranks.value_or(1), time_limit(), settings_.retries};
-        std::size_t const most = tasks_.empty() ? 1 : static_cast<std::size_t>(slurm::most_array_tasks());
-        for (std::size_t start = 0; start < tasks_.size(); start += most) {
-            std::vector<Task> part;
-            for (std::size_t i = start; i < std::min(start + most, tasks_.size()); ++i)
-                part.push_back(tasks_[i].task);
-            Batch batch = write_batch(plan_.folder, part, job);
-            std::string const below = "slurm/" + batch.folder.filename().string();
-            slurm::Array const array{plan_.folder,
-                                     below + "/job.sh",
-                                     below + "/task-%a.out",
-                                     batch.name,
-                                     static_cast<int>(part.size()),
-                                     job.ranks,
-                                     settings_.slurm};
-            submit(batch, array);
-            result_.submitted += static_cast<int>(part.size());
-            result_.jobs.push_back(*batch.job);
+    long submit_array(std::vector<PackingOrder> const& orders) {
+        std::vector<PackingId> tasks;
+        for (PackingOrder const& order : orders) {
+            write_scenario(order.planned->scenario(), order.planned->folder);
+            tasks.push_back(order.id());
         }
-    }
-
-    /// A batch that Slurm refuses leaves nothing behind.
-    static void submit(Batch& batch, slurm::Array const& array) {
-        long id = 0;
+        scenario::RunSettings const& settings = inputs_.settings;
+        JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries};
+        Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
+        std::string const below = "slurm/" + batch.folder.filename().string();
+        slurm::Array const array{
+            inputs_.campaign_folder,        below + "/job.sh", below + "/task-%a.out", batch.name,
+            static_cast<int>(tasks.size()), script.ranks,      settings.slurm};
+        long job = 0;
         try {
             slurm::check(array);
-            id = slurm::submit(array);
+            job = slurm::submit(array);
         } catch (core::MissingError const&) {
-            std::filesystem::remove_all(batch.folder);
+            std::filesystem::remove_all(batch.folder);  // what Slurm refuses leaves nothing behind
             throw;
         }
-        remember_job(batch, id);
+        remember_job(batch, job);
+        for (PackingOrder const& order : orders) held_[order.id()] = order.planned;
+        return job;
     }
 
-    struct Expected {
-        double work;
-        Task task;
-    };
+    /// The packing's marker counts most, then the failure that the task recorded, then Slurm's report.
+    static EndedPacking end_of(PlannedCase const& planned, PackingActivity const& activity) {
+        EndedPacking ended{activity.id, {}, {}};
+        if (evaluate::read_marker(planned.packing_folder(activity.id.packing))) return ended;
+        auto const failure = read_failure(planned);
+        ended.is_recorded = failure && failure->packing == activity.id.packing;
+        ended.failure =
+            ended.is_recorded ? failure->outcome : activity.outcome.value_or(core::Outcome::interrupted);
+        ended.message = ended.is_recorded ? failure->message : activity.message;
+        return ended;
+    }
 
-    Plan const& plan_;
-    scenario::RunSettings const& settings_;
-    std::filesystem::path const& program_;
-    std::map<Task, TaskState> known_;
-    std::vector<Expected> tasks_;
-    TimeToGo time_to_go_;
-    Submission result_;
+    ExecutorInputs inputs_;
+    std::map<PackingId, PlannedCase const*> held_;  ///< submitted by this process, not seen to end
+    Clock::time_point next_survey_ = Clock::now();
+    bool is_interrupted_ = false;
 };
 
 }  // namespace
 
-Submission submit_to_slurm(Plan const& plan, std::filesystem::path const& campaign_file,
-                           engine::Engine const& engine, scenario::RunSettings const& settings,
-                           std::filesystem::path const& program) {
-    core::make_folder(plan.folder);
-    FolderLock const lock(plan.folder);
-    freeze(plan, campaign_file, engine);
-    return Submitter(plan, settings, program).run();
+std::unique_ptr<Executor> make_slurm_executor(ExecutorInputs const& inputs) {
+    return std::make_unique<SlurmExecutor>(inputs);
+}
+
+std::vector<PackingActivity> slurm_activity(std::filesystem::path const& campaign_folder) {
+    std::vector<Batch> batches = read_batches(campaign_folder);
+    return survey_tasks(batches);
 }
 
 }  // namespace vibrotrough::campaign

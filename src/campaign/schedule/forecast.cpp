@@ -1,7 +1,5 @@
 #include "campaign/schedule/forecast.hpp"
 
-#include "campaign/schedule/time_to_go.hpp"
-
 #include <algorithm>
 
 namespace vibrotrough::campaign {
@@ -9,13 +7,12 @@ namespace {
 
 /// Speed and cycles from the results that are there.
 void measure_speed(std::vector<CaseOverview> const& cases, Forecast& forecast) {
-    TimeToGo const clock;
     double work = 0, time = 0, cycles = 0, packings = 0;
     for (CaseOverview const& one : cases) {
         if (!one.record) continue;
         for (store::PackingRecord const& packing : one.record->packings) {
             double const done = packing.estimate.discarded + packing.estimate.measured;
-            work += clock.work(one.planned->scenario, done);
+            work += one.planned->prepared->grain_steps(done);
             time += packing.wall_time;
             cycles += done;
             ++packings;
@@ -30,12 +27,11 @@ void measure_speed(std::vector<CaseOverview> const& cases, Forecast& forecast) {
 Forecast forecast(std::vector<CaseOverview> const& cases) {
     Forecast result{5e6, false, 40, 0, {}};
     measure_speed(cases, result);
-    TimeToGo const clock;
     for (CaseOverview const& one : cases) {
-        scenario::Scenario const& scenario = one.planned->scenario;
+        scenario::Scenario const& scenario = one.planned->scenario();
         int const missing = one.record ? 0 : scenario.measure.packings - one.packings_done;
         double const cycles = std::min<double>(result.cycles, scenario.measure.max_cycles + 10);
-        result.cases.push_back(missing * clock.work(scenario, cycles) / result.speed);
+        result.cases.push_back(missing * one.planned->prepared->grain_steps(cycles) / result.speed);
         result.core_time += result.cases.back();
     }
     return result;

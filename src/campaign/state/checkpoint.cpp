@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "deck/commands.hpp"
 
 #include <charconv>
 #include <string_view>
@@ -60,8 +61,17 @@ bool has_row(std::string const& text, long step) {
     return false;
 }
 
-long step_of(deck::Deck const& deck, int cycle) {
-    return static_cast<long>(cycle) * deck.time.steps_per_cycle;
+std::string digest_of_drive(std::string const& content) {
+    return core::sha256_hex(deck::commands_of(content));
+}
+
+/// Whether the checkpoint was made with the commands of this deck. Up to version 0.1 the seal held a digest
+/// of the deck with its comments, which is compared with the file that it was made from.
+bool belongs_to(Json const& seal, fs::path const& folder, std::string const& drive) {
+    if (seal.contains("commands_sha256")) return seal.at("commands_sha256") == digest_of_drive(drive);
+    std::string const before = deck::for_one_rank(core::read_file(folder / deck::drive_file));
+    return seal.at("deck_sha256") == core::sha256_hex(before) &&
+           deck::commands_of(before) == deck::commands_of(drive);
 }
 
 std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
@@ -100,7 +110,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     Json const seal{{"cycle", checkpoint.cycle},
                     {"file", checkpoint.file},
                     {"restart_sha256", core::sha256_hex(core::read_file(folder / checkpoint.file))},
-                    {"deck_sha256", core::sha256_hex(deck.files.at(deck::drive_file))},
+                    {"commands_sha256", digest_of_drive(deck.files.at(deck::drive_file))},
                     {"started", checkpoint.started},
                     {"wall_time", checkpoint.wall_time}};
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
@@ -111,17 +121,18 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     }
 }
 
-std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck const& deck) {
+std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck const& deck,
+                                          int steps_per_cycle) {
     try {
         if (!fs::is_regular_file(folder / seal_file)) return {};
         Json const seal = Json::parse(core::read_file(folder / seal_file));
         Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
                                     seal.at("wall_time")};
         bool const known =
-            checkpoint_cycle(checkpoint.file) &&
-            seal.at("deck_sha256") == core::sha256_hex(deck.files.at(deck::drive_file)) &&
+            checkpoint_cycle(checkpoint.file) && belongs_to(seal, folder, deck.files.at(deck::drive_file)) &&
             seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
-        if (known && has_row(core::read_file(folder / "cycles.csv"), step_of(deck, checkpoint.cycle)))
+        if (known && has_row(core::read_file(folder / "cycles.csv"),
+                             static_cast<long>(checkpoint.cycle) * steps_per_cycle))
             return checkpoint;
     } catch (Json::exception const&) {
         // Damaged: the run starts anew.
@@ -135,8 +146,8 @@ bool has_checkpoint(fs::path const& folder) {
     return fs::is_regular_file(folder / seal_file, missing);
 }
 
-void cut_outputs(fs::path const& folder, deck::Deck const& deck, Checkpoint const& checkpoint) {
-    long const step = step_of(deck, checkpoint.cycle);
+void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps_per_cycle) {
+    long const step = static_cast<long>(checkpoint.cycle) * steps_per_cycle;
     for (char const* table : tables) {
         if (fs::is_regular_file(folder / table))
             core::write_file_atomically(folder / table, rows_up_to(core::read_file(folder / table), step));

@@ -27,14 +27,15 @@ void seal_checkpoint(std::filesystem::path const& folder, deck::Deck const& deck
 
 /// The sealed checkpoint, if it belongs to this deck, its file is what was sealed, and the cycles before it
 /// are all in cycles.csv.
-std::optional<Checkpoint> read_checkpoint(std::filesystem::path const& folder, deck::Deck const& deck);
+std::optional<Checkpoint> read_checkpoint(std::filesystem::path const& folder, deck::Deck const& deck,
+                                          int steps_per_cycle);
 
 /// Whether there is a sealed checkpoint, whatever it is worth.
 bool has_checkpoint(std::filesystem::path const& folder);
 
 /// Cuts what the engine wrote after the checkpoint: rows of tables and frames.
 /// @throws MissingError when the disk refuses
-void cut_outputs(std::filesystem::path const& folder, deck::Deck const& deck, Checkpoint const& checkpoint);
+void cut_outputs(std::filesystem::path const& folder, Checkpoint const& checkpoint, int steps_per_cycle);
 
 /// Removes all checkpoints of a packing that needs them no more.
 void remove_checkpoints(std::filesystem::path const& folder);

@@ -1,33 +1,69 @@
 #pragma once
 
 #include "campaign/state/plan.hpp"
+#include "core/outcome.hpp"
 #include "store/case_record.hpp"
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vibrotrough::campaign {
 
+/// Where a case stands.
+enum class CaseStatus {
+    open,         ///< nothing was done yet
+    queued,       ///< waits with the executor
+    running,      ///< a packing is being simulated
+    unknown,      ///< the executor does not answer
+    interrupted,  ///< begun, and nobody works on it now
+    failed,       ///< failure.json or the executor says why
+    ended,        ///< it has a result
+};
+
+/// What an executor knows of a packing that it was given and that has no marker yet.
+struct PackingActivity {
+    enum State {
+        waiting,  ///< in the executor's queue
+        running,
+        ended,    ///< the executor is done with it, well or not
+        unknown,  ///< the executor does not answer: it may be anything
+    };
+    PackingId id;
+    State state;
+    /// Of a packing that ended without a word of its own, e.g. core::Outcome::time_limit.
+    std::optional<core::Outcome> outcome = {};
+    std::string message = {};
+};
+
+/// What the executors know of a campaign.
+struct Activity {
+    bool has_driver = false;  ///< a program on this machine drives the campaign now
+    std::vector<PackingActivity> packings;
+};
+
 /// What is known about one case of a plan.
 struct CaseOverview {
     PlannedCase const* planned;
-    std::string outcome;  ///< of the result or the failure; else "running", "queued" (in Slurm), "unknown"
-                          ///< (Slurm does not answer), "interrupted" or "open"
-    std::string message;  ///< why it failed
+    CaseStatus status;
+    std::optional<core::Outcome> outcome;  ///< of the result or of the failure
+    std::string message;                   ///< why it failed or waits
     int packings_done;
     std::optional<store::CaseRecord> record;  ///< its summary (store::summary_of)
+
+    /// The outcome's name, else that of the status: open, queued, running, unknown, interrupted.
+    std::string_view label() const;
 };
 
-/// Looks at every case's files.
-std::vector<CaseOverview> look_at(Plan const& plan);
+/// What the files and the executors say of every case of a plan. Writes nothing.
+std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity);
 
-/// Number of case folders that are no part of the plan: of an earlier version of the campaign or of a program
-/// whose decks were others.
-std::size_t count_left_aside(Plan const& plan);
+/// Whether campaign.h5 is missing or lacks a result that is newer.
+bool is_campaign_file_outdated(Plan const& plan);
 
-/// Writes campaign.h5 from the results that are there; it can be made anew at any time.
-/// @throws MissingError when the disk refuses
+/// Writes campaign.h5 from the results that are there. It can be made again at any time.
+/// @throws core::MissingError when the disk refuses
 void write_campaign_file(Plan const& plan);
 
 }  // namespace vibrotrough::campaign

@@ -1,9 +1,12 @@
 #pragma once
 
-#include "engine/engine.hpp"
+#include "prepare/prepared_case.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <compare>
+#include <deque>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,10 +14,13 @@ namespace vibrotrough::campaign {
 
 /// One case of a campaign and the folder that holds all about it.
 struct PlannedCase {
-    std::string id;  ///< 12 hexadecimal digits of the hash of scenario, deck and engine version
-    scenario::Scenario scenario;
+    /// 12 hexadecimal digits of a hash of what the engine will do (the commands of the deck, not its
+    /// comments), of the measurement plan and of the engine's version; also the name of `folder`.
+    std::string id;
+    std::shared_ptr<prepare::PreparedCase const> prepared;
     std::filesystem::path folder;
 
+    scenario::Scenario const& scenario() const { return prepared->scenario; }
     std::filesystem::path result_file() const { return folder / "result.h5"; }
     std::filesystem::path failure_file() const { return folder / "failure.json"; }
     /// The certificate of the engine that the campaign was planned with.
@@ -26,45 +32,38 @@ struct PlannedCase {
     }
 };
 
-/// A campaign on disk.
+/// One packing of one case: the unit that runs on its own anywhere.
+struct PackingId {
+    std::string case_id;
+    int packing;  ///< from 1
+    auto operator<=>(PackingId const&) const = default;
+};
+
+/// A campaign on disk. Cases keep their addresses when others are added.
 struct Plan {
     std::string name;
     std::filesystem::path folder;
     std::string engine_version;
-    std::vector<PlannedCase> cases;
+    std::deque<PlannedCase> cases;
     std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
 };
 
-/// Works out the cases' ids and folders below `folder`. The same case always has the same id: it does not
-/// depend on the campaign's name or on its other cases.
+/// Works out the cases' ids and folders below `folder`: those of the campaign file, and after them those that
+/// a policy has added (added_cases.hpp). The same case always has the same id, whatever the campaign's name
+/// and its other cases; a case that an older version of the program has begun in this folder keeps the id
+/// that it has there.
+/// @throws core::InputError when a case cannot be divided into time steps
 Plan make_plan(scenario::Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
 
-/// Puts the files that the scenario names into the folder.
-/// @throws MissingError when the disk refuses
-void write_named_files(scenario::Scenario const& scenario, std::filesystem::path const& folder);
-
-/// Makes the case's folder with its frozen scenario.
-/// @throws MissingError when the disk refuses
-void write_case_files(PlannedCase const& planned);
-
-/// Makes the folder and freezes the campaign there: campaign.toml, the engine's version (engine.json)
-/// and its certificate (certificate.json).
-/// @throws MissingError when the disk refuses
-void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine::Engine const& engine);
-
-/// The plan of a folder that `freeze` made.
-/// @throws InputError when it is no campaign folder or is damaged
-Plan open_plan(std::filesystem::path const& folder);
-
-/// The engine that the campaign in `folder` was planned with (engine.json).
-/// @throws InputError when the file is damaged
-engine::Engine read_engine(std::filesystem::path const& folder);
-
-/// One case of a campaign folder from its own frozen scenario.toml: what a task on a cluster reads instead of
-/// planning the whole campaign.
-/// @throws InputError when the case is not there, or is not what its id says
-PlannedCase open_case(std::filesystem::path const& folder, std::string const& id,
+/// Id and folder of one more case of a plan. @throws as make_plan
+PlannedCase plan_case(scenario::Scenario const& scenario, std::filesystem::path const& folder,
                       std::string const& engine_version);
+
+/// The case's id in new folders. @throws as make_plan
+std::string case_id(prepare::PreparedCase const& prepared, std::string const& engine_version);
+
+/// Number of case folders that do not belong to the plan: of an earlier version of the campaign file.
+std::size_t count_left_aside(Plan const& plan);
 
 }  // namespace vibrotrough::campaign

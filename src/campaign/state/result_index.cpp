@@ -83,7 +83,7 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     if (found != entries_.end() && found->second.stamp == *stamp) {
         try {
             std::string_view bytes = found->second.summary;
-            return store::unpack_summary(bytes, planned.scenario);
+            return store::unpack_summary(bytes, planned.scenario());
         } catch (core::InputError const&) {
             // As good as not there.
         }
@@ -94,7 +94,7 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     entry = {*stamp, store::pack_summary(*record)};
     changed_ = true;
     std::string_view bytes = entry.summary;
-    return store::unpack_summary(bytes, planned.scenario);
+    return store::unpack_summary(bytes, planned.scenario());
 }
 
 void ResultIndex::remember(PlannedCase const& planned, store::CaseRecord const& record) {

@@ -27,23 +27,6 @@ std::vector<Sample> read_samples(std::string_view csv) {
     return samples;
 }
 
-void check_even(std::vector<Sample> const& samples, double period) {
-    if (samples.size() < fewest_samples) {
-        throw std::invalid_argument(
-            fmt::format("{} samples are fewer than {}", samples.size(), fewest_samples));
-    }
-    double const spacing = period / static_cast<double>(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        double const expected = spacing * static_cast<double>(i);
-        if (std::abs(samples[i][0] - expected) > 1e-3 * spacing) {
-            throw std::invalid_argument(
-                fmt::format("sample {} is at {:.6g} s; {} even samples of one cycle of {:.6g} s have it at "
-                            "{:.6g} s (the next cycle's first sample is left out)",
-                            i + 1, samples[i][0], samples.size(), period, expected));
-        }
-    }
-}
-
 /// x_i = sum_k a_k sin(k theta_i + phi_k), with a_k e^(i phi_k) = 2/N sum x_i (sin + i cos)(k theta_i).
 std::vector<DriveTerm> fourier(std::vector<Sample> const& samples, std::size_t column) {
     auto const count = static_cast<double>(samples.size());
@@ -74,7 +57,7 @@ double sum_of(std::vector<DriveTerm> const& terms, int power) {
 }  // namespace
 
 DriveMotion drive_motion(Trough const& trough) {
-    if (trough.waveform) return read_waveform(trough.waveform->content, 1 / trough.frequency);
+    if (trough.waveform) return trough.waveform->motion;
     DriveMotion motion;
     double const along = trough.amplitude * std::cos(trough.vibration_angle);
     double const normal = trough.amplitude * std::sin(trough.vibration_angle);
@@ -105,9 +88,12 @@ int highest_order(DriveMotion const& motion) {
     return order;
 }
 
-DriveMotion read_waveform(std::string_view csv, double period) {
-    std::vector<Sample> const samples = read_samples(csv);
-    check_even(samples, period);
+std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
+    std::vector<Sample> const samples = read_samples(file.content);
+    if (samples.size() < fewest_samples) {
+        throw std::invalid_argument(
+            fmt::format("{} samples are fewer than {}", samples.size(), fewest_samples));
+    }
     DriveMotion motion{fourier(samples, 1), fourier(samples, 2)};
     double largest = 0;
     for (auto const* terms : {&motion.along, &motion.normal}) {
@@ -116,7 +102,22 @@ DriveMotion read_waveform(std::string_view csv, double period) {
     if (!(largest > 0)) throw std::invalid_argument("the trough does not move");
     drop_small(motion.along, 1e-6 * largest);
     drop_small(motion.normal, 1e-6 * largest);
-    return motion;
+    std::vector<double> times;
+    for (Sample const& sample : samples) times.push_back(sample[0]);
+    return std::make_shared<Waveform const>(Waveform{std::move(file), std::move(times), std::move(motion)});
+}
+
+void check_samples(Waveform const& waveform, double period) {
+    auto const count = static_cast<double>(waveform.times.size());
+    double const spacing = period / count;
+    for (std::size_t i = 0; i < waveform.times.size(); ++i) {
+        double const expected = spacing * static_cast<double>(i);
+        if (std::abs(waveform.times[i] - expected) <= 1e-3 * spacing) continue;
+        throw std::invalid_argument(
+            fmt::format("sample {} is at {:.6g} s; {} even samples of one cycle of {:.6g} s have it at "
+                        "{:.6g} s (the next cycle's first sample is left out)",
+                        i + 1, waveform.times[i], waveform.times.size(), period, expected));
+    }
 }
 
 }  // namespace vibrotrough::scenario

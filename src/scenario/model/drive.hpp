@@ -1,6 +1,8 @@
 #pragma once
 
-#include <string_view>
+#include "scenario/model/grains.hpp"
+
+#include <memory>
 #include <vector>
 
 namespace vibrotrough::scenario {
@@ -39,10 +41,21 @@ double largest_speed(DriveMotion const& motion, double omega);
 /// Highest order of all terms.
 int highest_order(DriveMotion const& motion);
 
-/// One measured cycle as a Fourier series. `csv` has the header "time_s,x_m,z_m" and at least 8 evenly spaced
-/// samples, the first at 0, the next cycle's first left out. Terms below 1e-6 of the largest amplitude, the
-/// mean, and what is beyond order 30 are left out.
-/// @throws std::invalid_argument one line that says what is wrong with the text
-DriveMotion read_waveform(std::string_view csv, double period);
+/// One measured cycle of the trough, read and analysed once. Cases that name the same file share it.
+struct Waveform {
+    NamedFile file;
+    std::vector<double> times;  ///< s, of the samples
+    DriveMotion motion;         ///< the same motion as a Fourier series, whatever the frequency
+};
+
+/// Reads a measured cycle. The CSV text has the header "time_s,x_m,z_m" and at least 8 samples, the first at
+/// 0, without the first sample of the next cycle. The mean, terms below 1e-6 of the largest amplitude and
+/// orders above 30 are left out.
+/// @throws std::invalid_argument with one line that says what is wrong with the text
+std::shared_ptr<Waveform const> read_waveform(NamedFile file);
+
+/// Checks that the samples divide one period (s) evenly, each within 1e-3 of the spacing.
+/// @throws std::invalid_argument with one line that names the first sample at another time
+void check_samples(Waveform const& waveform, double period);
 
 }  // namespace vibrotrough::scenario

@@ -160,11 +160,16 @@ bool is_clump(Grains const& grains) {
     return grains.shape != "sphere";
 }
 
-std::vector<Sphere> shape_spheres(Grains const& grains) {
-    if (grains.shape == "cube") return cube_spheres();
-    if (grains.shape == "rod") return rod_spheres();
-    if (grains.shape_file) return read_spheres(grains.shape_file->content);
-    return {{0, 0, 0, 0.5}};
+std::shared_ptr<ShapeFile const> read_shape(NamedFile file) {
+    std::vector<Sphere> spheres = read_spheres(file.content);
+    return std::make_shared<ShapeFile const>(ShapeFile{std::move(file), std::move(spheres)});
+}
+
+std::vector<Sphere> const& shape_spheres(Grains const& grains) {
+    static std::vector<Sphere> const sphere{{0, 0, 0, 0.5}}, cube = cube_spheres(), rod = rod_spheres();
+    if (grains.shape == "cube") return cube;
+    if (grains.shape == "rod") return rod;
+    return grains.shape_file ? grains.shape_file->spheres : sphere;
 }
 
 }  // namespace vibrotrough::scenario

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vibrotrough::scenario {
 
-/// A file that a campaign names: it stands beside the campaign file, and a copy beside each frozen one.
+/// A file that a campaign names. It lies beside the campaign file, and a copy beside each frozen one.
 struct NamedFile {
     std::string name;  ///< plain, without folders
     std::string content;
@@ -27,6 +27,20 @@ enum class SizeLaw {
     listed,         ///< diameters and their fractions
 };
 
+struct Sphere {
+    double x, y, z, radius;
+};
+
+/// The shape of a clump as read from a file. Cases that name the same file share it.
+struct ShapeFile {
+    NamedFile file;
+    std::vector<Sphere> spheres;  ///< in any unit of length: the clump is scaled to its volume later
+};
+
+/// Reads the spheres of a shape: a CSV text with the header "x,y,z,radius", 1 to 1000 rows, radii above 0.
+/// @throws std::invalid_argument with one line that says what is wrong with the text
+std::shared_ptr<ShapeFile const> read_shape(NamedFile file);
+
 struct Grains {
     double diameter;         ///< m; of a clump, of the sphere with the clump's volume; of a list, its mean
     double diameter_spread;  ///< s
@@ -42,7 +56,7 @@ struct Grains {
     std::vector<double> number_fractions = {};  ///< of a list, or
     std::vector<double> mass_fractions = {};    ///< of a list
     std::string shape = "sphere";               ///< "sphere", "cube", "rod", or the name of `shape_file`
-    std::optional<NamedFile> shape_file = {};
+    std::shared_ptr<ShapeFile const> shape_file = nullptr;
 };
 
 /// The word of the campaign file: "free", "three-classes" ("listed" has none and is its own name).
@@ -66,13 +80,7 @@ double mean_grain_volume(Grains const& grains);  ///< m^3, by number
 /// Whether a grain is a rigid body of several spheres.
 bool is_clump(Grains const& grains);
 
-struct Sphere {
-    double x, y, z, radius;
-};
-
-/// The spheres of a shape: built in, or from the text of a file with the header "x,y,z,radius". Any unit: the
-/// clump is scaled to its volume later.
-/// @throws std::invalid_argument one line that says what is wrong with the text
-std::vector<Sphere> shape_spheres(Grains const& grains);
+/// The spheres of the grains' shape, built in or from its file, in any unit of length.
+std::vector<Sphere> const& shape_spheres(Grains const& grains);
 
 }  // namespace vibrotrough::scenario

@@ -21,12 +21,6 @@ class PlainName {
     std::string text_;
 };
 
-/// Who runs the packings.
-enum class ExecutorKind {
-    local,  ///< this machine, until all is done
-    slurm,  ///< job arrays of Slurm; `run` returns when they are submitted
-};
-
 /// What is asked of Slurm for every packing. What is not set is left to Slurm's own defaults.
 struct SlurmSettings {
     std::optional<PlainName> partition;
@@ -38,7 +32,7 @@ struct SlurmSettings {
 
 /// How a campaign is run. No part of what its cases are: it does not enter their ids.
 struct RunSettings {
-    ExecutorKind executor = ExecutorKind::local;
+    std::string executor = "local";    ///< who runs the packings: a name of the table of executors
     int retries = 0;                   ///< of a packing, after an end that may not come again
     std::optional<int> ranks;          ///< MPI ranks of every engine; else chosen from the number of grains
     std::optional<double> time_limit;  ///< s of wall clock for a packing

@@ -1,6 +1,7 @@
 #include "scenario/model/scenario.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -12,11 +13,23 @@ namespace {
 
 // fmt's "{}" prints the shortest text that reads back as the same double.
 
+std::string angle_toml(char const* name, double angle, std::optional<double> const& tangent) {
+    if (tangent) return fmt::format("tan_{} = {}\n", name, *tangent);
+    return fmt::format("{} = \"{} radian\"\n", name, angle);
+}
+
+std::string frequency_toml(Trough const& t) {
+    if (t.given.throw_number) return fmt::format("throw_number = {}\n", *t.given.throw_number);
+    if (t.given.machine_number) return fmt::format("machine_number = {}\n", *t.given.machine_number);
+    return fmt::format("frequency = \"{} Hz\"\n", t.frequency);
+}
+
 std::string trough_toml(Trough const& t) {
-    std::string text = fmt::format(
-        "[trough]\ninclination = \"{} radian\"\nvibration_angle = \"{} radian\"\namplitude = \"{} m\"\n"
-        "frequency = \"{} Hz\"\nfriction = {}\nrestitution = {}\n",
-        t.inclination, t.vibration_angle, t.amplitude, t.frequency, t.friction, t.restitution);
+    std::string text =
+        fmt::format("[trough]\n{}{}amplitude = \"{} m\"\n{}friction = {}\nrestitution = {}\n",
+                    angle_toml("inclination", t.inclination, t.given.tan_inclination),
+                    angle_toml("vibration_angle", t.vibration_angle, t.given.tan_vibration_angle),
+                    t.amplitude, frequency_toml(t), t.friction, t.restitution);
     if (t.side_wall_friction) text += fmt::format("side_wall_friction = {}\n", *t.side_wall_friction);
     if (t.along_phase != 0) text += fmt::format("along_phase = \"{} radian\"\n", t.along_phase);
     if (!t.harmonics.empty()) {
@@ -27,7 +40,7 @@ std::string trough_toml(Trough const& t) {
         }
         text += fmt::format("harmonics = [{}]\n", fmt::join(list, ", "));
     }
-    if (t.waveform) text += fmt::format("waveform = \"{}\"\n", t.waveform->name);
+    if (t.waveform) text += fmt::format("waveform = \"{}\"\n", t.waveform->file.name);
     return text + "\n";
 }
 
@@ -83,12 +96,24 @@ double angular_frequency(Trough const& trough) {
 }
 
 double machine_number(Trough const& trough) {
+    if (trough.given.machine_number) return *trough.given.machine_number;
     double const omega = angular_frequency(trough);
     return omega * omega * trough.amplitude / gravity;
 }
 
 double throw_number(Trough const& trough) {
+    if (trough.given.throw_number) return *trough.given.throw_number;
     return machine_number(trough) * std::sin(trough.vibration_angle) / std::cos(trough.inclination);
+}
+
+double in_degrees(double radian) {
+    constexpr double degree = std::numbers::pi / 180;
+    for (int digits = 1; digits < 17; ++digits) {
+        double const shorter = std::stod(fmt::format("{:.{}g}", radian / degree, digits));
+        if (std::abs(shorter * degree - radian) <= std::abs(radian) * std::numeric_limits<double>::epsilon())
+            return shorter;
+    }
+    return radian / degree;
 }
 
 double velocity_scale(Trough const& trough) {
@@ -115,8 +140,8 @@ std::string to_toml(Scenario const& s) {
 
 std::vector<NamedFile> named_files(Scenario const& scenario) {
     std::vector<NamedFile> files;
-    if (scenario.grains.shape_file) files.push_back(*scenario.grains.shape_file);
-    if (scenario.trough.waveform) files.push_back(*scenario.trough.waveform);
+    if (scenario.grains.shape_file) files.push_back(scenario.grains.shape_file->file);
+    if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
     return files;
 }
 

@@ -17,6 +17,14 @@ constexpr double gravity = 9.81;
 /// of 2.7 to 3.3 mm with friction 0.5 on 36 mm x 18 mm settle to a centre of mass at 9.58 mm, which is 0.581.
 constexpr double settled_solid_fraction = 0.58;
 
+/// Numbers of the drive as the user gave them, where they are not the ones that Trough holds. They are kept
+/// so that a throw number of 2 stays 2 in every deck, table and file instead of being computed back from the
+/// frequency. Whoever changes a Trough's angles, amplitude or frequency clears them.
+struct GivenDrive {
+    std::optional<double> throw_number = {}, machine_number = {}, tan_vibration_angle = {},
+                          tan_inclination = {};
+};
+
 /// The trough and its drive. The fundamental is along the direction of vibration.
 struct Trough {
     double inclination;      ///< alpha, rad, uphill positive in the conveying direction
@@ -28,7 +36,8 @@ struct Trough {
     std::optional<double> side_wall_friction = {};  ///< grain on side walls; without it periodic across
     double along_phase = 0;                         ///< rad, of x against z: an elliptical drive
     std::vector<DriveHarmonic> harmonics = {};
-    std::optional<NamedFile> waveform = {};  ///< one measured cycle; the motion instead of the sinusoid
+    std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion instead of the sinusoid
+    GivenDrive given = {};
 };
 
 /// A single rigid body in place of the layer: the point mass of the theory.
@@ -83,6 +92,10 @@ struct Scenario {
 double angular_frequency(Trough const& trough);  ///< omega, rad/s
 double machine_number(Trough const& trough);     ///< K = omega^2 r / g
 double throw_number(Trough const& trough);       ///< Gamma = omega^2 r sin(beta) / (g cos(alpha))
+
+/// An angle (rad) in degrees: the shortest decimal number that converts to this angle within one unit in the
+/// last place, so that 30 degrees are printed as 30 and not as 29.999999999999996.
+double in_degrees(double radian);
 
 /// omega r cos(beta), m/s: what one unit of velocity efficiency is worth.
 double velocity_scale(Trough const& trough);

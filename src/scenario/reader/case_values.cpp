@@ -107,7 +107,8 @@ class CaseBuilder {
                       .side_wall_friction = {},
                       .along_phase = number("trough.along_phase"),
                       .harmonics = harmonics(),
-                      .waveform = {}};
+                      .waveform = nullptr,
+                      .given = given_drive()};
         if (Value const* value = find("trough.side_wall_friction"))
             trough.side_wall_friction = value->number();
         trough.frequency = frequency(trough);
@@ -115,6 +116,15 @@ class CaseBuilder {
         check_derived("trough.machine_number", machine_number(trough));
         if (find("trough.waveform") != nullptr) add_waveform(trough);
         return trough;
+    }
+
+    GivenDrive given_drive() const {
+        auto const given = [&](std::string_view key) {
+            Value const* const value = find(key);
+            return value ? std::optional(value->number()) : std::nullopt;
+        };
+        return {given("trough.throw_number"), given("trough.machine_number"),
+                given("trough.tan_vibration_angle"), given("trough.tan_inclination")};
     }
 
     std::vector<DriveHarmonic> harmonics() const {
@@ -179,14 +189,16 @@ class CaseBuilder {
             if (find(other) != nullptr)
                 fail(other, "is given beside a waveform, which is the whole motion", "keep one of the two");
         }
-        trough.waveform = named_file(key);
-        DriveMotion motion;
         try {
-            motion = drive_motion(trough);
+            auto& known = source_.read->waveforms[word(key)];
+            if (!known) known = read_waveform(named_file(key));
+            trough.waveform = known;
+            check_samples(*known, 1 / trough.frequency);
         } catch (std::invalid_argument const& error) {
-            fail(key, fmt::format("{}: {}", trough.waveform->name, error.what()),
+            fail(key, fmt::format("{}: {}", word(key), error.what()),
                  "write the header time_s,x_m,z_m and even samples of one cycle");
         }
+        DriveMotion const& motion = trough.waveform->motion;
         auto const fundamental = [](std::vector<DriveTerm> const& terms) {
             return terms.empty() || terms.front().order != 1 ? 0.0 : terms.front().amplitude;
         };
@@ -219,7 +231,7 @@ class CaseBuilder {
                       .number_fractions = {},
                       .mass_fractions = {},
                       .shape = word("grains.shape"),
-                      .shape_file = {}};
+                      .shape_file = nullptr};
         set_rotation(grains);
         set_sizes(grains);
         if (is_clump(grains)) set_shape(grains);
@@ -282,9 +294,12 @@ class CaseBuilder {
     }
 
     void set_shape(Grains& grains) const {
-        if (grains.shape != "cube" && grains.shape != "rod") grains.shape_file = named_file("grains.shape");
         try {
-            shape_spheres(grains);
+            if (grains.shape != "cube" && grains.shape != "rod") {
+                auto& known = source_.read->shapes[grains.shape];
+                if (!known) known = read_shape(named_file("grains.shape"));
+                grains.shape_file = known;
+            }
         } catch (std::invalid_argument const& error) {
             fail("grains.shape", fmt::format("{}: {}", grains.shape, error.what()),
                  "write the header x,y,z,radius and one sphere per line");

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -45,10 +46,17 @@ using CaseValues = std::map<std::string, Value, std::less<>>;
 [[noreturn]] void throw_at(Place place, std::string_view key, std::string_view wrong,
                            std::string_view instead);
 
+/// The files that cases name, each read once however many cases share it.
+struct FilesRead {
+    std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;
+    std::map<std::string, std::shared_ptr<Waveform const>> waveforms;
+};
+
 /// Where the files are that a case names: given, or else in a folder.
 struct FileSource {
     std::filesystem::path folder = {};
     std::vector<NamedFile> files = {};
+    std::shared_ptr<FilesRead> read = std::make_shared<FilesRead>();
 };
 
 /// Puts one case together and checks what only shows when keys are seen together.

@@ -106,7 +106,7 @@ class RunSection {
         };
         if (name == "executor") {
             if (given != "local" && given != "slurm") refuse();
-            settings_.executor = given == "slurm" ? ExecutorKind::slurm : ExecutorKind::local;
+            settings_.executor = given;
         } else if (name == "memory") {
             settings_.slurm.memory = parse_memory(given);
             if (!settings_.slurm.memory) refuse();

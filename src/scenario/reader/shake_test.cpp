@@ -23,6 +23,7 @@ Scenario shaken(Scenario scenario, double machine_number) {
     trough.along_phase = 0;
     trough.harmonics.clear();
     trough.waveform.reset();
+    trough.given = {};
     trough.frequency = std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
     scenario.output.frames_per_cycle = 0;
     return scenario;
@@ -89,6 +90,7 @@ std::string layer_key(Scenario const& scenario) {
     same.trough.along_phase = 0;
     same.trough.harmonics.clear();
     same.trough.waveform.reset();
+    same.trough.given = {};
     same.measure = {};
     same.output = {};
     std::string all = to_toml(same);

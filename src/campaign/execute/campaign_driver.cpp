@@ -1,0 +1,306 @@
+#include "campaign/execute/campaign_driver.hpp"
+
+#include "campaign/execute/case_files.hpp"
+#include "campaign/schedule/remaining_time.hpp"
+#include "campaign/state/added_cases.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/checkpoint.hpp"
+#include "campaign/state/folder_lock.hpp"
+#include "campaign/state/result_index.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <deque>
+#include <map>
+#include <set>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Notices SIGINT, SIGTERM and SIGHUP, which then no longer end the process.
+class StopSignals {
+  public:
+    StopSignals() {
+        signals_.async_wait([this](auto const& cancelled, int) { has_come_ = has_come_ || !cancelled; });
+    }
+    bool have_come() {
+        context_.poll();
+        return has_come_;
+    }
+
+  private:
+    boost::asio::io_context context_;
+    boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
+    bool has_come_ = false;
+};
+
+/// What the driver knows of a case.
+struct DrivenCase {
+    KnownCase known;
+    evaluate::EvaluatedPackings evaluated = {};  ///< measured by this process, until the case has its result
+    std::set<int> in_hand = {};                  ///< packings that the executor has
+    int counted = 0;                             ///< packings of it in Progress::packings
+    bool was_repaired = false;                   ///< its packings were found damaged once
+    bool has_ended = false;
+};
+
+class Driver {
+  public:
+    Driver(Plan& plan, Policy const& policy, Executor& executor, ExecutorInputs const& inputs,
+           Observer& observer)
+        : plan_(plan),
+          policy_(policy),
+          executor_(executor),
+          settings_(inputs.settings),
+          observer_(observer) {}
+
+    Summary run(Until until) {
+        for (PackingActivity& one : executor_.given_before())
+            before_.insert_or_assign(one.id, std::move(one));
+        for (PlannedCase const& planned : plan_.cases) take_stock(planned);
+        index_.save();
+        add_cases();
+        submit_orders();
+        bool const may_leave = until == Until::submitted && executor_.outlives_driver();
+        while (!may_leave && !executor_.is_idle()) step();
+        index_.save();
+        summary_.interrupted = is_stopping_;
+        return summary_;
+    }
+
+  private:
+    void step() {
+        if (!is_stopping_ && signals_.have_come()) {
+            is_stopping_ = true;
+            executor_.interrupt();
+        }
+        for (EndedPacking& ended : executor_.wait()) handle(ended);
+        submit_orders();
+        report();
+    }
+
+    /// What the files say of a case at the start.
+    void take_stock(PlannedCase const& planned) {
+        DrivenCase& one = cases_.emplace_back(DrivenCase{{&planned, {}, {}, {}}});
+        by_id_[planned.id] = &one;
+        if (auto result = index_.find(planned)) {
+            for (auto const& packing : result->packings) progress_.core_time += packing.wall_time;
+            count_result(result->outcome);
+            one.known.result = std::move(result);
+            one.has_ended = true;
+            return;
+        }
+        ++progress_.left;
+        one.known = know(planned);
+        progress_.packings_done += static_cast<int>(one.known.finished.size());
+        decide(one);
+    }
+
+    /// Asks the policy about a case, and does what it says.
+    void decide(DrivenCase& one) {
+        CaseDecision const decision = policy_.decide(one.known);
+        if (!decision.result.empty()) return finish(one, decision.result);
+        auto const wanted = std::max(decision.wanted.size(), one.known.finished.size());
+        progress_.packings += static_cast<int>(wanted) - one.counted;
+        one.counted = static_cast<int>(wanted);
+        for (int const packing : decision.wanted) {
+            if (!one.known.finished.contains(packing) && !one.in_hand.contains(packing)) order(one, packing);
+        }
+    }
+
+    void order(DrivenCase& one, int packing) {
+        PlannedCase const& planned = *one.known.planned;
+        if (is_with_executor({planned.id, packing})) {
+            executor_.adopt({&planned, packing});
+            one.in_hand.insert(packing);
+            remaining_time_.expect(*planned.prepared);
+            ++summary_.in_queue;
+            return;
+        }
+        // Remains of an interrupted run would look like a run of today, unless it continues from a
+        // checkpoint.
+        fs::path const remains = planned.packing_folder(packing);
+        if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains))
+            fs::remove_all(remains);
+        one.in_hand.insert(packing);
+        remaining_time_.expect(*planned.prepared);
+        orders_.push_back({&planned, packing});
+    }
+
+    /// Whether an earlier run gave the packing to the executor, which still has it.
+    bool is_with_executor(PackingId const& id) {
+        auto const found = before_.find(id);
+        if (found == before_.end() || found->second.state == PackingActivity::ended) return false;
+        if (found->second.state == PackingActivity::unknown) {
+            throw core::MissingError(
+                fmt::format("{}, so that it is not known whether packing {} of case {} still runs; try again "
+                            "when it does",
+                            found->second.message, id.packing, id.case_id));
+        }
+        return true;
+    }
+
+    /// The longest first: what starts last should not last longest.
+    void submit_orders() {
+        if (orders_.empty() || is_stopping_) return;
+        std::ranges::stable_sort(orders_, std::ranges::greater(), [](PackingOrder const& order) {
+            return order.planned->prepared->grain_steps(1);
+        });
+        for (PackingOrder const& order : orders_) summary_.again += before_.contains(order.id()) ? 1 : 0;
+        summary_.submitted += static_cast<int>(orders_.size());
+        std::vector<PackingOrder> const orders = std::exchange(orders_, {});
+        if (std::string reference = executor_.submit(orders); !reference.empty())
+            summary_.references.push_back(std::move(reference));
+    }
+
+    void handle(EndedPacking& ended) {
+        DrivenCase& one = *by_id_.at(ended.id.case_id);
+        PlannedCase const& planned = *one.known.planned;
+        one.in_hand.erase(ended.id.packing);
+        progress_.core_time += ended.core_time;
+        if (!ended.failure) {
+            ++progress_.packings_done;
+            remaining_time_.done(*planned.prepared, ended.cycles);
+            take_in(one, ended);
+            if (!one.has_ended) decide(one);
+        } else if (!one.has_ended && may_retry(ended)) {
+            one.in_hand.insert(ended.id.packing);
+            orders_.push_back({&planned, ended.id.packing});
+        } else {
+            remaining_time_.drop(*planned.prepared);
+            if (!one.has_ended && ended.failure != core::Outcome::interrupted) fail(one, ended);
+        }
+    }
+
+    static void take_in(DrivenCase& one, EndedPacking& ended) {
+        int const packing = ended.id.packing;
+        if (ended.evaluated) {
+            one.known.finished.insert_or_assign(packing, ended.evaluated->record.estimate);
+            one.evaluated.insert_or_assign(packing, std::move(*ended.evaluated));
+            return;
+        }
+        PlannedCase const& planned = *one.known.planned;
+        auto const estimate = evaluate::estimate_finished(*planned.prepared, planned.packing_folder(packing));
+        if (estimate) one.known.finished.insert_or_assign(packing, *estimate);
+    }
+
+    bool may_retry(EndedPacking const& ended) {
+        return retry_makes_sense(*ended.failure) && !is_stopping_ &&
+               attempts_[ended.id]++ < settings_.retries;
+    }
+
+    /// Writes the result of a case. Packings that turn out to be damaged are run again, once.
+    void finish(DrivenCase& one, std::vector<int> const& packings) {
+        PlannedCase const& planned = *one.known.planned;
+        try {
+            store::CaseRecord const result =
+                finish_case(planned, plan_.engine_version, packings, std::move(one.evaluated));
+            index_.remember(planned, result);
+            one.known.result = index_.find(planned);
+            end_case(one);
+            count_result(result.outcome);
+            observer_.case_ended(planned, core::outcome_named(result.outcome).value(), {});
+        } catch (core::InputError const&) {
+            if (std::exchange(one.was_repaired, true)) throw;
+            for (int const packing : packings) evaluate::remove_marker(planned.packing_folder(packing));
+            progress_.packings_done -= static_cast<int>(one.known.finished.size());
+            one.known.finished.clear();
+            decide(one);
+            return;
+        }
+        if (have_taken_stock_) add_cases();
+    }
+
+    void fail(DrivenCase& one, EndedPacking const& ended) {
+        PlannedCase const& planned = *one.known.planned;
+        one.known.failure = ended.failure;
+        executor_.withdraw(planned);
+        std::erase_if(orders_, [&](PackingOrder const& order) { return order.planned == &planned; });
+        if (!ended.is_recorded) record_failure(planned, ended.id.packing, *ended.failure, ended.message);
+        end_case(one);
+        ++progress_.failed;
+        ++summary_.failed;
+        observer_.case_ended(planned, *ended.failure, ended.message);
+        add_cases();
+    }
+
+    void end_case(DrivenCase& one) {
+        one.has_ended = true;
+        one.evaluated.clear();
+        --progress_.left;
+    }
+
+    void count_result(std::string const& outcome) {
+        ++progress_.finished;
+        ++(outcome == name_of(core::Outcome::finished) ? summary_.finished : summary_.unsure);
+    }
+
+    /// Lets the policy add cases, until it wants no more.
+    void add_cases() {
+        have_taken_stock_ = true;
+        std::vector<KnownCase const*> known;
+        for (DrivenCase const& one : cases_) known.push_back(&one.known);
+        for (scenario::Scenario const& scenario : policy_.further_cases(known)) {
+            if (PlannedCase const* const added = add_case(plan_, scenario)) take_stock(*added);
+        }
+    }
+
+    void report() {
+        progress_.engines = executor_.running();
+        progress_.running = static_cast<int>(progress_.engines.size());
+        progress_.elapsed = remaining_time_.elapsed();
+        double under_way = 0, core_time = 0;
+        int cores = 0;
+        for (RunningPacking const& one : progress_.engines) {
+            under_way += one.planned->prepared->grain_steps(one.cycles);
+            core_time += one.elapsed * one.ranks;
+            cores += one.ranks;
+        }
+        progress_.time_to_go = remaining_time_.seconds(under_way);
+        progress_.core_time_to_go = progress_.time_to_go < 0 ? -1 : progress_.time_to_go * cores;
+        Progress shown = progress_;
+        shown.core_time += core_time;
+        observer_.progressed(shown);
+    }
+
+    Plan& plan_;
+    Policy const& policy_;
+    Executor& executor_;
+    scenario::RunSettings const& settings_;
+    Observer& observer_;
+    StopSignals signals_;
+    ResultIndex index_{plan_};
+    std::deque<DrivenCase> cases_;
+    std::map<std::string, DrivenCase*> by_id_;
+    std::map<PackingId, PackingActivity> before_;  ///< what earlier runs gave to the executor
+    std::map<PackingId, int> attempts_;            ///< failed ones of this run
+    std::vector<PackingOrder> orders_;             ///< not yet submitted
+    RemainingTime remaining_time_;
+    Progress progress_;
+    Summary summary_;
+    bool have_taken_stock_ = false;
+    bool is_stopping_ = false;
+};
+
+}  // namespace
+
+Summary run_campaign(Plan& plan, fs::path const& campaign_file, Policy const& policy,
+                     ExecutorKind const& kind, ExecutorInputs const& inputs, Until until,
+                     Observer& observer) {
+    core::make_folder(plan.folder);
+    FolderLock const lock(plan.folder);
+    freeze(plan, campaign_file, inputs.engine);
+    refuse_other_executors(plan.folder, kind);
+    auto const executor = kind.make(inputs);
+    return Driver(plan, policy, *executor, inputs, observer).run(until);
+}
+
+}  // namespace vibrotrough::campaign

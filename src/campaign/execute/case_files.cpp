@@ -1,0 +1,63 @@
+#include "campaign/execute/case_files.hpp"
+
+#include "campaign/state/case_state.hpp"
+#include "campaign/state/file_lock.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "evaluate/case.hpp"
+#include "store/result_file.hpp"
+
+#include <fmt/format.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+FileLock lock_case(PlannedCase const& planned) {
+    core::make_folder(planned.folder);
+    return FileLock::wait_for(planned.folder / ".lock");
+}
+
+/// Removes what a killed process left half-written. The caller holds the case's lock.
+void remove_partial_files(PlannedCase const& planned) {
+    std::error_code ignored;
+    for (auto const& entry : std::filesystem::directory_iterator(planned.folder, ignored)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("result.h5.part-") || name.starts_with("failure.json.part-"))
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+}  // namespace
+
+store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
+                              std::vector<int> const& packings, evaluate::EvaluatedPackings evaluated) {
+    FileLock const lock = lock_case(planned);
+    if (auto result = read_whole_result(planned)) return std::move(*result);
+    remove_partial_files(planned);
+    evaluate::EvaluatedPackings used;
+    for (int const packing : packings) {
+        auto known = evaluated.extract(packing);
+        auto one = known.empty()
+                       ? evaluate::read_packing(*planned.prepared, packing, planned.packing_folder(packing))
+                       : std::optional(std::move(known.mapped()));
+        if (!one) {
+            throw core::InputError(
+                fmt::format("packing {} of case {} is not finished or is damaged", packing, planned.id));
+        }
+        used.emplace(packing, std::move(*one));
+    }
+    store::CaseRecord record =
+        evaluate::evaluate_case(*planned.prepared, planned.id, engine_version, std::move(used));
+    store::write_result(planned.result_file(), record);
+    std::filesystem::remove(planned.failure_file());
+    return record;
+}
+
+void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
+                    std::string const& message) {
+    FileLock const lock = lock_case(planned);
+    auto const before = read_failure(planned);
+    write_failure(planned, {outcome, message, packing, before ? before->attempts + 1 : 1});
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "campaign/execute/packing_run.hpp"
+#include "campaign/state/plan.hpp"
+#include "evaluate/packing.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+// The end of a case, whichever process ran its packings. Several processes, also on several machines, may
+// call these at once: a lock of the case lets one at a time through.
+
+/// Writes the case's result when it has none yet.
+/// @param packings   that the result is made of; all of them are finished
+/// @param evaluated  those of them that this process measured itself; the others are read from their folders
+/// @return the result, also when it was there before
+/// @throws core::InputError when a packing is not finished or its files are damaged
+/// @throws core::MissingError when the disk refuses
+store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
+                              std::vector<int> const& packings, evaluate::EvaluatedPackings evaluated = {});
+
+/// Writes failure.json for a packing that failed, and counts the attempts.
+/// @throws core::MissingError when the disk refuses
+void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
+                    std::string const& message);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "campaign/state/overview.hpp"
+#include "campaign/state/plan.hpp"
+#include "core/outcome.hpp"
+#include "evaluate/packing.hpp"
+#include "measure/estimate.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// A packing that an executor is to run.
+struct PackingOrder {
+    PlannedCase const* planned;
+    int packing;
+
+    PackingId id() const { return {planned->id, packing}; }
+};
+
+/// A packing that an executor has finished with.
+struct EndedPacking {
+    PackingId id;
+    std::optional<core::Outcome> failure;  ///< none when the packing is finished and has its marker
+    std::string message;                   ///< why it failed
+    int cycles = 0;                        ///< simulated
+    double core_time = 0;                  ///< s, wall time of the engine times its ranks
+    /// What was measured, when this process measured it; otherwise it is read from the packing's folder.
+    std::optional<evaluate::EvaluatedPacking> evaluated = {};
+    bool is_recorded = false;  ///< failure.json was written already, by the process that ran the packing
+};
+
+/// A packing that is being simulated now, for progress displays.
+struct RunningPacking {
+    PlannedCase const* planned;
+    int packing;
+    int cycles;
+    std::optional<measure::PackingEstimate> estimate;  ///< of velocity efficiency, from the cycles so far
+    double elapsed;                                    ///< s
+    double time_to_go;                                 ///< s, negative while unknown
+    int ranks;                                         ///< MPI ranks of its engine
+};
+
+/// Runs packings: on this machine, or on a cluster. An executor knows no policy: it runs what it is given.
+///
+/// To add a kind, write a class in one file, and list it in executors.cpp.
+class Executor {
+  public:
+    virtual ~Executor() = default;
+
+    /// Packings of the campaign that this kind of executor was given, by this process or an earlier one, and
+    /// that have not been seen to finish. Asked once, at the start.
+    virtual std::vector<PackingActivity> given_before() = 0;
+
+    /// Takes on packings, in this order. The references must outlive the executor.
+    /// @return what the user can follow them by, for example "job 4711"; empty when there is nothing of the
+    /// kind
+    /// @throws core::MissingError when the packings are refused
+    virtual std::string submit(std::vector<PackingOrder> const& orders) = 0;
+
+    /// Takes over a packing that given_before() reported as waiting or running, so that wait() reports its
+    /// end.
+    virtual void adopt(PackingOrder const& order) = 0;
+
+    /// Gives up packings of a case that have not started, because the case has failed.
+    virtual void withdraw(PlannedCase const& planned) = 0;
+
+    /// Waits a moment, at most about a quarter of a second, and returns the packings that have ended since
+    /// the last call.
+    /// @throws core::MissingError when no packing can run any more (no engine, no disk)
+    virtual std::vector<EndedPacking> wait() = 0;
+
+    /// Whether no packing is left that was given to it.
+    virtual bool is_idle() const = 0;
+
+    /// Asks it to come to an end soon: packings that cannot go on without this process end as interrupted.
+    virtual void interrupt() = 0;
+
+    /// The packings that it simulates now, as far as it knows their progress.
+    virtual std::vector<RunningPacking> running() const = 0;
+
+    /// Whether packings go on when this process ends. If so, `run` may return when all are submitted.
+    virtual bool outlives_driver() const = 0;
+};
+
+}  // namespace vibrotrough::campaign

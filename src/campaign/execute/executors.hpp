@@ -1,0 +1,47 @@
+#pragma once
+
+#include "campaign/execute/executor.hpp"
+#include "engine/engine.hpp"
+#include "scenario/model/run_settings.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// What an executor may need to know. Must outlive the executor.
+struct ExecutorInputs {
+    std::filesystem::path campaign_folder;
+    engine::Engine engine;
+    scenario::RunSettings settings;
+    int cores = 1;  ///< of this machine that may be used
+    std::filesystem::path
+        program;  ///< the program whose `work` command runs a packing, as compute nodes see it
+};
+
+/// One kind of executor. The table of all kinds is the only place that knows them.
+struct ExecutorKind {
+    std::string_view name;   ///< the word of run.executor in the campaign file
+    std::string_view title;  ///< in messages
+    std::unique_ptr<Executor> (*make)(ExecutorInputs const& inputs);
+    /// What this kind still knows of packings of a campaign's folder; nothing where it leaves no traces.
+    std::vector<PackingActivity> (*activity)(std::filesystem::path const& campaign_folder);
+};
+
+std::span<ExecutorKind const> executor_kinds();
+
+/// The kind that the campaign file asks for.
+/// @throws std::out_of_range when there is no such kind, which the reader of campaign files has excluded
+ExecutorKind const& executor_kind(std::string_view name);
+
+/// What all kinds know of a campaign, and whether a program on this machine drives it now.
+Activity activity_in(std::filesystem::path const& campaign_folder);
+
+/// Refuses to run a campaign with one kind of executor while another still holds packings of it.
+/// @throws core::MissingError
+void refuse_other_executors(std::filesystem::path const& campaign_folder, ExecutorKind const& wanted);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,125 @@
+#include "campaign/execute/packing_worker.hpp"
+
+#include "campaign/execute/case_files.hpp"
+#include "campaign/execute/failure_cause.hpp"
+#include "campaign/execute/packing_run.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/file_lock.hpp"
+#include "core/error.hpp"
+
+#include <chrono>
+#include <csignal>
+
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// One attempt: the run, inspected four times a second, until it ends, its time is over or a signal comes.
+class Attempt {
+  public:
+    Attempt(engine::Engine const& engine, std::filesystem::path const& campaign_folder,
+            PlannedCase const& planned, int packing,
+            std::optional<std::chrono::steady_clock::time_point> deadline)
+        : settled_(context_, engine, campaign_folder),
+          deadline_(deadline),
+          run_(context_, engine, settled_, planned, packing, [this](PackingEnd const& end) {
+              end_ = end;
+              ended_ = true;
+              signals_.cancel();
+              clock_.cancel();
+          }) {}
+
+    PackingEnd run() {
+        signals_.async_wait([this](auto const& cancelled, int) {
+            if (!cancelled) run_.interrupt();
+        });
+        tick();
+        context_.run();
+        if (is_over_time_ && end_.failure == core::Outcome::interrupted)
+            return {core::Outcome::time_limit, "the packing was not finished within its time"};
+        return end_;
+    }
+
+  private:
+    void tick() {
+        if (ended_) return;  // its timer had gone off already when the run ended
+        run_.inspect();
+        if (deadline_ && !is_over_time_ && std::chrono::steady_clock::now() > *deadline_) {
+            is_over_time_ = true;
+            run_.interrupt();
+        }
+        clock_.expires_after(250ms);
+        clock_.async_wait([this](auto const& cancelled) {
+            if (!cancelled) tick();
+        });
+    }
+
+    boost::asio::io_context context_;
+    boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
+    boost::asio::steady_timer clock_{context_};
+    SettledPackings settled_;
+    std::optional<std::chrono::steady_clock::time_point> deadline_;
+    bool is_over_time_ = false;
+    bool ended_ = false;
+    PackingEnd end_{};
+    PackingRun run_;
+};
+
+engine::Engine same_engine(std::filesystem::path const& folder) {
+    engine::Engine const planned = read_engine(folder);
+    engine::Engine const here = engine::find_engine(planned.program);
+    if (here.version == planned.version) return here;
+    throw core::MissingError(
+        fmt::format("{} is '{}' on this machine and '{}' where the campaign was planned; install "
+                    "the same on both, or give run --liggghts another path",
+                    planned.program.string(), here.version, planned.version));
+}
+
+WorkResult finish_if_enough(PlannedCase const& planned, std::string const& engine_version,
+                            Policy const& policy) {
+    CaseDecision const decision = policy.decide(know(planned));
+    if (decision.result.empty())
+        return {WorkResult::finished, fmt::format("case {}: other packings are missing", planned.id)};
+    auto const result = finish_case(planned, engine_version, decision.result);
+    return {WorkResult::finished, fmt::format("case {}: {}", planned.id, result.outcome)};
+}
+
+}  // namespace
+
+WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& id, WorkLimits const& limits,
+                Policy const& policy) {
+    std::optional<std::chrono::steady_clock::time_point> deadline;
+    if (limits.time_limit) {
+        deadline = std::chrono::steady_clock::now() +
+                   std::chrono::milliseconds(static_cast<long>(*limits.time_limit * 1000));
+    }
+    engine::Engine engine = same_engine(campaign_folder);
+    engine.ranks = limits.ranks;
+    PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);
+    auto const lock = FileLock::take(planned.folder / fmt::format(".packing-{}.lock", id.packing));
+    if (!lock) {
+        return {WorkResult::busy,
+                fmt::format("another process runs packing {} of case {}", id.packing, planned.id)};
+    }
+    if (evaluate::read_marker(planned.packing_folder(id.packing)))
+        return finish_if_enough(planned, engine.version, policy);
+    for (int attempt = 0;; ++attempt) {
+        long const memory_kills = count_memory_kills();
+        PackingEnd const end =
+            find_cause(planned, id.packing,
+                       Attempt(engine, campaign_folder, planned, id.packing, deadline).run(), memory_kills);
+        if (!end.failure) return finish_if_enough(planned, engine.version, policy);
+        if (end.failure == core::Outcome::interrupted) return {WorkResult::interrupted, end.message};
+        if (attempt < limits.retries && retry_makes_sense(*end.failure)) continue;
+        record_failure(planned, id.packing, *end.failure, end.message);
+        return {WorkResult::failed, fmt::format("case {}, packing {}: {}: {}", planned.id, id.packing,
+                                                name_of(*end.failure), end.message)};
+    }
+}
+
+}  // namespace vibrotrough::campaign

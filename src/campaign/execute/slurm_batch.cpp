@@ -1,0 +1,253 @@
+#include "campaign/execute/slurm_batch.hpp"
+
+#include "campaign/state/campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/shell.hpp"
+#include "core/text.hpp"
+#include "core/time.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::optional<PackingId> parse_task(std::string const& line) {
+    std::istringstream text(line);
+    PackingId task{};
+    bool const is_read = static_cast<bool>(text >> task.case_id >> task.packing);
+    if (!is_read || !is_case_id(task.case_id) || task.packing < 1 || task.packing > 1000) return {};
+    return task;
+}
+
+std::optional<Batch> read_batch(fs::path const& folder) {
+    try {
+        Json const json = Json::parse(core::read_file(folder / "batch.json"));
+        Batch batch{folder, json.at("name"), {}, {}};
+        if (json.contains("job")) batch.job = json.at("job").get<long>();
+        std::istringstream lines(core::read_file(folder / "tasks.txt"));
+        for (std::string line; std::getline(lines, line);) {
+            auto const task = parse_task(line);
+            if (!task) return {};
+            batch.tasks.push_back(*task);
+        }
+        return batch;
+    } catch (Json::exception const&) {
+        return {};
+    } catch (core::MissingError const&) {
+        return {};
+    }
+}
+
+/// Only numbers and the program's own path, as a word of the shell, enter the script.
+std::string job_script(std::string const& number, JobScript const& job) {
+    std::string options = fmt::format("--ranks {} --retries {}", job.ranks, job.retries);
+    if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
+    return fmt::format(
+        "#!/bin/sh\n"
+        "# One packing of a campaign, as a task of a job array of Slurm. Made by vibrotrough run.\n"
+        "# Slurm starts it in the campaign's folder; the files task-* say how far it came.\n"
+        "trap : TERM INT\n"
+        "index=${{SLURM_ARRAY_TASK_ID:?}}\n"
+        "mark() {{ printf '%s\\n' \"$2\" > \"slurm/{0}/.$1\" && mv -f \"slurm/{0}/.$1\" \"slurm/{0}/$1\"; "
+        "}}\n"
+        "[ -f slurm/{0}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
+        "mark \"task-$index.started\" \"$(uname -n) $SLURM_ARRAY_JOB_ID\"\n"
+        "{1} work . --task-list slurm/{0}/tasks.txt --index \"$index\" {2}\n"
+        "code=$?\n"
+        "mark \"task-$index.ended\" \"$code\"\n"
+        "exit \"$code\"\n",
+        number, core::shell_word(job.program), options);
+}
+
+void write_description(Batch const& batch) {
+    Json json{{"name", batch.name}};
+    if (batch.job) json["job"] = *batch.job;
+    core::write_file_atomically(batch.folder / "batch.json", json.dump(2) + "\n");
+}
+
+fs::path marker(Batch const& batch, std::size_t index, char const* kind) {
+    return batch.folder / fmt::format("task-{}.{}", index, kind);
+}
+
+core::Outcome outcome_of(std::string const& slurm_state) {
+    if (slurm_state == "TIMEOUT" || slurm_state == "DEADLINE") return core::Outcome::time_limit;
+    if (slurm_state == "OUT_OF_MEMORY") return core::Outcome::out_of_memory;
+    return core::Outcome::interrupted;
+}
+
+/// A task that ended without a marker of its own.
+/// @param report  what Slurm knows of it; null when Slurm does not know it
+PackingActivity lost_task(Batch const& batch, std::size_t index, slurm::TaskReport const* report) {
+    PackingActivity activity{batch.tasks[index], PackingActivity::ended, core::Outcome::interrupted, {}};
+    long const job = batch.job.value_or(0);
+    if (report == nullptr) {
+        activity.message = fmt::format(
+            "Slurm no longer knows task {}_{}, which ended without writing its exit marker", job, index);
+        return activity;
+    }
+    bool const has_reason = !report->reason.empty() && report->reason != "None";
+    activity.outcome = outcome_of(report->state);
+    activity.message = fmt::format("Slurm says {}{} of task {}_{}", report->state,
+                                   has_reason ? " (" + report->reason + ")" : "", job, index);
+    return activity;
+}
+
+/// What the markers say of a task; none while it has no marker that it ended.
+std::optional<PackingActivity> by_marker(Batch const& batch, std::size_t index) {
+    PackingActivity activity{batch.tasks[index], PackingActivity::ended, core::Outcome::interrupted, {}};
+    if (fs::is_regular_file(marker(batch, index, "ended"))) {
+        std::string const code = core::read_file(marker(batch, index, "ended"));
+        activity.message = fmt::format("the task ended with exit code {}; see {}",
+                                       core::printable(code.substr(0, code.find('\n')), 10),
+                                       marker(batch, index, "out").string());
+        return activity;
+    }
+    fs::path const lost = marker(batch, index, "lost");
+    if (!fs::is_regular_file(lost)) return {};
+    Json const json = Json::parse(core::read_file(lost), nullptr, false);
+    if (json.is_object()) {
+        activity.outcome =
+            core::outcome_named(json.value("outcome", "")).value_or(core::Outcome::interrupted);
+        activity.message = json.value("message", "");
+    }
+    return activity;
+}
+
+/// The id of a batch whose driver died between sbatch and writing the id down.
+void find_lost_id(Batch& batch) {
+    if (batch.job) return;
+    for (std::size_t i = 0; i < batch.tasks.size(); ++i) {
+        if (!fs::is_regular_file(marker(batch, i, "started"))) continue;
+        std::istringstream text(core::read_file(marker(batch, i, "started")));
+        std::string host;
+        if (long job = 0; text >> host >> job) batch.job = job;
+        return;
+    }
+    if (auto const job = slurm::find_by_name(batch.name)) batch.job = job;
+}
+
+PackingActivity activity_of(Batch const& batch, std::size_t index, slurm::Reports const& reports) {
+    // After Slurm's answer: a task that Slurm calls ended wrote its marker before.
+    if (auto const marked = by_marker(batch, index)) return *marked;
+    auto const found = reports.find({batch.job.value_or(0), static_cast<int>(index)});
+    if (found == reports.end()) return lost_task(batch, index, nullptr);
+    auto const& [state, reason] = found->second;
+    if (slurm::is_terminal(state)) return lost_task(batch, index, &found->second);
+    bool const waits = state == "PENDING" || state == "CONFIGURING";
+    return {batch.tasks[index],
+            waits ? PackingActivity::waiting : PackingActivity::running,
+            {},
+            reason.empty() || reason == "None" ? "" : fmt::format("waits in Slurm: {}", reason)};
+}
+
+/// What is known of the tasks of one batch, by index.
+std::vector<PackingActivity> survey_batch(Batch& batch) {
+    std::vector<PackingActivity> activities;
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < batch.tasks.size(); ++i) {
+        auto const marked = by_marker(batch, i);
+        if (!marked) open.push_back(i);
+        activities.push_back(marked.value_or(
+            PackingActivity{batch.tasks[i], PackingActivity::unknown, {}, "Slurm does not answer"}));
+    }
+    if (open.empty()) return activities;
+    try {
+        find_lost_id(batch);
+        auto const reports = batch.job ? slurm::ask({*batch.job}) : slurm::Reports{};
+        if (!reports) return activities;
+        for (std::size_t const i : open) activities[i] = activity_of(batch, i, *reports);
+    } catch (core::MissingError const&) {
+        // There is no Slurm here, or it does not answer.
+    }
+    return activities;
+}
+
+}  // namespace
+
+PackingId read_task(fs::path const& task_list, int index) {
+    std::istringstream lines(core::read_file(task_list));
+    std::string line;
+    for (int i = 0; i <= index && std::getline(lines, line); ++i) {
+        if (i < index) continue;
+        if (auto const task = parse_task(line)) return *task;
+    }
+    throw core::InputError(fmt::format(
+        "{} has no task with index {}; give a list that 'vibrotrough run' made", task_list.string(), index));
+}
+
+std::vector<Batch> read_batches(fs::path const& campaign_folder) {
+    std::vector<Batch> batches;
+    fs::path const all = campaign_folder / "slurm";
+    if (!fs::is_directory(all)) return batches;
+    std::vector<fs::path> folders;
+    for (auto const& entry : fs::directory_iterator(all)) folders.push_back(entry.path());
+    std::ranges::sort(folders);
+    for (fs::path const& folder : folders) {
+        if (auto batch = read_batch(folder)) batches.push_back(std::move(*batch));
+    }
+    return batches;
+}
+
+Batch write_batch(fs::path const& campaign_folder, std::vector<PackingId> const& tasks,
+                  JobScript const& script) {
+    int number = 1;
+    while (fs::exists(campaign_folder / "slurm" / fmt::format("{:04}", number))) ++number;
+    std::string const label = fmt::format("{:04}", number);
+    std::string const unique = fmt::format("{} {} {} {}", fs::absolute(campaign_folder).string(), label,
+                                           core::utc_now(), ::getpid());
+    Batch batch{campaign_folder / "slurm" / label,
+                "vibrotrough-" + core::sha256_hex(unique).substr(0, 12),
+                {},
+                tasks};
+    std::string list;
+    for (PackingId const& task : tasks) list += fmt::format("{} {}\n", task.case_id, task.packing);
+    core::make_folder(batch.folder);
+    core::write_file_atomically(batch.folder / "tasks.txt", list);
+    core::write_file_atomically(batch.folder / "job.sh", job_script(label, script));
+    write_description(batch);
+    return batch;
+}
+
+void remember_job(Batch& batch, long job) {
+    batch.job = job;
+    write_description(batch);
+}
+
+std::vector<PackingActivity> survey_tasks(std::vector<Batch>& batches) {
+    std::map<PackingId, PackingActivity> newest;
+    for (Batch& batch : batches) {
+        for (PackingActivity& one : survey_batch(batch)) newest.insert_or_assign(one.id, std::move(one));
+    }
+    std::vector<PackingActivity> all;
+    for (auto& [id, activity] : newest) all.push_back(std::move(activity));
+    return all;
+}
+
+void remember_lost_tasks(std::vector<Batch>& batches) {
+    for (Batch& batch : batches) {
+        std::vector<PackingActivity> const activities = survey_batch(batch);
+        for (std::size_t i = 0; i < activities.size(); ++i) {
+            if (activities[i].state != PackingActivity::ended || by_marker(batch, i)) continue;
+            Json const json{{"outcome", name_of(activities[i].outcome.value_or(core::Outcome::interrupted))},
+                            {"message", activities[i].message}};
+            try {
+                core::write_file_atomically(marker(batch, i, "lost"), json.dump() + "\n");
+            } catch (core::MissingError const&) {
+                return;
+            }
+        }
+    }
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "campaign/execute/slurm.hpp"
+#include "campaign/state/overview.hpp"
+#include "campaign/state/plan.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::campaign {
+
+/// One job array as its folder DIR/slurm/<number> holds it:
+///   tasks.txt               a line "<case id> <packing>" per task, the index from 0
+///   job.sh                  what every task runs
+///   batch.json              the job's name, written before it is submitted, and its id, written afterwards
+///   task-<index>.started    written by the job script, atomically
+///   task-<index>.ended      the same: the exit code of `vibrotrough work`
+///   task-<index>.lost       written by `run` when Slurm reports that the task ended without an exit marker
+///   task-<index>.out        what the task printed
+struct Batch {
+    std::filesystem::path folder;
+    std::string name;
+    std::optional<long> job;
+    std::vector<PackingId> tasks;
+};
+
+/// Reads the line of a task list. @throws InputError when there is no such line
+PackingId read_task(std::filesystem::path const& task_list, int index);
+
+/// All batches of a campaign, oldest first; damaged ones are left out.
+std::vector<Batch> read_batches(std::filesystem::path const& campaign_folder);
+
+/// What the job script of a batch must know.
+struct JobScript {
+    std::filesystem::path program;     ///< vibrotrough itself
+    int ranks;                         ///< MPI ranks of the engine
+    std::optional<double> time_limit;  ///< s, for the packing
+    int retries;
+};
+
+/// Makes a batch's folder with its task list and job script; not yet submitted.
+/// @throws MissingError when the disk refuses
+Batch write_batch(std::filesystem::path const& campaign_folder, std::vector<PackingId> const& tasks,
+                  JobScript const& script);
+
+/// Remembers the batch's job id. @throws MissingError when the disk refuses
+void remember_job(Batch& batch, long job);
+
+/// What became of the tasks of all batches, the newest report on each packing: the job script's own markers
+/// first, then squeue, then sacct; a task that neither knows is lost. What Slurm reports of a task that died
+/// is only known for a while; remember_lost_tasks() keeps it.
+std::vector<PackingActivity> survey_tasks(std::vector<Batch>& batches);
+
+/// Writes what Slurm reports of tasks that died without a marker into markers task-<index>.lost, because
+/// Slurm forgets. A disk that refuses is ignored.
+void remember_lost_tasks(std::vector<Batch>& batches);
+
+}  // namespace vibrotrough::campaign

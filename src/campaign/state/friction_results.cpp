@@ -1,0 +1,92 @@
+#include "campaign/state/friction_results.hpp"
+
+#include "campaign/state/case_state.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::campaign {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+evaluate::LayerFriction measure_one(PlannedCase const& planned) {
+    if (auto const record = read_whole_result(planned))
+        return evaluate::evaluate_friction_test(*planned.prepared, planned.id, *record, planned.folder);
+    auto const failure = read_failure(planned);
+    std::string const why =
+        failure ? fmt::format("{}: {}", name_of(failure->outcome), failure->message) : "not finished";
+    return evaluate::failed_friction_test(*planned.prepared, planned.id, why);
+}
+
+Json number(std::optional<double> const& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> number(Json const& value) {
+    if (value.is_null()) return {};
+    return value.get<double>();
+}
+
+}  // namespace
+
+std::vector<evaluate::LayerFriction> measure_friction(Plan const& plan) {
+    std::vector<evaluate::LayerFriction> tests;
+    for (PlannedCase const& planned : plan.cases) tests.push_back(measure_one(planned));
+    return tests;
+}
+
+std::filesystem::path friction_file(std::filesystem::path const& campaign_folder) {
+    return campaign_folder / "friction.json";
+}
+
+void write_friction(std::filesystem::path const& campaign_folder,
+                    std::vector<evaluate::LayerFriction> const& tests) {
+    Json list = Json::array();
+    for (evaluate::LayerFriction const& test : tests) {
+        list.push_back({{"layer", test.layer},
+                        {"case", test.case_id},
+                        {"grain_friction", test.grain_friction},
+                        {"machine_number", test.machine_number},
+                        {"max_relative_displacement", number(test.displacement)},
+                        {"max_relative_displacement_half_width", number(test.half_width)},
+                        {"creep_per_cycle", test.creep},
+                        {"friction", number(test.friction)},
+                        {"friction_low", number(test.low)},
+                        {"friction_high", number(test.high)},
+                        {"mode", test.mode},
+                        {"message", test.message}});
+    }
+    core::write_file_atomically(friction_file(campaign_folder), list.dump(2) + "\n");
+}
+
+std::map<std::string, evaluate::LayerFriction> read_friction(std::filesystem::path const& campaign_folder) {
+    auto const path = friction_file(campaign_folder);
+    std::map<std::string, evaluate::LayerFriction> tests;
+    if (!std::filesystem::is_regular_file(path)) return tests;
+    try {
+        for (Json const& one : Json::parse(core::read_file(path))) {
+            evaluate::LayerFriction test{one.at("layer"),
+                                         one.at("case"),
+                                         one.at("grain_friction"),
+                                         one.at("machine_number"),
+                                         number(one.at("max_relative_displacement")),
+                                         number(one.at("max_relative_displacement_half_width")),
+                                         one.at("creep_per_cycle"),
+                                         number(one.at("friction")),
+                                         number(one.at("friction_low")),
+                                         number(one.at("friction_high")),
+                                         one.at("mode"),
+                                         one.at("message")};
+            if (test.friction && test.low && test.high) tests[test.layer] = test;
+        }
+    } catch (Json::exception const&) {
+        throw core::InputError(
+            fmt::format("{} is damaged; run 'vibrotrough friction-test' again or delete it", path.string()));
+    }
+    return tests;
+}
+
+}  // namespace vibrotrough::campaign

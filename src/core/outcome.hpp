@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vibrotrough::core {
+
+/// What a case or a packing can come to. outcome_table() says what each one means.
+enum class Outcome {
+    finished,
+    not_precise,
+    not_steady,
+    lost_grains,
+    mesh_left_domain,
+    insertion_incomplete,
+    not_settled,
+    diverged,
+    wrong_weight,
+    engine_error,
+    engine_crashed,
+    outputs_incomplete,
+    out_of_memory,
+    disk_full,
+    time_limit,
+    interrupted,
+};
+
+/// Whether the same run may end differently when it is repeated.
+enum class Retry {
+    useless,    ///< the same input ends in the same way
+    sensible,   ///< the cause lies outside the run and may be gone
+    after_cure  ///< once somebody has done what `cure` says
+};
+
+/// One row of the table of outcomes, from which the code, the messages and the documentation follow.
+struct OutcomeEntry {
+    Outcome outcome;
+    std::string_view name;  ///< in files, tables and messages
+    std::string_view meaning;
+    Retry retry;
+    std::string_view cure;  ///< what helps; empty when nothing is wrong or only a retry helps
+};
+
+/// All outcomes, in the order of the enumeration.
+std::span<OutcomeEntry const> outcome_table();
+
+/// The outcome's name, for example "lost-grains".
+std::string_view name_of(Outcome outcome);
+
+/// The outcome with this name; none for any other text.
+std::optional<Outcome> outcome_named(std::string_view name);
+
+/// Whether a case that ended so has a result: finished, not-precise or not-steady.
+bool has_result(Outcome outcome);
+
+/// Whether [run] retries applies to this outcome.
+bool retry_makes_sense(Outcome outcome);
+
+/// In words: whether to try again, and what helps; empty when there is nothing to say.
+std::string retry_advice(Outcome outcome);
+
+/// The table in Markdown, as the documentation shows it.
+std::string outcome_reference();
+
+}  // namespace vibrotrough::core

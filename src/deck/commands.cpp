@@ -1,0 +1,77 @@
+#include "deck/commands.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/hash.hpp"
+
+#include <algorithm>
+
+namespace vibrotrough::deck {
+namespace {
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// One line without its comment, with single blanks between words.
+std::string command_in(std::string_view line) {
+    std::string command;
+    char quote = 0;
+    for (char const c : line) {
+        if (quote != 0) {
+            if (c == quote) quote = 0;
+            command += c;
+            continue;
+        }
+        if (c == '#') break;
+        if (c == '"' || c == '\'') quote = c;
+        if (!is_blank(c)) {
+            command += c;
+        } else if (!command.empty() && command.back() != ' ') {
+            command += ' ';
+        }
+    }
+    while (command.ends_with(' ')) command.pop_back();
+    return command;
+}
+
+bool is_deck(std::string_view name) {
+    return name.ends_with(".liggghts") || name.ends_with(".in");
+}
+
+}  // namespace
+
+std::string commands_of(std::string_view deck) {
+    std::string commands;
+    bool goes_on = false;
+    while (!deck.empty()) {
+        std::size_t const length = std::min(deck.find('\n'), deck.size());
+        std::string command = command_in(deck.substr(0, length));
+        deck.remove_prefix(std::min(length + 1, deck.size()));
+        if (command.empty() && !goes_on) continue;
+        goes_on = command.ends_with('&');
+        if (goes_on) command.back() = ' ';
+        commands += command;
+        if (!goes_on) commands += '\n';
+    }
+    return commands;
+}
+
+std::string digest_of_commands(std::map<std::string, std::string> const& files) {
+    std::string all;
+    for (auto const& [name, content] : files)
+        all += name + "\n" + (is_deck(name) ? commands_of(content) : content) + "\n";
+    return core::sha256_hex(all);
+}
+
+std::map<std::string, std::string> read_files(std::filesystem::path const& folder,
+                                              std::map<std::string, std::string> const& names) {
+    std::map<std::string, std::string> files;
+    for (auto const& [name, unused] : names) {
+        std::error_code missing;
+        if (!std::filesystem::is_regular_file(folder / name, missing)) continue;
+        files[name] = name == control_file ? control_go_on : for_one_rank(core::read_file(folder / name));
+    }
+    return files;
+}
+
+}  // namespace vibrotrough::deck

@@ -1,0 +1,169 @@
+#include "evaluate/packing.hpp"
+
+#include "core/error.hpp"
+#include "deck/deck.hpp"
+#include "evaluate/layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <span>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The balance of momentum over whole cycles is exact up to the integrator; 1e-5 was seen.
+constexpr double balance_tolerance = 0.002;
+
+/// A layer faster than so many times the trough has blown up.
+constexpr double largest_speed_ratio = 100;
+
+std::vector<double> efficiency_of(prepare::PreparedCase const& prepared, measure::CycleSeries const& series) {
+    scenario::Scenario const& s = prepared.scenario;
+    // The engine does not unwrap the positions of rigid bodies.
+    if (prepared.clump) return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
+    return measure::velocity_efficiency(series, s.trough.amplitude * std::cos(s.trough.vibration_angle));
+}
+
+measure::Precision wanted(prepare::PreparedCase const& prepared) {
+    return {prepared.scenario.measure.confidence, prepared.scenario.measure.half_width};
+}
+
+measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
+    return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains);
+}
+
+/// Measures a packing from its cycles and the phases within them.
+/// @throws core::InputError when its snapshots are damaged, or phases and cycles do not belong together
+store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int packing,
+                                     PackingFiles const& files, measure::CycleSeries const& all,
+                                     measure::PhaseSeries const& phases) {
+    auto const answer = measure::estimate_sequentially(efficiency_of(prepared, all), wanted(prepared));
+    store::PackingRecord record{};
+    record.seed = deck::packing_seed(packing);
+    record.steps_per_cycle = prepared.time.steps_per_cycle;
+    record.time_step = prepared.time.time_step;
+    record.mass = prepared.mass;
+    record.series = measure::first_cycles(all, answer.used);
+    record.efficiency = efficiency_of(prepared, record.series);
+    record.estimate = answer.estimate;
+    measure_layer(record, prepared, files, phases);
+    return record;
+}
+
+std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
+                                          measure::CycleSeries const& cycles,
+                                          measure::PhaseSeries const& phases, long last_step) {
+    constexpr auto incomplete = core::Outcome::outputs_incomplete;
+    if (static_cast<long>(cycles.cycles()) * prepared.time.steps_per_cycle != last_step) {
+        return UnusableOutputs{incomplete,
+                               fmt::format("cycles.csv holds {} cycles, the engine ended at step {}",
+                                           cycles.cycles(), last_step)};
+    }
+    if (phases.cycles() != cycles.cycles()) {
+        return UnusableOutputs{incomplete, fmt::format("phases.csv holds {} cycles, cycles.csv {}",
+                                                       phases.cycles(), cycles.cycles())};
+    }
+    double const carried =
+        measure::weight_by_momentum(cycles, prepared.mass, 1 / prepared.scenario.trough.frequency);
+    if (std::abs(carried - prepared.weight) <= balance_tolerance * prepared.weight) return {};
+    return UnusableOutputs{
+        core::Outcome::wrong_weight,
+        fmt::format(
+            "the mean force of the layer on the trough over the cycles, less its gain of momentum, is "
+            "{:.4g} N; the layer weighs {:.4g} N",
+            carried, prepared.weight)};
+}
+
+bool is_data_line(std::string const& line) {
+    return !line.empty() && line[0] >= '0' && line[0] <= '9';
+}
+
+/// Whether a line of cycles.csv (step, grains, x, z, vz, mean vx, ...) shows a simulation that blew up.
+bool has_diverged(std::string const& line, double largest_speed) {
+    int column = 0;
+    for (std::size_t start = 0; start != std::string::npos; ++column) {
+        std::size_t const comma = line.find(',', start);
+        double const value = std::strtod(line.c_str() + start, nullptr);
+        bool const is_speed = column == 4 || column == 5;
+        if (!std::isfinite(value) || (is_speed && std::abs(value) > largest_speed)) return true;
+        start = comma == std::string::npos ? comma : comma + 1;
+    }
+    return false;
+}
+
+}  // namespace
+
+InterimEstimate estimate_so_far(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
+    auto const series = parse(prepared, core::read_text_file(packing_folder / "cycles.csv"));
+    InterimEstimate interim{series.cycles(), {}, false};
+    if (interim.cycles < 2) return interim;
+    std::vector<double> const efficiency = efficiency_of(prepared, series);
+    auto const needed = measure::cycles_needed(efficiency, wanted(prepared));
+    interim.is_enough = needed.has_value();
+    auto const used = static_cast<std::size_t>(needed.value_or(interim.cycles));
+    interim.estimate = measure::estimate_packing(std::span(efficiency).first(used), wanted(prepared));
+    return interim;
+}
+
+std::optional<measure::PackingEstimate> estimate_finished(prepare::PreparedCase const& prepared,
+                                                          fs::path const& packing_folder) {
+    if (!has_marker(packing_folder)) return {};
+    try {
+        PackingFiles const files = read_packing_files(packing_folder);
+        if (!read_marker(files)) return {};
+        auto const efficiency = efficiency_of(prepared, parse(prepared, files.cycles));
+        return measure::estimate_sequentially(efficiency, wanted(prepared)).estimate;
+    } catch (core::Error const&) {
+        return {};  // damaged: the packing is as good as not run
+    }
+}
+
+std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::PreparedCase const& prepared,
+                                                                     int packing, PackingFiles const& files,
+                                                                     long last_step) {
+    try {
+        auto const cycles = parse(prepared, files.cycles);
+        auto const phases = packing_phases(prepared, files.phases);
+        if (auto fault = find_fault(prepared, cycles, phases, last_step)) return std::move(*fault);
+        return measure_packing(prepared, packing, files, cycles, phases);
+    } catch (core::Error const& error) {
+        return UnusableOutputs{core::Outcome::outputs_incomplete, error.what()};
+    }
+}
+
+std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepared, int packing,
+                                             fs::path const& packing_folder) {
+    if (!has_marker(packing_folder)) return {};
+    PackingFiles const files = read_packing_files(packing_folder);
+    auto const marker = read_marker(files);
+    if (!marker) return {};
+    auto const phases = packing_phases(prepared, files.phases);
+    EvaluatedPacking evaluated{
+        *marker, measure_packing(prepared, packing, files, parse(prepared, files.cycles), phases)};
+    evaluated.record.wall_time = marker->wall_time;
+    evaluated.record.deck = core::read_file(packing_folder / deck::drive_file);
+    return evaluated;
+}
+
+RunExtent extent_of_run(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
+    RunExtent extent;
+    std::ifstream file(packing_folder / "cycles.csv");
+    double const limit =
+        largest_speed_ratio * prepared.angular_frequency * prepared.scenario.trough.amplitude;
+    int lines = 0;
+    for (std::string line; std::getline(file, line);) {
+        if (!is_data_line(line) || file.eof()) continue;  // the last line may be cut
+        extent.diverged = extent.diverged || has_diverged(line, limit);
+        ++lines;
+    }
+    extent.cycles = std::max(0, lines - 1);  // the first line is the start
+    return extent;
+}
+
+}  // namespace vibrotrough::evaluate

@@ -1,0 +1,98 @@
+#include "evaluate/packing_files.hpp"
+
+#include "core/hash.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr char const* marker_file = "packing.json";
+
+core::TextFile read_if_there(fs::path const& path) {
+    std::error_code missing;
+    return fs::is_regular_file(path, missing) ? core::read_text_file(path) : core::TextFile{path, {}};
+}
+
+std::string digest_of_layer(PackingFiles const& files) {
+    std::vector<std::string> names;
+    for (core::TextFile const& file : files.snapshots) names.push_back(file.path.filename().string());
+    std::vector<std::string_view> pieces{files.phases.content};
+    for (std::size_t i = 0; i < files.snapshots.size() && !files.phases.content.empty(); ++i) {
+        pieces.emplace_back(names[i]);
+        pieces.emplace_back(files.snapshots[i].content);
+    }
+    return core::sha256_hex(pieces);
+}
+
+}  // namespace
+
+PackingFiles read_packing_files(fs::path const& folder) {
+    PackingFiles files{
+        folder, read_if_there(folder / "cycles.csv"), read_if_there(folder / "phases.csv"), {}, {}, {}};
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(folder, missing)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("profiles.") || name.starts_with("surface."))
+            files.snapshots.push_back(core::read_text_file(entry.path()));
+    }
+    std::ranges::sort(files.snapshots, {}, &core::TextFile::path);
+    if (!files.cycles.content.empty()) files.cycles_sha256 = core::sha256_hex(files.cycles.content);
+    files.layer_sha256 = digest_of_layer(files);
+    return files;
+}
+
+bool has_marker(fs::path const& packing_folder) {
+    std::error_code missing;
+    return fs::is_regular_file(packing_folder / marker_file, missing);
+}
+
+std::optional<PackingMarker> read_marker(PackingFiles const& files) {
+    if (files.cycles_sha256.empty() || !has_marker(files.folder)) return {};
+    Json const json = Json::parse(core::read_file(files.folder / marker_file), nullptr, false);
+    try {
+        if (!json.is_object() || json.at("cycles_sha256") != files.cycles_sha256 ||
+            json.at("layer_sha256") != files.layer_sha256)
+            return {};
+        return PackingMarker{json.at("wall_time"),
+                             json.at("started"),
+                             json.at("finished"),
+                             json.at("program_version"),
+                             json.at("git_commit"),
+                             json.at("host"),
+                             json.value("engine_certificate", std::string())};
+    } catch (Json::exception const&) {
+        return {};
+    }
+}
+
+std::optional<PackingMarker> read_marker(fs::path const& packing_folder) {
+    if (!has_marker(packing_folder)) return {};
+    return read_marker(read_packing_files(packing_folder));
+}
+
+void write_marker(PackingFiles const& files, PackingMarker const& marker) {
+    Json const json{{"wall_time", marker.wall_time},
+                    {"started", marker.started},
+                    {"finished", marker.finished},
+                    {"program_version", marker.program_version},
+                    {"git_commit", marker.git_commit},
+                    {"host", marker.host},
+                    {"engine_certificate", marker.engine_certificate},
+                    {"cycles_sha256", files.cycles_sha256},
+                    {"layer_sha256", files.layer_sha256}};
+    core::write_file_atomically(files.folder / marker_file, json.dump(2) + "\n");
+}
+
+void remove_marker(fs::path const& packing_folder) {
+    std::error_code ignored;
+    fs::remove(packing_folder / marker_file, ignored);
+}
+
+}  // namespace vibrotrough::evaluate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "scenario/model/grains.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vibrotrough::prepare {
+
+/// A rigid body of overlapping spheres, in the axes of its shape, the centre of mass at 0. Its mass is that
+/// of the volume that the spheres cover: overlaps count once.
+struct Clump {
+    std::vector<scenario::Sphere> spheres;  ///< m
+    double volume;                          ///< m^3
+    std::array<double, 6> inertia;          ///< m^5, per density: xx, xy, xz, yy, yz, zz
+    double bounding_radius;                 ///< m, of the smallest sphere around 0 that holds all
+    double smallest_radius;                 ///< m, of its spheres
+};
+
+/// Makes clumps. Integrating the volume of a shape costs some ten milliseconds, so each shape is integrated
+/// once, and cases with the same shape and diameter share one clump. Not for use by several threads at once.
+class ClumpMaker {
+  public:
+    ClumpMaker();
+    ~ClumpMaker();
+    ClumpMaker(ClumpMaker&&) noexcept;
+    ClumpMaker& operator=(ClumpMaker&&) noexcept;
+
+    /// The clump of the grains' shape with the volume of a sphere of the grains' diameter. Volume and inertia
+    /// are integrated over a grid of 400 x 400 lines along x, exactly along each line: to 1e-4 for the
+    /// built-in shapes.
+    std::shared_ptr<Clump const> clump(scenario::Grains const& grains);
+
+    /// A plate of three by three spheres of this diameter (m), whose centres are two diameters apart.
+    std::shared_ptr<Clump const> plate(double diameter);
+
+  private:
+    struct Cache;
+    std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace vibrotrough::prepare

@@ -1,0 +1,113 @@
+#include "prepare/prepared_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vibrotrough::prepare {
+namespace {
+
+/// Counts whose running sums are the nearest to the fractions': the mean stays the mean, and a single grain
+/// is of the middle size.
+std::vector<ClassCount> count_classes(scenario::Grains const& grains, int count) {
+    std::vector<ClassCount> classes;
+    double fraction = 0;
+    int so_far = 0;
+    for (scenario::SizeClass const& size : size_classes(grains)) {
+        fraction += size.number_fraction;
+        int const target = static_cast<int>(std::lround(fraction * count));
+        if (target > so_far) classes.push_back({size.diameter, target - so_far});
+        so_far = std::max(so_far, target);
+    }
+    return classes;
+}
+
+/// The smallest of unit, 4 unit, 16 unit ... that is enough: cases that differ by their drives share a box.
+double in_powers_of_four(double unit, double needed) {
+    while (unit < needed) unit *= 4;
+    return unit;
+}
+
+void prepare_drive(PreparedCase& c) {
+    scenario::Trough const& trough = c.scenario.trough;
+    c.motion = drive_motion(trough);
+    c.throw_number = throw_number(trough);
+    c.machine_number = machine_number(trough);
+    c.angular_frequency = angular_frequency(trough);
+    c.velocity_scale = velocity_scale(trough);
+    c.largest_speed = largest_speed(c.motion, c.angular_frequency);
+}
+
+void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
+    scenario::Scenario const& s = c.scenario;
+    c.classes = count_classes(s.grains, s.layer.grains);
+    if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
+    if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
+    c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
+    for (ClassCount const& size : c.classes) {
+        double const sphere = std::numbers::pi / 6 * std::pow(size.diameter, 3);
+        c.mass += size.count * s.grains.density * (c.clump ? c.clump->volume : sphere);
+    }
+    c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
+    c.layer_height = layer_height(s);
+}
+
+/// Grains are poured loosely: at a solid fraction of 0.2 random insertion always finds room.
+void prepare_filling(PreparedCase& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const ratio = c.clump ? 2 * c.clump->bounding_radius / s.grains.diameter : 1;
+    double bounding_volume = 0;
+    for (ClassCount const& size : c.classes) {
+        double const sphere = std::numbers::pi / 6 * std::pow(size.diameter, 3);
+        bounding_volume += size.count * sphere * std::pow(ratio, 3);
+    }
+    c.largest_extent = c.classes.front().diameter * ratio;
+    double const width = s.layer.width - (s.trough.side_wall_friction ? c.largest_extent : 0);
+    c.fill_bottom = 0.6 * c.largest_extent;
+    c.fill_top = c.fill_bottom + c.largest_extent +
+                 bounding_volume / (0.2 * s.layer.length * std::max(width, 0.2 * s.layer.width));
+}
+
+void prepare_time(PreparedCase& c) {
+    scenario::Scenario const& s = c.scenario;
+    // A plate's spheres are as large as single grains.
+    double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s.grains) / 2;
+    StepLimits const limits{radius, c.largest_speed, highest_order(c.motion)};
+    c.settle_time_step = settling_time_step(s, limits, c.fill_top);
+    c.time = choose_time_step(s, limits);
+}
+
+/// A grain at ten times the height that the trough's largest speed throws it to is still in the box.
+void prepare_box(PreparedCase& c) {
+    double const flight =
+        c.largest_speed * c.largest_speed / (2 * scenario::gravity * std::cos(c.scenario.trough.inclination));
+    double const excursion = largest_excursion(c.motion);
+    c.box_top = in_powers_of_four(8 * (c.fill_top + 5 * c.largest_extent),
+                                  c.fill_top + 10 * flight + 5 * c.largest_extent);
+    c.box_bottom = -in_powers_of_four(4 * c.largest_extent, 2 * (excursion + c.largest_extent));
+    c.wall_height = c.box_top - (excursion - c.box_bottom);
+}
+
+}  // namespace
+
+double PreparedCase::grain_steps(double cycles) const {
+    return scenario.layer.grains * static_cast<double>(spheres_per_grain) * time.steps_per_cycle * cycles;
+}
+
+PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
+    PreparedCase prepared{};
+    prepared.scenario = scenario;
+    prepare_drive(prepared);
+    prepare_grains(prepared, clumps_);
+    prepare_filling(prepared);
+    prepare_time(prepared);
+    prepare_box(prepared);
+    prepared.point_mass = point_mass_inputs(prepared.scenario, prepared.motion, prepared.layer_height);
+    return prepared;
+}
+
+PreparedCase prepare_case(scenario::Scenario const& scenario) {
+    return CasePreparer().prepare(scenario);
+}
+
+}  // namespace vibrotrough::prepare

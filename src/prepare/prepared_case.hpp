@@ -1,0 +1,71 @@
+#pragma once
+
+#include "prepare/clump.hpp"
+#include "prepare/point_mass.hpp"
+#include "prepare/time_grid.hpp"
+#include "scenario/model/scenario.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace vibrotrough::prepare {
+
+/// How many grains of one size a layer has.
+struct ClassCount {
+    double diameter;  ///< m
+    int count;
+};
+
+/// Everything that follows from a scenario and that more than one room needs: worked out once, and read by
+/// deck, evaluate, campaign, compare and view. SI units.
+struct PreparedCase {
+    scenario::Scenario scenario;
+
+    // Drive.
+    scenario::DriveMotion motion;  ///< of the trough, as Fourier series
+    double throw_number;           ///< Gamma, as given where it was given
+    double machine_number;         ///< K, as given where it was given
+    double angular_frequency;      ///< omega, rad/s
+    double velocity_scale;         ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
+    double largest_speed;          ///< m/s, upper bound of the trough's speed
+
+    // Grains and layer.
+    std::vector<ClassCount> classes;     ///< largest first, so that the large ones find room when poured
+    std::shared_ptr<Clump const> clump;  ///< of every grain; none for single spheres
+    int spheres_per_grain;               ///< 1 without a clump
+    double mass;                         ///< kg, of all grains
+    double weight;                       ///< N, normal force of the layer at rest: m g cos(alpha)
+    double layer_height;                 ///< m, at rest, as asked for or from the number of grains
+    double largest_extent;               ///< m, largest diameter of the spheres that enclose the grains
+
+    // Time.
+    TimeGrid time;
+    double settle_time_step;  ///< s
+
+    // Simulation box.
+    double fill_bottom, fill_top;  ///< m, between which grains are poured
+    double box_top, box_bottom;    ///< m
+    double wall_height;            ///< m, of side walls
+
+    // Theory.
+    PointMassInputs point_mass;
+
+    /// Grain-steps of this many cycles of one packing: spheres times time steps, the unit of cost.
+    double grain_steps(double cycles) const;
+};
+
+/// Prepares the cases of a campaign. What cases have in common (the integrated shape of clumps) is kept from
+/// one case to the next. Not for use by several threads at once.
+class CasePreparer {
+  public:
+    /// @throws core::InputError when a cycle would take more than 1e8 time steps
+    PreparedCase prepare(scenario::Scenario const& scenario);
+
+  private:
+    ClumpMaker clumps_;
+};
+
+/// Prepares a single case. @throws core::InputError as CasePreparer::prepare
+PreparedCase prepare_case(scenario::Scenario const& scenario);
+
+}  // namespace vibrotrough::prepare

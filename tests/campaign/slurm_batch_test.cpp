@@ -1,0 +1,75 @@
+#include "campaign/execute/slurm_batch.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BatchTest : public testing::Test {
+  protected:
+    BatchTest() { fs::create_directories(folder); }
+    ~BatchTest() override { fs::remove_all(folder); }
+
+    fs::path folder = fs::path(testing::TempDir()) / fmt::format("batch_{}", ::getpid());
+    std::vector<PackingId> tasks{{"0123456789ab", 1}, {"0123456789ab", 2}, {"ffffffffffff", 1000}};
+};
+
+TEST_F(BatchTest, ComesBackAsWritten) {
+    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0});
+    write_batch(folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0});
+    auto read = read_batches(folder);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].tasks, tasks);
+    EXPECT_EQ(read[0].name, batch.name);
+    EXPECT_NE(read[0].name, read[1].name);
+    EXPECT_FALSE(read[0].job);
+    remember_job(batch, 4711);
+    EXPECT_EQ(read_batches(folder)[0].job, 4711);
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+        EXPECT_EQ(read_task(batch.folder / "tasks.txt", static_cast<int>(i)), tasks[i]);
+    EXPECT_THROW(read_task(batch.folder / "tasks.txt", 3), core::InputError);
+}
+
+TEST_F(BatchTest, DamagedListsAreRefused) {
+    fs::path const list = folder / "tasks.txt";
+    for (char const* line :
+         {"", "0123456789ab", "0123456789ab 0", "0123456789ab 1001", "0123456789ag 1", "../../../etc 1",
+          "0123456789abc 1", "0123456789a 1", "0123456789AB 1", "$(id)      1"}) {
+        std::ofstream(list) << line << "\n";
+        EXPECT_THROW(read_task(list, 0), core::InputError) << line;
+    }
+}
+
+// The script is run as Slurm runs it, with a program whose path would do harm in a careless script.
+TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
+    fs::path const odd = folder / "a $(touch hacked) 'b' \"c\" &";
+    fs::create_directories(odd);
+    fs::path const program = odd / "vibrotrough";
+    std::ofstream(program) << "#!/bin/sh\nprintf '%s\\n' \"$@\" > arguments\nexit 5\n";
+    fs::permissions(program, fs::perms::owner_all);
+    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3});
+    std::string const command = fmt::format(
+        "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
+    int const status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 5);
+    EXPECT_EQ(core::read_file(folder / "arguments"),
+              "work\n.\n--task-list\nslurm/0001/"
+              "tasks.txt\n--index\n1\n--ranks\n2\n--retries\n3\n--time-limit\n90\n");
+    EXPECT_EQ(core::read_file(batch.folder / "task-1.ended"), "5\n");
+    EXPECT_TRUE(core::read_file(batch.folder / "task-1.started").ends_with(" 77\n"));
+    EXPECT_FALSE(fs::exists(folder / "hacked"));
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,89 @@
+#include "prepare/prepared_case.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::prepare {
+namespace {
+
+scenario::Scenario scenario(std::string const& lines, scenario::FileSource const& source = {}) {
+    return scenario::parse_campaign(with("throw_number = 2.0", "throw_number = 2.0\n" + lines), "c", source)
+        .cases.front();
+}
+
+PointMassInputs inputs(scenario::Scenario const& s) {
+    return prepare_case(s).point_mass;
+}
+
+// Both solvers on the plain drive: they agree to 1e-9 by the theory's own tests.
+TEST(PointMassMotion, OfAPlainDriveIsTheFastSolvers) {
+    scenario::Scenario const s = scenario("");
+    EXPECT_TRUE(inputs(s).is_plain);
+    EXPECT_NEAR(solve(inputs(s)).velocity_efficiency,
+                theory::solve(inputs(s).conveyor).motion.velocity_efficiency, 1e-9);
+}
+
+// The acceleration that the theory reckons with, -(sin t + sum a sin(k t + phase)) in units of omega^2 r
+// sin(beta), is that of the drive: X'' of X = sum a_k sin(k t + phase_k).
+void expect_same_acceleration(scenario::Scenario const& s) {
+    theory::Conveyor const c = inputs(s).conveyor;
+    scenario::DriveMotion const motion = drive_motion(s.trough);
+    double shift = 0;
+    for (scenario::DriveTerm const& term : motion.normal) {
+        if (term.order == 1) shift = term.phase;
+    }
+    double const omega = angular_frequency(s.trough);
+    double const normal_unit = c.point.throw_number * scenario::gravity * std::cos(s.trough.inclination);
+    double const along_unit = normal_unit / c.point.tan_vibration_angle;
+    for (double t = 0; t < 6.3; t += 0.37) {
+        double along = 0, normal = 0;
+        for (scenario::DriveTerm const& term : motion.along)
+            along -=
+                term.order * term.order * term.amplitude * std::sin(term.order * (t - shift) + term.phase);
+        for (scenario::DriveTerm const& term : motion.normal)
+            normal -=
+                term.order * term.order * term.amplitude * std::sin(term.order * (t - shift) + term.phase);
+        double theory_along = -c.along_ratio * std::sin(t + c.along_phase), theory_normal = -std::sin(t);
+        for (theory::Harmonic const& h : c.along)
+            theory_along -= h.amplitude * std::sin(h.order * t + h.phase);
+        for (theory::Harmonic const& h : c.normal)
+            theory_normal -= h.amplitude * std::sin(h.order * t + h.phase);
+        EXPECT_NEAR(along_unit * theory_along, omega * omega * along, 1e-9 * along_unit);
+        EXPECT_NEAR(normal_unit * theory_normal, omega * omega * normal, 1e-9 * normal_unit);
+    }
+}
+
+TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
+    expect_same_acceleration(scenario(""));
+    expect_same_acceleration(
+        scenario("along_phase = \"20 deg\"\nharmonics = [\"5, 0.2, 30 deg\", \"25, 0.1, -9 deg\"]"));
+    std::string csv = "time_s,x_m,z_m\n";
+    scenario::Scenario const plain = scenario("");
+    for (int i = 0; i < 32; ++i) {
+        double const t = 2 * std::numbers::pi * i / 32;
+        csv += fmt::format("{},{},{}\n", i / 32.0 / plain.trough.frequency,
+                           6e-3 * std::cos(std::numbers::pi / 6) * std::sin(t + 0.7) + 1e-4 * std::sin(3 * t),
+                           3e-3 * std::sin(t + 0.4) + 2e-4 * std::sin(2 * t - 1));
+    }
+    expect_same_acceleration(scenario("waveform = \"m.csv\"", {{}, {{"m.csv", csv}}}));
+}
+
+// Janssen's ratio: two walls add k mu_w H / W to mu (theory/conveyor.hpp).
+TEST(PointMassMotion, SeesSideWalls) {
+    scenario::Scenario const s = scenario("side_wall_friction = 0.3");
+    double const expected = 0.23 + 0.5 * 0.3 * 12.0 / 18.0;
+    EXPECT_NEAR(theory::effective_friction(inputs(s).conveyor).kinetic, expected, 1e-12);
+    EXPECT_NE(solve(inputs(s)).velocity_efficiency, solve(inputs(scenario(""))).velocity_efficiency);
+    // A measured friction includes the walls' effect: the walls are left out.
+    EXPECT_EQ(solve(with_friction(inputs(s), 0.23)).velocity_efficiency,
+              solve(inputs(scenario(""))).velocity_efficiency);
+}
+
+}  // namespace
+}  // namespace vibrotrough::prepare

@@ -1,0 +1,59 @@
+#include "prepare/prepared_case.hpp"
+
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::prepare {
+namespace {
+
+scenario::Scenario scenario(std::string const& text = example_campaign) {
+    return scenario::parse_campaign(text, "c").cases.front();
+}
+
+// What the user gave is kept, not computed back from the frequency.
+TEST(PreparedCase, KeepsTheNumbersAsGiven) {
+    for (double const given : {0.7, 1.1, 1.7, 2.3, 2.9}) {
+        auto const by_throw =
+            prepare_case(scenario(with("throw_number = 2.0", fmt::format("throw_number = {}", given))));
+        EXPECT_EQ(by_throw.throw_number, given);
+        auto const by_machine =
+            prepare_case(scenario(with("throw_number = 2.0", fmt::format("machine_number = {}", given))));
+        EXPECT_EQ(by_machine.machine_number, given);
+        EXPECT_EQ(by_throw.point_mass.conveyor.point.throw_number, given);
+    }
+}
+
+// Gamma = K sin(beta) / cos(alpha), v = omega r cos(beta); the example has beta = 30 deg, alpha = 0, r = 6
+// mm.
+TEST(PreparedCase, DriveNumbersBelongTogether) {
+    PreparedCase const c = prepare_case(scenario());
+    EXPECT_NEAR(c.machine_number, 4, 1e-12);
+    EXPECT_NEAR(c.angular_frequency, std::sqrt(4 * 9.81 / 6e-3), 1e-9);
+    EXPECT_NEAR(c.velocity_scale, c.angular_frequency * 6e-3 * std::cos(std::numbers::pi / 6), 1e-12);
+}
+
+TEST(PreparedCase, AClumpCostsItsSpheres) {
+    PreparedCase const spheres = prepare_case(scenario());
+    PreparedCase const cubes = prepare_case(scenario(with("diameter_spread = 0.1", "shape = \"cube\"")));
+    EXPECT_EQ(spheres.spheres_per_grain, 1);
+    EXPECT_EQ(cubes.spheres_per_grain, 8);
+    EXPECT_DOUBLE_EQ(cubes.grain_steps(10),
+                     8.0 * cubes.scenario.layer.grains * cubes.time.steps_per_cycle * 10);
+}
+
+TEST(PreparedCase, CasesShareTheirClump) {
+    CasePreparer preparer;
+    std::string const cubes = with("diameter_spread = 0.1", "shape = \"cube\"");
+    auto const first = preparer.prepare(scenario(cubes));
+    auto const second = preparer.prepare(scenario(cubes + "[sweep]\n\"trough.friction\" = [0.5]\n"));
+    EXPECT_EQ(first.clump, second.clump);
+}
+
+}  // namespace
+}  // namespace vibrotrough::prepare
