@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -59,8 +58,9 @@ store::CaseRecord assemble(PlannedCase const& planned, std::string const& engine
     record.outcome = outcome_of(estimates);
     record.layer_mode = common_mode(record.packings);
     if (record.outcome == "not-steady") {
-        // The mean of what is no steady state is no number; the cycles stay in the record.
-        record.estimate.mean = record.estimate.half_width = std::numeric_limits<double>::quiet_NaN();
+        // No mean is reported unless the case is steady; the cycles stay in the record.
+        record.estimate.mean.reset();
+        record.estimate.half_width.reset();
     }
     return record;
 }
