@@ -29,8 +29,9 @@ struct PackingEstimate {
 
 /// Mean over independent packings.
 struct CaseEstimate {
-    std::optional<double> mean;        ///< no value when a packing has no cycles, or is not steady (assemble)
-    std::optional<double> half_width;  ///< of its confidence interval; no value when the interval is unbounded
+    std::optional<double> mean;  ///< no value when a packing has no cycles, or is not steady (assemble)
+    std::optional<double>
+        half_width;  ///< of its confidence interval; no value when the interval is unbounded
     int packings;
 };
 

@@ -188,7 +188,7 @@ std::optional<double> Analysis::restitution() const {
         double const falling = -rising(landing - 1);
         double rebound = 0;
         for (std::size_t i = landing; i < next; ++i) rebound = std::max(rebound, rising(i));
-        // A take-off at once from a trough that falls away is no landing with a rebound.
+        // A take-off at once from a trough that falls away is not a landing with a rebound.
         if (falling > 0) {
             sum += rebound / falling;
             ++landings;

@@ -18,8 +18,8 @@ struct LayerFacts {
 };
 
 /// Mean curves over one period of the layer's motion, 100 values per cycle. Value j is at phase 2 pi (j + 1)
-/// / 100; forces are means over the interval that ends there. Standard deviations are over the periods. `slip` and
-/// `sliding` have a gap, NaN, at phases at which no grain touches the floor.
+/// / 100; forces are means over the interval that ends there. Standard deviations are over the periods.
+/// `slip` and `sliding` have a gap, NaN, at phases at which no grain touches the floor.
 struct PhaseCurves {
     std::vector<double> phase;         ///< rad
     std::vector<double> displacement;  ///< m, of the centre of mass against the trough since phase 0
@@ -42,7 +42,7 @@ struct PhaseCurves {
 /// How the layer moves within the cycle. A number that does not exist (no flight, no slide) has no value.
 struct LayerMotion {
     std::string mode;  ///< the bulk's mode in the theory's letters (layer_mode.hpp); empty without cycles
-    int period_cycles = 0;  ///< cycles after which the motion repeats, 1 to 8
+    int period_cycles = 0;                 ///< cycles after which the motion repeats, 1 to 8
     std::optional<double> take_off_phase;  ///< rad, of the longest flight, [0, 2 pi)
     std::optional<double> landing_phase;   ///< rad, above take_off_phase, not wrapped
     double flight_number = 0;              ///< duration of the longest flight, cycles

@@ -119,7 +119,8 @@ double mean_between(Snapshot const& one, double from, double to) {
 
 /// Mean over the phases of the means over their snapshots; no value without a snapshot.
 template <class Value>
-std::optional<double> mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases, Value const& value) {
+std::optional<double> mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases,
+                                       Value const& value) {
     double sum = 0;
     int seen = 0;
     for (auto const& snapshots : phases) {

@@ -3,8 +3,8 @@
 #include "core/atomic_file.hpp"
 
 #include <filesystem>
-#include <string_view>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace vibrotrough::measure {

@@ -33,7 +33,7 @@ Hdf5Handle make_file() {
     Hdf5Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make access properties");
     std::size_t constexpr increment = std::size_t{1} << 16;
     require(H5Pset_fapl_core(access.id(), increment, 0) >= 0, "choose HDF5's memory driver");
-    // No reserves of space, so that the file is no longer than what it holds.
+    // Reserve no space, so that the file is only as long as what it holds.
     require(H5Pset_meta_block_size(access.id(), 0) >= 0 && H5Pset_small_data_block_size(access.id(), 0) >= 0,
             "switch off reserves");
     return Hdf5Handle(H5Fcreate(path_that_cannot_exist, H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose,

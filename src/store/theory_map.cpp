@@ -13,7 +13,7 @@ namespace {
 
 constexpr int schema_version = 1;
 
-/// Numbers for the modes that occur, in order of appearance; 0 is no mode.
+/// Numbers for the modes that occur, in order of appearance; 0 stands for "none".
 class ModeIndex {
   public:
     int operator()(theory::ModeCode code) {

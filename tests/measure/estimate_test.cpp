@@ -169,7 +169,8 @@ TEST(Estimate, CombinesPackingsByTheirScatter) {
     std::vector const three{packing(0.80, 0.003), packing(0.81, 0.004), packing(0.82, 0.003)};
     auto const combined = combine(three, 0.95);
     EXPECT_NEAR(combined.mean.value(), 0.81, 1e-12);
-    EXPECT_NEAR(combined.half_width.value(), 4.302653 * 0.01 / std::sqrt(3.0), 1e-8);  // the table has 7 digits
+    EXPECT_NEAR(combined.half_width.value(), 4.302653 * 0.01 / std::sqrt(3.0),
+                1e-8);  // the table has 7 digits
     EXPECT_EQ(combined.packings, 3);
 }
 

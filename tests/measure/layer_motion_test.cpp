@@ -82,7 +82,8 @@ TEST(LayerMotion, GivesBackTheTheorysModes) {
         theory::Phase const flight = longest_flight(wanted);
         EXPECT_NEAR(found.take_off_phase.value(), std::fmod(flight.start, 2 * pi), interval) << name(point);
         EXPECT_NEAR(found.flight_number, wanted.flight_number, 0.01) << name(point);
-        EXPECT_NEAR(found.landing_phase.value() - found.take_off_phase.value(), flight.end - flight.start, interval);
+        EXPECT_NEAR(found.landing_phase.value() - found.take_off_phase.value(), flight.end - flight.start,
+                    interval);
         // Plastic. Where the trough falls away faster than the mass at its landing, the mass is in the air
         // again within the interval.
         if (point.throw_number < 3.297) {
