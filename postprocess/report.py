@@ -19,32 +19,8 @@ import markupsafe
 
 from figure_style import Problem
 
-DEGREE = "\u00b0"
+UNIT_SIGNS = {"1": "", "degree": "\u00b0"}  # of units that are not written as they are
 
-# Columns of the table: name in campaign.json, heading, unit, format.
-COLUMNS = [
-    ("case", "case", "", "{}"),
-    ("throw_number", "throw number \u0393", "", "{:.3f}"),
-    ("vibration_angle_deg", "\u03b2", "\u00b0", "{:.2f}"),
-    ("inclination_deg", "\u03b1", "\u00b0", "{:.2f}"),
-    ("friction", "\u03bc", "", "{:.3g}"),
-    ("frequency_hz", "frequency", "Hz", "{:.2f}"),
-    ("efficiency_dem", "\u03b7, DEM", "", "{:.3f}"),
-    ("efficiency_dem_half_width", "\u00b1", "", "{:.3f}"),
-    ("efficiency_theory", "\u03b7, theory", "", "{:.3f}"),
-    ("residual", "residual", "", "{:+.3f}"),
-    ("mode_theory", "mode, theory", "", "{}"),
-    ("mode_layer", "mode, layer", "", "{}"),
-    ("friction_layer", "\u03bc, layer", "", "{:.3g}"),
-    ("efficiency_theory_layer", "\u03b7, theory at layer's \u03bc", "", "{:.3f}"),
-    ("speed_dem_m_per_s", "speed", "m/s", "{:.3f}"),
-    ("cycles_measured", "cycles kept", "", "{}"),
-    ("cycles_discarded", "discarded", "", "{}"),
-    ("wall_s", "wall time", "s", "{:.0f}"),
-    ("outcome", "outcome", "", "{}"),
-]
-# Told in a sentence instead when they are the same in all of several cases.
-MAY_BE_CONSTANT = ("throw_number", "vibration_angle_deg", "inclination_deg", "friction", "frequency_hz")
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
     ("efficiency", "Velocity efficiency against throw number"),
@@ -98,32 +74,39 @@ class Figures:
         return [figure for figure in (self.get(*one) for one in names) if figure]
 
 
-def cell(row, name, form):
+def report_columns(overview):
+    """The columns that the report shows, from left to right, as campaign.json describes them."""
+    shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
+    for column in shown:
+        column["unit"] = UNIT_SIGNS.get(column["unit"], column["unit"])
+    return sorted(shown, key=lambda column: column["position"])
+
+
+def cell(row, column):
     """What is shown of a value, and what it is sorted by; unknown values are empty."""
-    value = row.get(name)
+    value = row.get(column["name"])
     if value is None or value == "":
-        return {"shown": "", "key": ""}
-    return {"shown": form.format(value), "key": value if isinstance(value, (int, float)) else str(value)}
+        return {"shown": "", "key": "", "text": column["type"] == "text"}
+    key = value if isinstance(value, (int, float)) else str(value)
+    return {"shown": column["format"].format(value), "key": key, "text": column["type"] == "text"}
 
 
-def split_columns(cases):
+def with_unit(shown, unit):
+    return shown + unit if unit in ("", UNIT_SIGNS["degree"]) else f"{shown} {unit}"
+
+
+def split_columns(columns, cases):
     """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
-    same = [name for name in MAY_BE_CONSTANT if len(cases) > 1 and len({case[name] for case in cases}) == 1]
-    told = [f"{heading} = {form.format(cases[0][name])}{unit if unit == DEGREE else ' ' * bool(unit) + unit}"
-            for name, heading, unit, form in COLUMNS if name in same]
-    empty = [name for name, *_ in COLUMNS if name != "residual" and all(case.get(name) is None for case in cases)]
-    return [column for column in COLUMNS if column[0] not in same + empty], ", ".join(told)
+    same = [column for column in columns
+            if column["once_when_same"] and len(cases) > 1 and len({case[column["name"]] for case in cases}) == 1]
+    told = [f"{column['heading']} = {with_unit(column['format'].format(cases[0][column['name']]), column['unit'])}" for column in same]
+    empty = [column for column in columns if cases and all(case.get(column["name"]) is None for case in cases)]
+    return [column for column in columns if column not in same + empty], ", ".join(told)
 
 
 def table(cases, columns):
-    lines = []
-    for case in cases:
-        row = dict(case, residual=None)
-        if row["efficiency_dem"] is not None and row["efficiency_theory"] is not None:
-            row["residual"] = row["efficiency_dem"] - row["efficiency_theory"]
-        cells = [dict(cell(row, name, form), name=name) for name, _, _, form in columns]
-        lines.append({"id": row["case"], "cells": cells, "finished": row["outcome"] == "finished"})
-    return lines
+    return [{"id": case["case"], "cells": [cell(case, column) for column in columns], "finished": case["outcome"] == "finished"}
+            for case in cases]
 
 
 def counts(cases):
@@ -147,7 +130,7 @@ def render(directory, output):
     figures = Figures(output)
     general = figures.all(FIGURES)
     certificate, lists = split_certificate(read_json(directory / "certificate.json", needed=False))
-    columns, told = split_columns(cases)
+    columns, told = split_columns(report_columns(overview), cases)
     single = [
         {"case": case, "figures": found}
         for case in cases
@@ -159,7 +142,7 @@ def render(directory, output):
     return environment.get_template("report.html").render(
         overview=overview,
         counts=counts(cases),
-        columns=[{"name": name, "heading": heading, "unit": unit} for name, heading, unit, _ in columns],
+        columns=columns,
         same_in_all=told,
         lines=table(cases, columns),
         failures=[case for case in cases if case["outcome"] not in WITHOUT_FAILURE],

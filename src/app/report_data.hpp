@@ -7,7 +7,9 @@
 namespace vibrotrough::app {
 
 /// What the figures and the report show beside campaign.h5, so that they compute no physics: in `folder`
-///   campaign.json        the campaign, its versions, its input, every case's row of `compare`, why it failed
+///   campaign.json        the campaign, its versions, its input, the columns of `compare` with their
+///   meanings,
+///                        every case's row of them, why it failed
 ///   theory_curves.csv    fine curves of velocity efficiency, as `compare --theory-curves`
 ///   point_mass/<id>.csv  the theory's point mass over one period on each case's trough, SI; empty without a
 ///   period

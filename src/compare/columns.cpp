@@ -1,80 +1,286 @@
 #include "compare/columns.hpp"
 
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
 namespace vibrotrough::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-template <class Value>
-Json json(std::optional<Value> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
-
-}  // namespace
+/// The value of a member of Row, which may be optional.
+template <auto member>
+constexpr auto field = +[](Row const& row) { return std::optional(row.*member); };
 
 std::optional<double> difference(Row const& row) {
     if (!row.efficiency_dem || !row.efficiency_theory) return {};
     return *row.efficiency_dem - *row.efficiency_theory;
 }
 
-Json to_object(Row const& row) {
-    return {{"case", row.id},
-            {"throw_number", row.throw_number},
-            {"machine_number", row.machine_number},
-            {"vibration_angle_deg", row.vibration_angle_deg},
-            {"inclination_deg", row.inclination_deg},
-            {"friction", row.friction},
-            {"amplitude_m", row.amplitude_m},
-            {"frequency_hz", row.frequency_hz},
-            {"efficiency_dem", json(row.efficiency_dem)},
-            {"efficiency_dem_half_width", json(row.efficiency_dem_half_width)},
-            {"speed_dem_m_per_s", json(row.speed_dem_m_per_s)},
-            {"efficiency_theory", json(row.efficiency_theory)},
-            {"mode_theory", row.mode_theory},
-            {"mode_layer", json(row.mode_layer)},
-            {"efficiency_normal_force", json(row.efficiency_normal_force)},
-            {"landing_friction", json(row.landing_friction)},
-            {"friction_layer", json(row.friction_layer)},
-            {"friction_layer_low", json(row.friction_layer_low)},
-            {"friction_layer_high", json(row.friction_layer_high)},
-            {"efficiency_theory_layer", json(row.efficiency_theory_layer)},
-            {"mode_theory_layer", json(row.mode_theory_layer)},
-            {"packings", json(row.packings)},
-            {"cycles_measured", json(row.cycles_measured)},
-            {"cycles_discarded", json(row.cycles_discarded)},
-            {"wall_s", json(row.wall_s)},
-            {"outcome", row.outcome}};
+std::string three_digits(std::optional<double> const& value) {
+    return value ? fmt::format("{:.3f}", *value) : "-";
 }
 
-namespace {
+std::string efficiency_cell(Row const& row) {
+    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.efficiency_dem_half_width);
+}
 
-std::string csv_field(Json const& value) {
-    if (value.is_null()) return {};
-    return value.is_string() ? value.get<std::string>()
-                             : value.dump();  // our texts hold no comma and no quote
+std::string cycles_cell(Row const& row) {
+    if (!row.cycles_measured || !row.cycles_discarded) return "-";
+    return fmt::format("{}+{}", *row.cycles_discarded, *row.cycles_measured);
+}
+
+/// Colours that the colour-blind tell apart: yellow where the layer is faster than the theory, cyan where it
+/// is slower, bold from 0.1 on; none within the confidence interval.
+std::string difference_colour(Row const& row) {
+    auto const value = difference(row);
+    if (!value || std::abs(*value) <= row.efficiency_dem_half_width.value_or(0.0)) return {};
+    return fmt::format("\x1b[{}{}m", std::abs(*value) >= 0.1 ? "1;" : "", *value > 0 ? 33 : 36);
+}
+
+std::string outcome_colour(Row const& row) {
+    bool const waits = row.outcome == "open" || row.outcome == "running" || row.outcome == "interrupted";
+    return row.outcome == "finished" || waits ? "" : "\x1b[31m";
+}
+
+std::vector<Column> drive_columns() {
+    return {
+        {.name = "case",
+         .unit = "1",
+         .value = field<&Row::id>,
+         .meaning = "Case id: a hash of the scenario, the deck and the engine's version",
+         .position = 10,
+         .terminal = TerminalView{.heading = "case", .priority = always_shown, .flush_left = true},
+         .report = ReportView{.heading = "case"}},
+        {.name = "throw_number",
+         .unit = "1",
+         .value = field<&Row::throw_number>,
+         .meaning = "Throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)",
+         .format = "{:.3f}",
+         .position = 20,
+         .terminal = TerminalView{.heading = "Gamma", .priority = 8},
+         .report = ReportView{.heading = "throw number \u0393", .once_when_same = true}},
+        {.name = "machine_number",
+         .unit = "1",
+         .value = field<&Row::machine_number>,
+         .meaning = "Machine number K = \u03c9\u00b2 r / g"},
+        {.name = "vibration_angle_deg",
+         .unit = "degree",
+         .value = field<&Row::vibration_angle_deg>,
+         .meaning = "Vibration angle \u03b2 between the direction of vibration and the trough",
+         .format = "{:.2f}",
+         .position = 30,
+         .terminal = TerminalView{.heading = "beta", .subheading = "deg", .priority = 5},
+         .report = ReportView{.heading = "\u03b2", .once_when_same = true}},
+        {.name = "inclination_deg",
+         .unit = "degree",
+         .value = field<&Row::inclination_deg>,
+         .meaning = "Inclination \u03b1 of the trough, positive when it conveys uphill",
+         .format = "{:.2f}",
+         .position = 40,
+         .terminal = TerminalView{.heading = "alpha", .subheading = "deg", .priority = 3},
+         .report = ReportView{.heading = "\u03b1", .once_when_same = true}},
+        {.name = "friction",
+         .unit = "1",
+         .value = field<&Row::friction>,
+         .meaning = "Friction coefficient \u03bc of a grain on the trough",
+         .format = "{:.3g}",
+         .position = 50,
+         .terminal = TerminalView{.heading = "mu", .priority = 4},
+         .report = ReportView{.heading = "\u03bc", .once_when_same = true}},
+        {.name = "amplitude_m",
+         .unit = "m",
+         .value = field<&Row::amplitude_m>,
+         .meaning = "Amplitude r in the direction of vibration, half the stroke"},
+        {.name = "frequency_hz",
+         .unit = "Hz",
+         .value = field<&Row::frequency_hz>,
+         .meaning = "Frequency of the vibration",
+         .format = "{:.2f}",
+         .position = 60,
+         .terminal = TerminalView{.heading = "f", .subheading = "Hz", .priority = 1},
+         .report = ReportView{.heading = "frequency", .once_when_same = true}},
+    };
+}
+
+std::vector<Column> efficiency_columns() {
+    return {
+        {.name = "efficiency_dem",
+         .unit = "1",
+         .value = field<&Row::efficiency_dem>,
+         .meaning = "Velocity efficiency \u03b7 of the simulated layer: its mean velocity relative to the "
+                    "trough over \u03c9 r cos \u03b2; unknown unless the layer became steady",
+         .format = "{:.3f}",
+         .position = 70,
+         .terminal = TerminalView{.heading = "eta DEM", .priority = always_shown, .cell = efficiency_cell},
+         .report = ReportView{.heading = "\u03b7, DEM"}},
+        {.name = "efficiency_dem_half_width",
+         .unit = "1",
+         .value = field<&Row::efficiency_dem_half_width>,
+         .meaning = "Half-width of the confidence interval of efficiency_dem over all packings",
+         .format = "{:.3f}",
+         .position = 80,
+         .report = ReportView{.heading = "\u00b1"}},
+        {.name = "speed_dem_m_per_s",
+         .unit = "m/s",
+         .value = field<&Row::speed_dem_m_per_s>,
+         .meaning = "Conveying speed of the simulated layer: efficiency_dem times \u03c9 r cos \u03b2",
+         .format = "{:.3f}",
+         .position = 160,
+         .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 4},
+         .report = ReportView{.heading = "speed"}},
+        {.name = "efficiency_theory",
+         .unit = "1",
+         .value = field<&Row::efficiency_theory>,
+         .meaning = "Velocity efficiency of the plastic point mass at the friction of a grain on the trough; "
+                    "unknown when it has no mean speed",
+         .format = "{:.3f}",
+         .position = 90,
+         .terminal = TerminalView{.heading = "eta theory", .subheading = "at mu", .priority = 7},
+         .report = ReportView{.heading = "\u03b7, theory"}},
+        {.name = "mode_theory",
+         .unit = "1",
+         .value = field<&Row::mode_theory>,
+         .meaning = "Mode of that point mass: the phases of a period in order, P positive slide, N negative "
+                    "slide, R rest, F flight; a prime marks the slide right after a landing",
+         .position = 140,
+         .terminal = TerminalView{.heading = "mode", .subheading = "theory", .priority = 5},
+         .report = ReportView{.heading = "mode, theory"}},
+        {.name = "mode_layer",
+         .unit = "1",
+         .value = field<&Row::mode_layer>,
+         .meaning = "Mode of the simulated layer as a whole, in the same letters",
+         .position = 150,
+         .terminal =
+             TerminalView{.heading = "mode", .subheading = "layer", .priority = 5, .only_when_known = true},
+         .report = ReportView{.heading = "mode, layer"}},
+    };
+}
+
+std::vector<Column> friction_columns() {
+    return {
+        {.name = "efficiency_normal_force",
+         .unit = "1",
+         .value = field<&Row::efficiency_by_normal_force>,
+         .meaning = "Velocity efficiency of a point mass with the friction of a grain under the normal force "
+                    "that the layer itself exerts; unknown with side walls",
+         .format = "{:.3f}",
+         .position = 100,
+         .terminal =
+             TerminalView{
+                 .heading = "eta point", .subheading = "its force", .priority = 3, .only_when_known = true}},
+        {.name = "landing_friction",
+         .unit = "1",
+         .value = field<&Row::landing_friction>,
+         .meaning = "Tangential over normal impulse while the layer lands; unknown without landings and with "
+                    "side walls"},
+        {.name = "friction_layer",
+         .unit = "1",
+         .value = field<&Row::friction_layer>,
+         .meaning = "Friction coefficient of the layer as a whole, from 'vibrotrough friction-test'",
+         .format = "{:.3f}",
+         .position = 110,
+         .terminal = TerminalView{.heading = "mu layer", .priority = 4, .only_when_known = true},
+         .report = ReportView{.heading = "\u03bc, layer"}},
+        {.name = "friction_layer_low",
+         .unit = "1",
+         .value = field<&Row::friction_layer_low>,
+         .meaning = "Lower end of the confidence interval of friction_layer"},
+        {.name = "friction_layer_high",
+         .unit = "1",
+         .value = field<&Row::friction_layer_high>,
+         .meaning = "Upper end of the confidence interval of friction_layer"},
+        {.name = "efficiency_theory_layer",
+         .unit = "1",
+         .value = field<&Row::efficiency_theory_layer>,
+         .meaning = "Velocity efficiency of the plastic point mass at friction_layer",
+         .format = "{:.3f}",
+         .position = 120,
+         .terminal = TerminalView{.heading = "eta theory",
+                                  .subheading = "at mu layer",
+                                  .priority = 6,
+                                  .only_when_known = true},
+         .report = ReportView{.heading = "\u03b7, theory at layer's \u03bc"}},
+        {.name = "mode_theory_layer",
+         .unit = "1",
+         .value = field<&Row::mode_theory_layer>,
+         .meaning = "Mode of the point mass at friction_layer"},
+    };
+}
+
+std::vector<Column> run_columns() {
+    return {
+        {.name = "packings",
+         .unit = "1",
+         .value = field<&Row::packings>,
+         .meaning = "Number of independent packings that the confidence interval rests on"},
+        {.name = "cycles_measured",
+         .unit = "1",
+         .value = field<&Row::cycles_measured>,
+         .meaning = "Cycles kept for the mean, all packings together",
+         .position = 170,
+         .terminal =
+             TerminalView{.heading = "cycles", .subheading = "cut+kept", .priority = 2, .cell = cycles_cell},
+         .report = ReportView{.heading = "cycles kept"}},
+        {.name = "cycles_discarded",
+         .unit = "1",
+         .value = field<&Row::cycles_discarded>,
+         .meaning = "Cycles cut as start-up, all packings together",
+         .position = 180,
+         .report = ReportView{.heading = "discarded"}},
+        {.name = "wall_s",
+         .unit = "s",
+         .value = field<&Row::wall_s>,
+         .meaning = "Wall time of the engine, all packings together",
+         .format = "{:.0f}",
+         .position = 190,
+         .report = ReportView{.heading = "wall time"}},
+        {.name = "outcome",
+         .unit = "1",
+         .value = field<&Row::outcome>,
+         .meaning = "How the case ended, or what it waits for",
+         .position = 200,
+         .terminal =
+             TerminalView{.heading = "outcome", .priority = 6, .flush_left = true, .colour = outcome_colour},
+         .report = ReportView{.heading = "outcome"}},
+        {.name = "difference",
+         .unit = "1",
+         .value = difference,
+         .meaning = "efficiency_dem less efficiency_theory",
+         .format = "{:+.3f}",
+         .position = 130,
+         .in_data = false,
+         .terminal =
+             TerminalView{.heading = "difference", .priority = always_shown, .colour = difference_colour},
+         .report = ReportView{.heading = "difference"}},
+    };
 }
 
 }  // namespace
 
-std::string to_json(std::vector<Row> const& rows) {
-    Json array = Json::array();
-    for (Row const& row : rows) array.push_back(to_object(row));
-    return array.dump(2) + "\n";
+std::optional<Value> Column::of(Row const& row) const {
+    return std::visit(
+        [&row](auto const function) -> std::optional<Value> {
+            if (auto known = function(row)) return Value(*std::move(known));
+            return {};
+        },
+        value);
 }
 
-std::string to_csv(std::vector<Row> const& rows) {
-    std::string text;
-    Json const columns = to_object(Row{});
-    for (auto const& [name, value] : columns.items()) text += (text.empty() ? "" : ",") + name;
-    text += "\n";
-    for (Row const& row : rows) {
-        std::string line;
-        Json const object = to_object(row);
-        for (auto const& [name, value] : object.items())
-            line += (name == "case" ? "" : ",") + csv_field(value);
-        text += line + "\n";
-    }
-    return text;
+std::string Column::shown(Row const& row) const {
+    auto const known = of(row);
+    if (!known) return "-";
+    return std::visit([this](auto const& one) { return fmt::format(fmt::runtime(format), one); }, *known);
+}
+
+std::span<Column const> all_columns() {
+    static std::vector<Column> const columns = [] {
+        std::vector<Column> all;
+        for (auto const& part : {drive_columns(), efficiency_columns(), friction_columns(), run_columns()})
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }();
+    return columns;
 }
 
 }  // namespace vibrotrough::compare

@@ -13,31 +13,37 @@
 namespace vibrotrough::compare {
 namespace {
 
+/// A mass that runs away, for example, has no mode.
+std::optional<std::string> known_mode(theory::Motion const& motion) {
+    if (motion.mode.empty()) return {};
+    return motion.mode;
+}
+
 void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
     theory::Motion const motion = solve(point_mass);
-    row.mode_theory = motion.mode;
+    row.mode_theory = known_mode(motion);
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
 /// The effect of side walls is already included in the measured friction.
-void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
-                      MeasuredFriction const& measured) {
+void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass, MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
     theory::Motion const motion = solve(prepare::with_friction(point_mass, measured.friction));
-    row.mode_theory_layer = motion.mode;
+    row.mode_theory_layer = known_mode(motion);
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
 
 /// The mean over the packings that have the number.
-std::optional<double> mean_of(store::CaseRecord const& record, double measure::LayerMotion::*number) {
+std::optional<double> mean_of(store::CaseRecord const& record,
+                              std::optional<double> measure::LayerMotion::*number) {
     double sum = 0;
     int count = 0;
     for (store::PackingRecord const& packing : record.packings) {
-        double const value = packing.motion.*number;
-        if (!std::isfinite(value)) continue;
-        sum += value;
+        std::optional<double> const value = packing.motion.*number;
+        if (!value) continue;
+        sum += *value;
         ++count;
     }
     if (count == 0) return {};
@@ -56,10 +62,11 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
     }
     if (record.outcome == "not-steady") return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
-    if (std::isfinite(record.estimate.half_width)) row.efficiency_dem_half_width = record.estimate.half_width;
-    row.efficiency_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
+    row.efficiency_dem_half_width = record.estimate.half_width;
+    if (record.estimate.mean)
+        row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;
+    row.efficiency_by_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
     row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
-    row.speed_dem_m_per_s = record.estimate.mean * velocity_scale;
 }
 
 constexpr double degrees = 180 / std::numbers::pi;

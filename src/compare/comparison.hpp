@@ -9,7 +9,8 @@
 
 namespace vibrotrough::compare {
 
-/// One case: what was measured beside what the point-mass theory predicts. Missing numbers are not known.
+/// One case: what was measured beside what the point-mass theory predicts. What has no value is not known.
+/// What its members mean is said in the table of columns, columns.cpp.
 struct Row {
     std::string id;
     double throw_number;
@@ -23,11 +24,11 @@ struct Row {
     std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
     std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta)
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
-    std::string mode_theory;
-    std::optional<std::string> mode_layer;          ///< the bulk's mode in the theory's letters
-    std::optional<double> efficiency_normal_force;  ///< of a point mass under the layer's own normal force
-    std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
-    std::optional<double> friction_layer;           ///< of the layer as a whole, from a friction test
+    std::optional<std::string> mode_theory;
+    std::optional<std::string> mode_layer;             ///< the bulk's mode in the theory's letters
+    std::optional<double> efficiency_by_normal_force;  ///< of a point mass under the layer's own normal force
+    std::optional<double> landing_friction;  ///< tangential over normal impulse of the layer's landing
+    std::optional<double> friction_layer;    ///< of the layer as a whole, from a friction test
     std::optional<double> friction_layer_low, friction_layer_high;  ///< its interval
     std::optional<double> efficiency_theory_layer;                  ///< theory at the layer's friction
     std::optional<std::string> mode_theory_layer;
@@ -56,20 +57,5 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
 /// largest: CSV with the columns throw_number, vibration_angle_deg, inclination_deg, friction,
 /// velocity_efficiency. Throw numbers without a mean speed are left out.
 std::string theory_curves_csv(std::vector<Row> const& rows);
-
-/// The rows as a JSON array of objects; unknown numbers are null.
-std::string to_json(std::vector<Row> const& rows);
-
-/// The rows as CSV with a header; unknown numbers are empty. The columns are those of the JSON.
-std::string to_csv(std::vector<Row> const& rows);
-
-struct TableStyle {
-    std::size_t width = 0;  ///< characters of a line; 0: as wide as need be
-    bool colour = false;    ///< ANSI colours for sign and size of the difference, and for failed cases
-};
-
-/// The rows as an aligned table for people. Columns that do not fit are left out, the least telling first,
-/// and named in a line below.
-std::string to_table(std::vector<Row> const& rows, TableStyle const& style = {});
 
 }  // namespace vibrotrough::compare

@@ -1,6 +1,5 @@
 #include "compare/select.hpp"
 
-#include "compare/columns.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -8,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <compare>
 #include <optional>
 
 #include <fmt/format.h>
@@ -15,28 +15,27 @@
 namespace vibrotrough::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t longest_shown = 60;
-constexpr std::string_view difference_column = "difference";
-
-Json value_of(Row const& row, std::string const& column) {
-    if (column == difference_column) {
-        auto const value = difference(row);
-        return value ? Json(*value) : Json(nullptr);
-    }
-    return to_object(row).at(column);
-}
 
 /// @throws InputError naming the option and all columns when there is no such one
-std::string known_column(std::string_view option, std::string_view name) {
+Column const& find_column(std::span<Column const> columns, std::string_view option, std::string_view name) {
+    auto const found = std::ranges::find(columns, name, &Column::name);
+    if (found != columns.end()) return *found;
     std::string names;
-    Json const columns = to_object(Row{});
-    for (auto const& [column, value] : columns.items()) names += column + ", ";
-    names += difference_column;
-    if (columns.contains(name) || name == difference_column) return std::string(name);
+    for (Column const& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
     throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
                                        core::printable(name, longest_shown), names));
+}
+
+/// Of two values of one column, or of a number beside a column of numbers.
+std::partial_ordering order(Value const& left, Value const& right) {
+    auto const number = [](Value const& value) {
+        auto const* const integer = std::get_if<int>(&value);
+        return integer != nullptr ? *integer : std::get<double>(value);
+    };
+    if (std::holds_alternative<std::string>(left))
+        return std::get<std::string>(left) <=> std::get<std::string>(right);
+    return number(left) <=> number(right);
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -47,9 +46,9 @@ std::string_view trimmed(std::string_view text) {
 enum class Relation { less, less_or_equal, greater, greater_or_equal, equal, different };
 
 struct Condition {
-    std::string column;
+    Column const& column;
     Relation relation;
-    Json value;
+    Value value;
 };
 
 std::optional<Relation> relation_of(std::string_view symbol) {
@@ -67,87 +66,81 @@ std::optional<Relation> relation_of(std::string_view symbol) {
     return {};
 }
 
-Json number_in(std::string_view text, std::string_view condition) {
+double number_in(std::string_view text, std::string_view condition) {
     double number = 0;
     auto const [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) {
         throw core::InputError(
-            fmt::format("--filter '{}': '{}' is no number; write e.g. --filter 'throw_number>1.5'",
+            fmt::format("--filter '{}': '{}' is not a number; write for example --filter 'throw_number>1.5'",
                         core::printable(condition, longest_shown), core::printable(text, longest_shown)));
     }
     return number;
 }
 
-Condition parse(std::string_view text) {
+Condition parse(std::string_view text, std::span<Column const> columns) {
     std::string_view constexpr signs = "<>=!";
     std::size_t const at = text.find_first_of(signs);
     std::size_t const value_at = at == text.npos ? at : text.find_first_not_of(signs, at);
     auto const relation = at == text.npos ? std::nullopt : relation_of(text.substr(at, value_at - at));
     if (!relation || value_at == text.npos) {
         throw core::InputError(
-            fmt::format("--filter '{}' is no condition; write a column, one of > >= < <= = !=, and a "
-                        "value, e.g. 'throw_number>1.5'",
+            fmt::format("--filter '{}' is not a condition; write a column, one of > >= < <= = !=, and a "
+                        "value, for example 'throw_number>1.5'",
                         core::printable(text, longest_shown)));
     }
     std::string_view const value = trimmed(text.substr(value_at));
-    Condition condition{known_column("--filter", trimmed(text.substr(0, at))), *relation, nullptr};
-    if (!is_text_column(condition.column)) {
-        condition.value = number_in(value, text);
-    } else if (*relation == Relation::equal || *relation == Relation::different) {
-        condition.value = std::string(value);
-    } else {
-        throw core::InputError(fmt::format("--filter '{}': '{}' is a text; compare it with = or !=",
-                                           core::printable(text, longest_shown), condition.column));
-    }
-    return condition;
+    Column const& column = find_column(columns, "--filter", trimmed(text.substr(0, at)));
+    if (column.type() != ColumnType::text) return {column, *relation, number_in(value, text)};
+    if (*relation == Relation::equal || *relation == Relation::different)
+        return {column, *relation, std::string(value)};
+    throw core::InputError(fmt::format("--filter '{}': '{}' is a text; compare it with = or !=",
+                                       core::printable(text, longest_shown), column.name));
 }
 
 bool holds(Condition const& condition, Row const& row) {
-    Json const value = value_of(row, condition.column);
-    if (value.is_null()) return false;
+    auto const value = condition.column.of(row);
+    if (!value) return false;
+    std::partial_ordering const found = order(*value, condition.value);
     switch (condition.relation) {
         case Relation::less:
-            return value < condition.value;
+            return found < 0;
         case Relation::less_or_equal:
-            return value <= condition.value;
+            return found <= 0;
         case Relation::greater:
-            return value > condition.value;
+            return found > 0;
         case Relation::greater_or_equal:
-            return value >= condition.value;
+            return found >= 0;
         case Relation::equal:
-            return value == condition.value;
+            return found == 0;
         case Relation::different:
-            return value != condition.value;
+            return found != 0;
     }
     return false;
 }
 
 }  // namespace
 
-bool is_text_column(std::string_view column) {
-    return column == "case" || column == "outcome" || column.starts_with("mode_");
-}
-
-std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition) {
-    Condition const wanted = parse(condition);
+std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition,
+                          std::span<Column const> columns) {
+    Condition const wanted = parse(condition, columns);
     std::vector<Row> kept;
     std::ranges::copy_if(rows, std::back_inserter(kept), [&](Row const& row) { return holds(wanted, row); });
     return kept;
 }
 
-std::vector<Row> sorted(std::vector<Row> rows, std::string_view key) {
+std::vector<Row> sorted(std::vector<Row> rows, std::string_view key, std::span<Column const> columns) {
     std::size_t const colon = key.find(':');
-    std::string const column = known_column("--sort", key.substr(0, colon));
-    std::string_view const order = colon == key.npos ? "asc" : key.substr(colon + 1);
-    if (order != "asc" && order != "desc") {
-        throw core::InputError(
-            fmt::format("--sort '{}': the order '{}' is neither asc nor desc; write e.g. --sort {}:desc",
-                        core::printable(key, longest_shown), core::printable(order, longest_shown), column));
+    Column const& column = find_column(columns, "--sort", key.substr(0, colon));
+    std::string_view const direction = colon == key.npos ? "asc" : key.substr(colon + 1);
+    if (direction != "asc" && direction != "desc") {
+        throw core::InputError(fmt::format(
+            "--sort '{}': the order '{}' is neither asc nor desc; write for example --sort {}:desc",
+            core::printable(key, longest_shown), core::printable(direction, longest_shown), column.name));
     }
     std::ranges::stable_sort(rows, [&](Row const& a, Row const& b) {
-        Json const left = value_of(a, column), right = value_of(b, column);
-        if (left.is_null() || right.is_null()) return !left.is_null() && right.is_null();
-        return order == "asc" ? left < right : right < left;
+        auto const left = column.of(a), right = column.of(b);
+        if (!left || !right) return left && !right;
+        return direction == "asc" ? order(*left, *right) < 0 : order(*right, *left) < 0;
     });
     return rows;
 }

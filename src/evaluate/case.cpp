@@ -3,7 +3,6 @@
 #include "evaluate/layer.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace vibrotrough::evaluate {
@@ -51,7 +50,8 @@ store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::stri
     record.layer_mode = common_mode(record.packings);
     if (outcome == core::Outcome::not_steady) {
         // No mean is reported unless the case is steady; the cycles stay in the record.
-        record.estimate.mean = record.estimate.half_width = std::numeric_limits<double>::quiet_NaN();
+        record.estimate.mean.reset();
+        record.estimate.half_width.reset();
     }
     return record;
 }

@@ -61,7 +61,7 @@ void add_displacement(LayerFriction& test, prepare::PreparedCase const& prepared
     }
     measure::CaseEstimate const mean = measure::combine(estimates, wanted.confidence);
     test.displacement = mean.mean;
-    if (std::isfinite(mean.half_width)) test.half_width = mean.half_width;
+    test.half_width = mean.half_width;
 }
 
 void add_friction(LayerFriction& test) {

@@ -172,7 +172,10 @@ CaseEstimate combine(std::span<PackingEstimate const> packings, double confidenc
     if (count > 1) {
         scatter = student_quantile(confidence, count - 1) * sample_deviation(values) / std::sqrt(count);
     }
-    return {values.mean(), std::max(scatter, widest), count};
+    auto const known = [](double value) {
+        return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    };
+    return {known(values.mean()), known(std::max(scatter, widest)), count};
 }
 
 }  // namespace vibrotrough::measure

@@ -17,8 +17,9 @@ enum class Verdict {
 
 /// Mean of one packing's cycle values after the start-up.
 struct PackingEstimate {
-    double mean;        ///< of the cycles kept
-    double half_width;  ///< of the confidence interval of the mean, corrected for correlation between cycles
+    double mean;        ///< of the cycles kept; NaN when there are none
+    double half_width;  ///< of the confidence interval of the mean, corrected for correlation between cycles;
+                        ///< infinite when the cycles are worth fewer than two independent ones
     int discarded;      ///< cycles cut as start-up (MSER)
     int measured;       ///< cycles kept
     double correlation_time;  ///< statistical inefficiency g >= 1: measured / g cycles are worth as many
@@ -28,8 +29,9 @@ struct PackingEstimate {
 
 /// Mean over independent packings.
 struct CaseEstimate {
-    double mean;
-    double half_width;
+    std::optional<double> mean;  ///< no value when a packing has no cycles, or is not steady (assemble)
+    std::optional<double>
+        half_width;  ///< of its confidence interval; no value when the interval is unbounded
     int packings;
 };
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace vibrotrough::measure {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double landed = 0.01;  ///< of the approach: the landing is over
 constexpr int most_periods = 1000;
 constexpr double settled = 1e-9;  ///< of the velocity scale, change over a period
@@ -48,12 +46,12 @@ void advance(Slip& slip, PhaseCurves const& curves, SlidingMass const& facts) {
 
 }  // namespace
 
-double landing_friction(LayerMotion const& motion) {
+std::optional<double> landing_friction(LayerMotion const& motion) {
     PhaseCurves const& c = motion.curves;
-    if (!std::isfinite(motion.landing_phase) || c.phase.empty()) return nothing;
+    if (!motion.landing_phase || c.phase.empty()) return {};
     std::size_t const count = c.phase.size();
     auto const falling = [&c](std::size_t i) { return c.trough_velocity_z[i] - c.velocity_z[i]; };
-    auto const begin = static_cast<std::size_t>(motion.landing_phase / two_pi * PhaseSeries::per_cycle);
+    auto const begin = static_cast<std::size_t>(*motion.landing_phase / two_pi * PhaseSeries::per_cycle);
     double const approach = falling((begin + count - 1) % count);
     double along = 0, normal = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,11 +60,12 @@ double landing_friction(LayerMotion const& motion) {
         normal += c.normal_force[place];
         if (falling(place) <= landed * approach) break;
     }
-    return normal > 0 ? along / normal : nothing;
+    if (!(normal > 0)) return {};
+    return along / normal;
 }
 
-double efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& facts) {
-    if (curves.trough_velocity_x.empty()) return nothing;
+std::optional<double> efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& facts) {
+    if (curves.trough_velocity_x.empty()) return {};
     double const period = static_cast<double>(curves.trough_velocity_x.size()) / PhaseSeries::per_cycle;
     Slip slip;
     for (int i = 0; i < most_periods; ++i) {
@@ -75,7 +74,7 @@ double efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& 
         if (std::abs(slip.speed - before.speed) < settled * facts.velocity_scale)
             return (slip.way - before.way) * facts.frequency / (period * facts.velocity_scale);
     }
-    return nothing;
+    return {};
 }
 
 }  // namespace vibrotrough::measure

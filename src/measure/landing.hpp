@@ -2,14 +2,16 @@
 
 #include "measure/layer_motion.hpp"
 
+#include <optional>
+
 namespace vibrotrough::measure {
 
 /// Tangential over normal impulse of the layer on the trough while it lands: from the end of its longest
 /// flight until its centre of mass no longer falls against the trough. Positive where the landing brakes the
 /// layer, at most mu; below mu where grains roll as well as where slip stops or turns before the
 /// landing is over.
-/// @return NaN without a flight
-double landing_friction(LayerMotion const& motion);
+/// @return no value without a flight
+std::optional<double> landing_friction(LayerMotion const& motion);
 
 /// What efficiency_by_normal_force must be told of the trough.
 struct SlidingMass {
@@ -26,7 +28,7 @@ struct SlidingMass {
 /// pass the friction on (rolling, shear).
 /// @param curves  floor_force, trough_velocity_x; the floor's force alone, so it means nothing with side
 /// walls
-/// @return NaN when the mass runs away or the motion does not settle
-double efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& facts);
+/// @return no value when the mass runs away or the motion does not settle
+std::optional<double> efficiency_by_normal_force(PhaseCurves const& curves, SlidingMass const& facts);
 
 }  // namespace vibrotrough::measure

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -14,7 +15,7 @@ namespace {
 using Values = std::vector<double>;
 constexpr std::size_t per_cycle = PhaseSeries::per_cycle;
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
 
 /// The lines that are looked at, cut into whole periods.
 struct Window {
@@ -78,9 +79,10 @@ class Analysis {
 
     PhaseCurves curves() const;
     std::vector<ModePhase> phases(PhaseCurves const& curves) const;
-    double restitution() const;
+    std::optional<double> restitution() const;
     double dissipation() const;
-    double friction_ratio(PhaseCurves const& curves, std::vector<ModePhase> const& phases) const;
+    std::optional<double> friction_ratio(PhaseCurves const& curves,
+                                         std::vector<ModePhase> const& phases) const;
 
   private:
     double weight() const { return -facts_.mass * facts_.gravity_z; }
@@ -128,8 +130,8 @@ void Analysis::add_floor(PhaseCurves& c) const {
             overlap = std::max(overlap, s_.overlap[i]);
         }
         double const trough = trough_vx(j);
-        c.sliding.push_back(touching > 0 ? vx / touching - trough : nothing);
-        c.slip.push_back(touching > 0 ? (vx - spin) / touching - trough : nothing);
+        c.sliding.push_back(touching > 0 ? vx / touching - trough : gap);
+        c.slip.push_back(touching > 0 ? (vx - spin) / touching - trough : gap);
         c.overlap.push_back(overlap);
     }
 }
@@ -175,7 +177,7 @@ std::size_t Analysis::flight_from(std::size_t i) const {
     return window_.end;
 }
 
-double Analysis::restitution() const {
+std::optional<double> Analysis::restitution() const {
     double sum = 0;
     int landings = 0;
     for (std::size_t flight = flight_from(window_.begin); flight < window_.end;) {
@@ -186,14 +188,15 @@ double Analysis::restitution() const {
         double const falling = -rising(landing - 1);
         double rebound = 0;
         for (std::size_t i = landing; i < next; ++i) rebound = std::max(rebound, rising(i));
-        // A take-off at once from a trough that falls away is no landing with a rebound.
+        // A take-off at once from a trough that falls away is not a landing with a rebound.
         if (falling > 0) {
             sum += rebound / falling;
             ++landings;
         }
         flight = next;
     }
-    return landings > 0 ? sum / landings : nothing;
+    if (landings == 0) return {};
+    return sum / landings;
 }
 
 double Analysis::dissipation() const {
@@ -211,7 +214,8 @@ double Analysis::dissipation() const {
     return (work + by_gravity - kinetic) / cycles;
 }
 
-double Analysis::friction_ratio(PhaseCurves const& c, std::vector<ModePhase> const& phases) const {
+std::optional<double> Analysis::friction_ratio(PhaseCurves const& c,
+                                               std::vector<ModePhase> const& phases) const {
     double along = 0, normal = 0;
     for (ModePhase const& phase : phases) {
         if (phase.letter[0] != 'P' && phase.letter[0] != 'N') continue;
@@ -221,18 +225,20 @@ double Analysis::friction_ratio(PhaseCurves const& c, std::vector<ModePhase> con
             normal += c.normal_force[j];
         }
     }
-    return normal > 0 ? along / normal : nothing;
+    if (!(normal > 0)) return {};
+    return along / normal;
 }
 
 /// Mean speed of slip over all touching grains and phases.
-double mean_slip(PhaseCurves const& c) {
+std::optional<double> mean_slip(PhaseCurves const& c) {
     double sum = 0, touching = 0;
     for (std::size_t j = 0; j < c.slip.size(); ++j) {
         if (c.touching[j] == 0) continue;
         sum += c.touching[j] * std::abs(c.slip[j]);
         touching += c.touching[j];
     }
-    return touching > 0 ? sum / touching : nothing;
+    if (!(touching > 0)) return {};
+    return sum / touching;
 }
 
 /// Where the falling force of the trough reaches zero, in intervals: on the line through its last two means
@@ -253,8 +259,9 @@ void add_flight(LayerMotion& motion, std::vector<ModePhase> const& phases, doubl
     // It hits within the first interval with force: in its middle, on average.
     double const end = first + length + (lands ? 0.5 : 0);
     motion.flight_number = (end - start) / per_cycle;
-    motion.take_off_phase = two_pi * std::fmod(start / per_cycle, 1);
-    motion.landing_phase = motion.take_off_phase + two_pi * motion.flight_number;
+    double const take_off_phase = two_pi * std::fmod(start / per_cycle, 1);
+    motion.take_off_phase = take_off_phase;
+    motion.landing_phase = take_off_phase + two_pi * motion.flight_number;
 }
 
 }  // namespace

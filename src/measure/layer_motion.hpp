@@ -2,7 +2,7 @@
 
 #include "measure/phase_series.hpp"
 
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,7 @@ struct LayerFacts {
 
 /// Mean curves over one period of the layer's motion, 100 values per cycle. Value j is at phase 2 pi (j + 1)
 /// / 100; forces are means over the interval that ends there. Standard deviations are over the periods.
+/// `slip` and `sliding` have a gap, NaN, at phases at which no grain touches the floor.
 struct PhaseCurves {
     std::vector<double> phase;         ///< rad
     std::vector<double> displacement;  ///< m, of the centre of mass against the trough since phase 0
@@ -38,31 +39,29 @@ struct PhaseCurves {
     std::vector<double> normal_force_deviation, tangential_force_deviation, touching_deviation;
 };
 
-/// How the layer moves within the cycle. Numbers that do not exist (no flight, no slide) are NaN.
+/// How the layer moves within the cycle. A number that does not exist (no flight, no slide) has no value.
 struct LayerMotion {
     std::string mode;  ///< the bulk's mode in the theory's letters (layer_mode.hpp); empty without cycles
-    int period_cycles = 0;  ///< cycles after which the motion repeats, 1 to 8
-    double take_off_phase =
-        std::numeric_limits<double>::quiet_NaN();  ///< rad, of the longest flight, [0, 2 pi)
-    double landing_phase =
-        std::numeric_limits<double>::quiet_NaN();  ///< rad, above take_off_phase, not wrapped
-    double flight_number = 0;                      ///< duration of the longest flight, cycles
+    int period_cycles = 0;                 ///< cycles after which the motion repeats, 1 to 8
+    std::optional<double> take_off_phase;  ///< rad, of the longest flight, [0, 2 pi)
+    std::optional<double> landing_phase;   ///< rad, above take_off_phase, not wrapped
+    double flight_number = 0;              ///< duration of the longest flight, cycles
     /// Largest rising speed of the centre of mass relative to the trough from landing to the next take-off,
     /// over the falling speed just before landing: e = max v_z,rel(after) / -v_z,rel(before), mean over all
     /// landings after flights of a tenth of a cycle or more; 0 when the layer lands and stays.
-    double restitution = std::numeric_limits<double>::quiet_NaN();
+    std::optional<double> restitution;
     /// J per cycle: work of the trough (force on the layer times displacement) and of gravity, less the gain
     /// of kinetic energy.
-    double dissipation = std::numeric_limits<double>::quiet_NaN();
-    double floor_slip = std::numeric_limits<double>::quiet_NaN();  ///< m/s, mean over all touching grains
+    std::optional<double> dissipation;
+    std::optional<double> floor_slip;  ///< m/s, mean over all touching grains
     /// |tangential| / normal force while the layer slides, landings apart: mu when all of it slides.
-    double friction_ratio = std::numeric_limits<double>::quiet_NaN();
+    std::optional<double> friction_ratio;
     /// Tangential over normal impulse while the layer lands, and the efficiency of a point mass under the
-    /// layer's own normal force; see landing.hpp. NaN without landings, and with side walls.
-    double landing_friction = std::numeric_limits<double>::quiet_NaN();
-    double efficiency_by_normal_force = std::numeric_limits<double>::quiet_NaN();
-    double largest_overlap = std::numeric_limits<double>::quiet_NaN();        ///< m, of two grains
-    double largest_floor_overlap = std::numeric_limits<double>::quiet_NaN();  ///< m
+    /// layer's own normal force; see landing.hpp. No value without landings, and with side walls.
+    std::optional<double> landing_friction;
+    std::optional<double> efficiency_by_normal_force;
+    std::optional<double> largest_overlap;        ///< m, of two grains
+    std::optional<double> largest_floor_overlap;  ///< m
     PhaseCurves curves;
 };
 

@@ -17,7 +17,7 @@ namespace vibrotrough::measure {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
 
 /// All numbers of a line; nothing when there is something else in it.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
@@ -117,9 +117,10 @@ double mean_between(Snapshot const& one, double from, double to) {
     return sum / ((to - from) * grains);
 }
 
-/// Mean over the phases of the means over their snapshots.
+/// Mean over the phases of the means over their snapshots; no value without a snapshot.
 template <class Value>
-double mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases, Value const& value) {
+std::optional<double> mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases,
+                                       Value const& value) {
     double sum = 0;
     int seen = 0;
     for (auto const& snapshots : phases) {
@@ -129,7 +130,8 @@ double mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases,
         sum += at_phase / static_cast<double>(snapshots.size());
         ++seen;
     }
-    return seen > 0 ? sum / seen : nothing;
+    if (seen == 0) return {};
+    return sum / seen;
 }
 
 /// First and last bin in which there ever was a grain, as a half-open range.
@@ -160,8 +162,8 @@ void add_bin(Profiles& profiles, std::vector<Snapshot const*> const& snapshots, 
     profiles.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
     profiles.height.push_back(snapshots.front()->bins[bin].place - facts.trough_z[phase]);
     profiles.solid_fraction.push_back(density / static_cast<double>(snapshots.size()) / facts.density);
-    profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : nothing);
-    profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : nothing);
+    profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : gap);
+    profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : gap);
 }
 
 /// Variance of the surface's height along the trough.
@@ -219,12 +221,12 @@ Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts con
         if (phases[phase].empty()) continue;
         for (std::size_t bin = first; bin < last; ++bin) add_bin(profiles, phases[phase], bin, phase, facts);
     }
-    double const difference = mean_over_phases(phases, [](Snapshot const& one) {
+    std::optional<double> const difference = mean_over_phases(phases, [](Snapshot const& one) {
         return mean_between(one, 2.0 / 3, 1) - mean_between(one, 0, 1.0 / 3);
     });
     double const drive = std::ranges::max(facts.trough_vx);
     bool const conveyed = std::abs(facts.conveying_speed) > 0.01 * drive;
-    profiles.velocity_gradient = conveyed ? difference / facts.conveying_speed : nothing;
+    if (conveyed && difference) profiles.velocity_gradient = *difference / facts.conveying_speed;
     return profiles;
 }
 
@@ -236,10 +238,11 @@ Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const
         for (Bin const& bin : phases[phase].back()->bins) {
             surface.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
             surface.x.push_back(bin.place);
-            surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : nothing);
+            surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : gap);
         }
     }
-    surface.wiggle_amplitude = std::sqrt(2 * mean_over_phases(phases, surface_variance));
+    if (auto const variance = mean_over_phases(phases, surface_variance))
+        surface.wiggle_amplitude = std::sqrt(2 * *variance);
     return surface;
 }
 

@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -53,8 +54,8 @@ struct Profiles {
         solid_fraction;  ///< volume of the grains with their centres in the bin over its volume
     std::vector<double> velocity_x, velocity_z;  ///< m/s, relative to the trough; NaN where no grain ever was
     /// Mean velocity along the trough of the upper third of the layer's mass less that of the lower third,
-    /// over the conveying speed; NaN when the layer is not conveyed or never seen.
-    double velocity_gradient;
+    /// over the conveying speed; no value when the layer is not conveyed or never seen.
+    std::optional<double> velocity_gradient;
 };
 
 Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
@@ -66,8 +67,9 @@ struct Surface {
     std::vector<double> height;  ///< m, of the surface above the trough: twice the mean height of the
                                  ///< column's grains; of the last snapshot at that phase
     /// m, of a sinusoid with the same variance along the trough, root mean square over all snapshots. Columns
-    /// of single grains are never quite level: a layer without waves has a quarter of a diameter.
-    double wiggle_amplitude;
+    /// of single grains are never quite level: a layer without waves has a quarter of a diameter. No value
+    /// without snapshots.
+    std::optional<double> wiggle_amplitude;
 };
 
 Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);

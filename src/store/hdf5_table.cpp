@@ -6,11 +6,12 @@
 namespace vibrotrough::store {
 namespace {
 
-void write_texts(hid_t object, Makings const& makings, std::string const& name,
+void write_texts(hid_t object, Hdf5CreationProperties const& properties, std::string const& name,
                  std::vector<std::string> const& texts) {
     std::vector<char const*> pointers;
     for (std::string const& text : texts) pointers.push_back(text.c_str());
-    write_attribute(object, name, makings.text.id(), data_space(texts.size(), Rank::array), pointers.data());
+    write_attribute(object, name, properties.text_type.id(), data_space(texts.size(), Rank::array),
+                    pointers.data());
 }
 
 /// Numbers of the one kind and texts of fixed length: what this program writes, and nothing that HDF5 would
@@ -28,20 +29,20 @@ bool is_known(hid_t type) {
     }
 }
 
-Handle member(hid_t type, unsigned int index, std::string const& path) {
-    return Handle(H5Tget_member_type(type, index), H5Tclose, "read the columns of " + path);
+Hdf5Handle member(hid_t type, unsigned int index, std::string const& path) {
+    return Hdf5Handle(H5Tget_member_type(type, index), H5Tclose, "read the columns of " + path);
 }
 
 }  // namespace
 
-void ImageWriter::table(std::string const& path, std::vector<Column> const& columns, Rank rank) {
+void Hdf5MemoryFileWriter::table(std::string const& path, std::vector<Hdf5Column> const& columns, Rank rank) {
     std::size_t const rows = count(columns.at(0).values);
     require(rank == Rank::array || rows == 1, "write " + path + ", a scalar is one row");
     std::vector<Packed> packed;
     std::vector<std::size_t> sizes;
     std::vector<std::string> units, descriptions;
     std::size_t row_size = 0;
-    for (Column const& column : columns) {
+    for (Hdf5Column const& column : columns) {
         require(count(column.values) == rows, "write " + path + ", its columns differ in length");
         packed.push_back(pack(column.values));
         sizes.push_back(H5Tget_size(packed.back().type.id()));
@@ -49,7 +50,7 @@ void ImageWriter::table(std::string const& path, std::vector<Column> const& colu
         units.emplace_back(column.units);
         descriptions.emplace_back(column.description);
     }
-    Handle const type(H5Tcreate(H5T_COMPOUND, row_size), H5Tclose, "make the type of " + path);
+    Hdf5Handle const type(H5Tcreate(H5T_COMPOUND, row_size), H5Tclose, "make the type of " + path);
     std::string bytes(rows * row_size, '\0');
     std::size_t offset = 0;
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -61,22 +62,22 @@ void ImageWriter::table(std::string const& path, std::vector<Column> const& colu
         }
         offset += sizes[c];
     }
-    Handle const data = write_dataset(file_.id(), makings_, path, type, data_space(rows, rank), bytes);
-    write_texts(data.id(), makings_, "units", units);
-    write_texts(data.id(), makings_, "description", descriptions);
+    Hdf5Handle const data = write_dataset(file_.id(), properties_, path, type, data_space(rows, rank), bytes);
+    write_texts(data.id(), properties_, "units", units);
+    write_texts(data.id(), properties_, "description", descriptions);
 }
 
-ImageTable::ImageTable(hid_t file, std::string const& path, Rank rank, std::size_t limit)
+Hdf5Table::Hdf5Table(hid_t file, std::string const& path, Rank rank, std::size_t limit)
     : path_(path),
       data_(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "find the table " + path),
       type_(H5Dget_type(data_.id()), H5Tclose, "read the type of " + path) {
-    require(H5Tget_class(type_.id()) == H5T_COMPOUND, "use the dataset " + path + ", it is no table");
+    require(H5Tget_class(type_.id()) == H5T_COMPOUND, "use the dataset " + path + ", it is not a table");
     int const columns = H5Tget_nmembers(type_.id());
     for (int c = 0; c < columns; ++c) {
         require(is_known(member(type_.id(), static_cast<unsigned int>(c), path).id()),
                 "use the table " + path + ", one of its columns has another type");
     }
-    Handle const space(H5Dget_space(data_.id()), H5Sclose, "read the shape of " + path);
+    Hdf5Handle const space(H5Dget_space(data_.id()), H5Sclose, "read the shape of " + path);
     require(H5Sget_simple_extent_ndims(space.id()) == (rank == Rank::scalar ? 0 : 1),
             "use the table " + path + ", it has another shape");
     rows_ = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0));
@@ -88,11 +89,11 @@ ImageTable::ImageTable(hid_t file, std::string const& path, Rank rank, std::size
             "read the table " + path);
 }
 
-ImageTable::Place ImageTable::find(std::string const& name, H5T_class_t kind) const {
+Hdf5Table::Place Hdf5Table::find(std::string const& name, H5T_class_t kind) const {
     int const index = H5Tget_member_index(type_.id(), name.c_str());
     require(index >= 0, "find the column " + name + " of " + path_);
     auto const column = static_cast<unsigned int>(index);
-    Handle const type = member(type_.id(), column, path_);
+    Hdf5Handle const type = member(type_.id(), column, path_);
     Place const place{H5Tget_member_offset(type_.id(), column), H5Tget_size(type.id())};
     require(H5Tget_class(type.id()) == kind && place.offset <= row_size_ &&
                 place.size <= row_size_ - place.offset,
@@ -101,7 +102,7 @@ ImageTable::Place ImageTable::find(std::string const& name, H5T_class_t kind) co
 }
 
 template <>
-std::vector<int> ImageTable::values(std::string const& name) const {
+std::vector<int> Hdf5Table::values(std::string const& name) const {
     Place const place = find(name, H5T_INTEGER);
     std::vector<int> values(rows_);
     for (std::size_t row = 0; row < rows_; ++row)
@@ -110,7 +111,7 @@ std::vector<int> ImageTable::values(std::string const& name) const {
 }
 
 template <>
-std::vector<double> ImageTable::values(std::string const& name) const {
+std::vector<double> Hdf5Table::values(std::string const& name) const {
     Place const place = find(name, H5T_FLOAT);
     std::vector<double> values(rows_);
     for (std::size_t row = 0; row < rows_; ++row)
@@ -119,7 +120,7 @@ std::vector<double> ImageTable::values(std::string const& name) const {
 }
 
 template <>
-std::vector<std::string> ImageTable::values(std::string const& name) const {
+std::vector<std::string> Hdf5Table::values(std::string const& name) const {
     Place const place = find(name, H5T_STRING);
     std::vector<std::string> texts(rows_);
     for (std::size_t row = 0; row < rows_; ++row) {

@@ -1,37 +1,38 @@
 #include "store/layer_schema.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace vibrotrough::store {
 namespace {
 
 using Case = CaseRecord const&;
 using Packing = PackingRecord const&;
-using Real = double (*)(Case);
+using Real = std::optional<double> (*)(Case);
 using Integer = int (*)(Case);
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Over the packings that have this number.
-template <class Field>
-double mean(Case record, Field const& field) {
+template <class Value>
+std::optional<double> mean(Case record, Value const& value_of) {
     double sum = 0;
     int count = 0;
     for (Packing packing : record.packings) {
-        double const value = field(packing);
-        if (std::isnan(value)) continue;
-        sum += value;
+        std::optional<double> const value = value_of(packing);
+        if (!value) continue;
+        sum += *value;
         ++count;
     }
-    return count > 0 ? sum / count : nothing;
+    if (count == 0) return {};
+    return sum / count;
 }
 
-template <class Field>
-double most(Case record, Field const& field) {
-    double largest = nothing;
-    for (Packing packing : record.packings) largest = std::fmax(largest, field(packing));
-    return largest;
+template <class Value>
+std::optional<double> largest(Case record, Value const& value_of) {
+    std::optional<double> most;
+    for (Packing packing : record.packings) {
+        std::optional<double> const value = value_of(packing);
+        if (value) most = std::max(most.value_or(*value), *value);
+    }
+    return most;
 }
 
 int longest_period(Case record) {
@@ -41,9 +42,10 @@ int longest_period(Case record) {
 }
 
 /// Of the layer's kinetic scale m (omega r)^2.
-double relative_dissipation(Packing packing, scenario::Trough const& trough) {
+std::optional<double> relative_dissipation(Packing packing, scenario::Trough const& trough) {
+    if (!packing.motion.dissipation) return {};
     double const speed = angular_frequency(trough) * trough.amplitude;
-    return packing.motion.dissipation / (packing.mass * speed * speed);
+    return *packing.motion.dissipation / (packing.mass * speed * speed);
 }
 
 }  // namespace
@@ -95,10 +97,10 @@ std::vector<CaseValue> layer_case_values() {
           "with side walls; mean over the packings"},
          Real([](Case c) { return mean(c, [](Packing p) { return p.motion.efficiency_by_normal_force; }); })},
         {{"largest_overlap", "m", "Largest overlap of two grains; the largest of any packing"},
-         Real([](Case c) { return most(c, [](Packing p) { return p.motion.largest_overlap; }); })},
+         Real([](Case c) { return largest(c, [](Packing p) { return p.motion.largest_overlap; }); })},
         {{"largest_floor_overlap", "m",
           "Largest overlap of a grain and the floor; the largest of any packing"},
-         Real([](Case c) { return most(c, [](Packing p) { return p.motion.largest_floor_overlap; }); })},
+         Real([](Case c) { return largest(c, [](Packing p) { return p.motion.largest_floor_overlap; }); })},
         {{"velocity_gradient", "1",
           "Velocity along the trough of the upper third of the layer less that of the lower third, over the "
           "conveying speed; NaN when it is not conveyed; mean over the packings"},
@@ -111,175 +113,191 @@ std::vector<CaseValue> layer_case_values() {
 }
 
 std::vector<PackingValue> layer_packing_values() {
-    using Field = std::variant<int*, double*, std::string*, measure::Verdict*>;
-    using Record = PackingRecord&;
     return {
         {{"layer_mode", "1", "The bulk's mode in the theory's letters, read from the mean curves in phases"},
-         [](Record p) -> Field { return &p.motion.mode; }},
+         packing_field([](auto& p) -> auto& { return p.motion.mode; })},
         {{"period_cycles", "1", "Cycles after which the layer's motion repeats, 1 to 8"},
-         [](Record p) -> Field { return &p.motion.period_cycles; }},
+         packing_field([](auto& p) -> auto& { return p.motion.period_cycles; })},
         {{"take_off_phase", "rad",
           "Phase at which the layer takes off for its longest flight; NaN without flight"},
-         [](Record p) -> Field { return &p.motion.take_off_phase; }},
+         packing_field([](auto& p) -> auto& { return p.motion.take_off_phase; })},
         {{"landing_phase", "rad", "Phase at which it lands, above take_off_phase; NaN without flight"},
-         [](Record p) -> Field { return &p.motion.landing_phase; }},
+         packing_field([](auto& p) -> auto& { return p.motion.landing_phase; })},
         {{"flight_number", "1", "Duration of the longest flight in cycles, 0 without flight"},
-         [](Record p) -> Field { return &p.motion.flight_number; }},
+         packing_field([](auto& p) -> auto& { return p.motion.flight_number; })},
         {{"effective_restitution", "1",
           "Bulk restitution: largest rising speed of the centre of mass relative to the trough between "
           "landing and next take-off over its falling speed before landing; NaN without landings"},
-         [](Record p) -> Field { return &p.motion.restitution; }},
+         packing_field([](auto& p) -> auto& { return p.motion.restitution; })},
         {{"dissipation", "J",
           "Energy dissipated per cycle: work of trough and gravity on the layer less its gain of kinetic "
           "energy"},
-         [](Record p) -> Field { return &p.motion.dissipation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.dissipation; })},
         {{"floor_slip", "m/s",
           "Slip speed of the touching grains' surface on the floor, mean over grains and phases of its "
           "magnitude"},
-         [](Record p) -> Field { return &p.motion.floor_slip; }},
+         packing_field([](auto& p) -> auto& { return p.motion.floor_slip; })},
         {{"friction_ratio", "1",
           "Tangential over normal force while the layer slides, apart from the ends of slides; NaN without "
           "slides"},
-         [](Record p) -> Field { return &p.motion.friction_ratio; }},
+         packing_field([](auto& p) -> auto& { return p.motion.friction_ratio; })},
         {{"landing_friction", "1",
           "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
           "mass "
           "no longer falls against the trough; NaN without landings and with side walls"},
-         [](Record p) -> Field { return &p.motion.landing_friction; }},
+         packing_field([](auto& p) -> auto& { return p.motion.landing_friction; })},
         {{"efficiency_by_normal_force", "1",
           "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
           "with side walls"},
-         [](Record p) -> Field { return &p.motion.efficiency_by_normal_force; }},
+         packing_field([](auto& p) -> auto& { return p.motion.efficiency_by_normal_force; })},
         {{"largest_overlap", "m", "Largest overlap of two grains"},
-         [](Record p) -> Field { return &p.motion.largest_overlap; }},
+         packing_field([](auto& p) -> auto& { return p.motion.largest_overlap; })},
         {{"largest_floor_overlap", "m", "Largest overlap of a grain and the floor"},
-         [](Record p) -> Field { return &p.motion.largest_floor_overlap; }},
+         packing_field([](auto& p) -> auto& { return p.motion.largest_floor_overlap; })},
         {{"velocity_gradient", "1",
           "Velocity along the trough of the upper third of the layer less that of the lower third, over the "
           "conveying speed; NaN when it is not conveyed"},
-         [](Record p) -> Field { return &p.profiles.velocity_gradient; }},
+         packing_field([](auto& p) -> auto& { return p.profiles.velocity_gradient; })},
         {{"wiggle_amplitude", "m",
           "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "
           "square over the snapshots"},
-         [](Record p) -> Field { return &p.surface.wiggle_amplitude; }},
+         packing_field([](auto& p) -> auto& { return p.surface.wiggle_amplitude; })},
     };
 }
 
 std::vector<PackingTable> const& packing_tables() {
-    using Record = PackingRecord&;
-    using Column = std::vector<double>&;
     static std::vector<PackingTable> const tables{
         {"phases",
          {"phase", "rad",
           "Phase omega t since the drive's phase 0, at the end of each hundredth of a cycle; over one period "
           "of the layer's motion"},
-         [](Record p) -> Column { return p.motion.curves.phase; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.phase; })},
         {"phases",
          {"displacement", "m", "Displacement of the centre of mass against the trough since phase 0"},
-         [](Record p) -> Column { return p.motion.curves.displacement; }},
-        {"phases",
-         {"height", "m", "Height of the centre of mass above the trough"},
-         [](Record p) -> Column { return p.motion.curves.height; }},
-        {"phases",
-         {"velocity_x", "m/s", "Velocity of the centre of mass along the trough"},
-         [](Record p) -> Column { return p.motion.curves.velocity_x; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.displacement; })},
+        {
+            "phases",
+            {"height", "m", "Height of the centre of mass above the trough"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.height; }),
+        },
+        {
+            "phases",
+            {"velocity_x", "m/s", "Velocity of the centre of mass along the trough"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.velocity_x; }),
+        },
         {"phases",
          {"velocity_z", "m/s", "Velocity of the centre of mass normal to the trough"},
-         [](Record p) -> Column { return p.motion.curves.velocity_z; }},
-        {"phases",
-         {"trough_velocity_x", "m/s", "Velocity of the trough along x"},
-         [](Record p) -> Column { return p.motion.curves.trough_velocity_x; }},
-        {"phases",
-         {"trough_velocity_z", "m/s", "Velocity of the trough along z"},
-         [](Record p) -> Column { return p.motion.curves.trough_velocity_z; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.velocity_z; })},
+        {
+            "phases",
+            {"trough_velocity_x", "m/s", "Velocity of the trough along x"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.trough_velocity_x; }),
+        },
+        {
+            "phases",
+            {"trough_velocity_z", "m/s", "Velocity of the trough along z"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.trough_velocity_z; }),
+        },
         {"phases",
          {"normal_force", "N",
           "Force of the layer on the trough, normal, positive when pressing; mean over the hundredth that "
           "ends"},
-         [](Record p) -> Column { return p.motion.curves.normal_force; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.normal_force; })},
         {"phases",
          {"tangential_force", "N",
           "Force of the layer on the trough along x; mean over the hundredth that ends"},
-         [](Record p) -> Column { return p.motion.curves.tangential_force; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.tangential_force; })},
         {"phases",
          {"floor_force", "N", "The part of normal_force that the floor carries, not side walls"},
-         [](Record p) -> Column { return p.motion.curves.floor_force; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.floor_force; })},
         {"phases",
          {"touching", "1", "Number of grains (of clumps: spheres) whose lowest point is below the floor"},
-         [](Record p) -> Column { return p.motion.curves.touching; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.touching; })},
         {"phases",
          {"airborne", "1", "Fraction of the periods in which nothing touches the trough"},
-         [](Record p) -> Column { return p.motion.curves.airborne; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.airborne; })},
         {"phases",
          {"clearance", "m", "Gap between floor and lowest grain; negative: overlap"},
-         [](Record p) -> Column { return p.motion.curves.clearance; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.clearance; })},
         {"phases",
          {"slip", "m/s",
           "Slip of the touching grains' surface on the floor, v_x - omega_y R - V, mean over them; NaN where "
           "none touches"},
-         [](Record p) -> Column { return p.motion.curves.slip; }},
-        {"phases",
-         {"sliding", "m/s", "The same without their rotation, v_x - V"},
-         [](Record p) -> Column { return p.motion.curves.sliding; }},
-        {"phases",
-         {"energy_translation", "J", "Kinetic energy of the grains' translation"},
-         [](Record p) -> Column { return p.motion.curves.energy_translation; }},
-        {"phases",
-         {"energy_rotation", "J", "Kinetic energy of the grains' rotation"},
-         [](Record p) -> Column { return p.motion.curves.energy_rotation; }},
-        {"phases",
-         {"overlap", "m", "Largest overlap of two grains in any of the periods"},
-         [](Record p) -> Column { return p.motion.curves.overlap; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.slip; })},
+        {
+            "phases",
+            {"sliding", "m/s", "The same without their rotation, v_x - V"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.sliding; }),
+        },
+        {
+            "phases",
+            {"energy_translation", "J", "Kinetic energy of the grains' translation"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.energy_translation; }),
+        },
+        {
+            "phases",
+            {"energy_rotation", "J", "Kinetic energy of the grains' rotation"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.energy_rotation; }),
+        },
+        {
+            "phases",
+            {"overlap", "m", "Largest overlap of two grains in any of the periods"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.overlap; }),
+        },
         {"phases",
          {"displacement_deviation", "m", "Standard deviation of displacement over the periods"},
-         [](Record p) -> Column { return p.motion.curves.displacement_deviation; }},
-        {"phases",
-         {"height_deviation", "m", "Standard deviation of height over the periods"},
-         [](Record p) -> Column { return p.motion.curves.height_deviation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.displacement_deviation; })},
+        {
+            "phases",
+            {"height_deviation", "m", "Standard deviation of height over the periods"},
+            packing_field([](auto& p) -> auto& { return p.motion.curves.height_deviation; }),
+        },
         {"phases",
          {"velocity_x_deviation", "m/s", "Standard deviation of velocity_x over the periods"},
-         [](Record p) -> Column { return p.motion.curves.velocity_x_deviation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.velocity_x_deviation; })},
         {"phases",
          {"velocity_z_deviation", "m/s", "Standard deviation of velocity_z over the periods"},
-         [](Record p) -> Column { return p.motion.curves.velocity_z_deviation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.velocity_z_deviation; })},
         {"phases",
          {"normal_force_deviation", "N", "Standard deviation of normal_force over the periods"},
-         [](Record p) -> Column { return p.motion.curves.normal_force_deviation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.normal_force_deviation; })},
         {"phases",
          {"tangential_force_deviation", "N", "Standard deviation of tangential_force over the periods"},
-         [](Record p) -> Column { return p.motion.curves.tangential_force_deviation; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.tangential_force_deviation; })},
         {"phases",
          {"touching_deviation", "1", "Standard deviation of touching over the periods"},
-         [](Record p) -> Column { return p.motion.curves.touching_deviation; }},
-        {"profiles",
-         {"phase", "rad", "Phase of the snapshot"},
-         [](Record p) -> Column { return p.profiles.phase; }},
-        {"profiles",
-         {"height", "m", "Middle of the bin above the trough"},
-         [](Record p) -> Column { return p.profiles.height; }},
+         packing_field([](auto& p) -> auto& { return p.motion.curves.touching_deviation; })},
+        {"profiles", {"phase", "rad", "Phase of the snapshot"}, packing_field([](auto& p) -> auto& {
+             return p.profiles.phase;
+         })},
+        {
+            "profiles",
+            {"height", "m", "Middle of the bin above the trough"},
+            packing_field([](auto& p) -> auto& { return p.profiles.height; }),
+        },
         {"profiles",
          {"solid_fraction", "1",
           "Volume of the grains with their centres in the bin over its volume, mean over the snapshots"},
-         [](Record p) -> Column { return p.profiles.solid_fraction; }},
+         packing_field([](auto& p) -> auto& { return p.profiles.solid_fraction; })},
         {"profiles",
          {"velocity_x", "m/s",
           "Their mean velocity along the trough, relative to it; NaN where no grain ever was"},
-         [](Record p) -> Column { return p.profiles.velocity_x; }},
+         packing_field([](auto& p) -> auto& { return p.profiles.velocity_x; })},
         {"profiles",
          {"velocity_z", "m/s",
           "Their mean velocity normal to the trough, relative to it; NaN where no grain ever was"},
-         [](Record p) -> Column { return p.profiles.velocity_z; }},
-        {"surface",
-         {"phase", "rad", "Phase of the snapshot"},
-         [](Record p) -> Column { return p.surface.phase; }},
-        {"surface",
-         {"x", "m", "Middle of the column along the trough"},
-         [](Record p) -> Column { return p.surface.x; }},
+         packing_field([](auto& p) -> auto& { return p.profiles.velocity_z; })},
+        {"surface", {"phase", "rad", "Phase of the snapshot"}, packing_field([](auto& p) -> auto& {
+             return p.surface.phase;
+         })},
+        {"surface", {"x", "m", "Middle of the column along the trough"}, packing_field([](auto& p) -> auto& {
+             return p.surface.x;
+         })},
         {"surface",
          {"height", "m",
           "Surface above the trough, twice the mean height of the column's grains, in the last snapshot of "
           "that phase; NaN without a grain"},
-         [](Record p) -> Column { return p.surface.height; }},
+         packing_field([](auto& p) -> auto& { return p.surface.height; })},
     };
     return tables;
 }

@@ -4,10 +4,11 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "scenario/reader/campaign_file.hpp"
-#include "store/hdf5_image.hpp"
+#include "store/hdf5_memory_file.hpp"
 #include "store/schema.hpp"
 
 #include <map>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,53 +20,21 @@ namespace {
 constexpr char const* result_format = "vibrotrough result";
 constexpr char const* campaign_format = "vibrotrough campaign";
 
-/// The value of one CaseValue for every case.
-Values column(CaseValue const& value, std::vector<CaseRecord> const& cases) {
-    return std::visit(
-        [&cases](auto const function) -> Values {
-            std::vector<decltype(function(cases.front()))> values;
-            for (CaseRecord const& record : cases) values.push_back(function(record));
-            return values;
-        },
-        value.value);
+/// `value_of` each record, as the files hold it.
+template <typename Record, typename Function>
+Values stored_values(std::span<Record const> records, Function const& value_of) {
+    std::vector<decltype(to_stored(value_of(records.front())))> values;
+    values.reserve(records.size());
+    for (Record const& record : records) values.push_back(to_stored(value_of(record)));
+    return values;
 }
 
-/// How a packing's value is stored: as itself, a verdict by its name.
-int stored(int value) {
-    return value;
-}
-double stored(double value) {
-    return value;
-}
-std::string stored(std::string const& value) {
-    return value;
-}
-std::string stored(measure::Verdict value) {
-    return verdict_name(value);
+Values stored_values(CaseValue const& value, std::span<CaseRecord const> cases) {
+    return std::visit([&](auto const function) { return stored_values(cases, function); }, value.value);
 }
 
-template <typename Value>
-void restore(Value const& stored_value, Value& value) {
-    value = stored_value;
-}
-void restore(std::string const& stored_value, measure::Verdict& value) {
-    value = verdict_of(stored_value);
-}
-
-/// The value of one PackingValue for every packing. (The schema's field functions serve reading too and so
-/// take a record that may change.)
-Values column(PackingValue const& value, std::vector<PackingRecord>& packings) {
-    PackingRecord example{};
-    return std::visit(
-        [&](auto* const kind) -> Values {
-            std::vector<decltype(stored(*kind))> values;
-            for (PackingRecord& packing : packings) {
-                values.push_back(
-                    stored(*std::get<std::remove_const_t<decltype(kind)>>(value.field(packing))));
-            }
-            return values;
-        },
-        value.field(example));
+Values stored_values(PackingValue const& value, std::span<PackingRecord const> packings) {
+    return std::visit([&](auto const& field) { return stored_values(packings, field); }, value.field);
 }
 
 /// A name of a packing's own table.
@@ -82,37 +51,32 @@ std::string_view group_of(PackingTable const& table) {
 }
 
 /// Reads one PackingValue of all packings.
-void read_column(ImageTable const& table, PackingValue const& value, std::vector<PackingRecord>& packings) {
-    PackingRecord example{};
+void read_column(Hdf5Table const& table, PackingValue const& value, std::vector<PackingRecord>& packings) {
     std::visit(
-        [&](auto* const kind) {
-            auto const values = table.values<decltype(stored(*kind))>(std::string(value.entry.name));
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                restore(values[i], *std::get<std::remove_const_t<decltype(kind)>>(value.field(packings[i])));
-            }
+        [&](auto const& field) {
+            using Stored = decltype(to_stored(field(packings.front())));
+            auto const values = table.values<Stored>(std::string(value.entry.name));
+            for (std::size_t i = 0; i < values.size(); ++i) from_stored(values[i], field(packings[i]));
         },
-        value.field(example));
+        value.field);
 }
 
-void read_packings(ImageReader const& image, std::vector<PackingRecord>& packings) {
-    ImageTable const table = image.table("packings", Rank::array);
+void read_packings(Hdf5MemoryFileReader const& file, std::vector<PackingRecord>& packings) {
+    Hdf5Table const table = file.table("packings", Rank::array);
     packings.resize(table.rows());
     for (PackingValue const& value : packing_values()) read_column(table, value, packings);
 }
 
 /// Reads the columns of all tables of a packing.
 template <typename Entries>
-void read_tables(ImageReader const& image, std::size_t number, PackingRecord& packing,
+void read_tables(Hdf5MemoryFileReader const& file, std::size_t number, PackingRecord& packing,
                  Entries const& entries) {
-    std::map<std::string_view, ImageTable> tables;
+    std::map<std::string_view, Hdf5Table> tables;
     for (auto const& entry : entries) {
-        auto found = tables.find(group_of(entry));
-        if (found == tables.end()) {
-            found =
-                tables
-                    .emplace(group_of(entry), image.table(packing_path(group_of(entry), number), Rank::array))
-                    .first;
-        }
+        std::string_view const group = group_of(entry);
+        auto found = tables.find(group);
+        if (found == tables.end())
+            found = tables.emplace(group, file.table(packing_path(group, number), Rank::array)).first;
         entry.field(packing) = found->second.template values<double>(std::string(entry.entry.name));
     }
 }
@@ -123,73 +87,75 @@ void check_series(PackingRecord const& packing, std::size_t number) {
 }
 
 /// Reads `case`, of which only the estimate is not in the scenario or the packings.
-measure::CaseEstimate read_case_values(ImageReader const& image) {
-    ImageTable const table = image.table("case", Rank::scalar);
-    return {.mean = table.values<double>("efficiency").front(),
-            .half_width = table.values<double>("efficiency_half_width").front(),
-            .packings = table.values<int>("packings").front()};
+measure::CaseEstimate read_case_values(Hdf5MemoryFileReader const& file) {
+    Hdf5Table const table = file.table("case", Rank::scalar);
+    measure::CaseEstimate estimate{};
+    from_stored(table.values<double>("efficiency").front(), estimate.mean);
+    from_stored(table.values<double>("efficiency_half_width").front(), estimate.half_width);
+    estimate.packings = table.values<int>("packings").front();
+    return estimate;
 }
 
 template <typename Entries>
-void add_tables(ImageWriter& image, std::size_t number, PackingRecord& packing, Entries const& entries) {
-    std::vector<std::pair<std::string_view, std::vector<Column>>> tables;
+void add_tables(Hdf5MemoryFileWriter& file, std::size_t number, PackingRecord const& packing,
+                Entries const& entries) {
+    std::vector<std::pair<std::string_view, std::vector<Hdf5Column>>> tables;
     for (auto const& entry : entries) {
         if (tables.empty() || tables.back().first != group_of(entry)) tables.push_back({group_of(entry), {}});
         auto const& [name, units, meaning] = entry.entry;
         tables.back().second.push_back({name, units, meaning, entry.field(packing)});
     }
-    for (auto const& [group, columns] : tables)
-        image.table(packing_path(group, number), columns, Rank::array);
+    for (auto const& [group, columns] : tables) file.table(packing_path(group, number), columns, Rank::array);
 }
 
 /// A table of values, one row per record.
-template <typename Entries, typename Records>
-std::vector<Column> columns_of(Entries const& entries, Records& records) {
-    std::vector<Column> columns;
+template <typename Entries, typename Record>
+std::vector<Hdf5Column> columns_of(Entries const& entries, std::span<Record const> records) {
+    std::vector<Hdf5Column> columns;
     for (auto const& value : entries) {
         auto const& [name, units, meaning] = value.entry;
-        columns.push_back({name, units, meaning, column(value, records)});
+        columns.push_back({name, units, meaning, stored_values(value, records)});
     }
     return columns;
 }
 
-void check_kind(ImageReader const& image, std::filesystem::path const& path) {
-    if (!image.has_attribute("format") || image.text_attribute("format") != result_format) {
+void check_kind(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {
+    if (!file.has_attribute("format") || file.text_attribute("format") != result_format) {
         throw core::InputError(
-            fmt::format("{} is no result of Vibrotrough (its root attribute 'format' is not '{}'); give the "
-                        "result.h5 of a case",
+            fmt::format("{} is not a result of Vibrotrough (its root attribute "
+                        "'format' is not '{}'); give the result.h5 of a case",
                         path.string(), result_format));
     }
-    int const version = image.integer_attribute("schema_version");
+    int const version = file.integer_attribute("schema_version");
     if (version == result_schema_version) return;
     bool const newer = version > result_schema_version;
     throw core::InputError(
         fmt::format("{} was written by {} Vibrotrough ({}, schema {}; this one reads {}); {}", path.string(),
-                    newer ? "a newer" : "an older", image.text_attribute("program_version"), version,
+                    newer ? "a newer" : "an older", file.text_attribute("program_version"), version,
                     result_schema_version,
                     newer ? "use that version"
                           : "'vibrotrough run' makes it anew from its packings, without the engine"));
 }
 
-CaseRecord read_record(ImageReader const& image, std::filesystem::path const& path) {
+CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {
     CaseRecord record{};
     for (CaseFact const& fact : case_facts()) {
-        fact.field(record) = image.text_attribute(std::string(fact.entry.name));
+        fact.field(record) = file.text_attribute(std::string(fact.entry.name));
     }
-    record.scenario_toml =
-        image.values<std::string>(std::string(scenario_entry().name), Rank::scalar).front();
-    record.provenance.engine_certificate =
-        image.values<std::string>(std::string(certificate_entry().name), Rank::scalar).front();
-    record.estimate = read_case_values(image);
-    read_packings(image, record.packings);
+    auto const text = [&file](Entry const& entry) {
+        return file.values<std::string>(std::string(entry.name), Rank::scalar).front();
+    };
+    record.scenario_toml = text(scenario_entry());
+    record.provenance.engine_certificate = text(certificate_entry());
+    record.estimate = read_case_values(file);
+    read_packings(file, record.packings);
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        read_tables(image, i, record.packings[i], packing_series());
-        read_tables(image, i, record.packings[i], packing_tables());
+        read_tables(file, i, record.packings[i], packing_series());
+        read_tables(file, i, record.packings[i], packing_tables());
         check_series(record.packings[i], i);
     }
     scenario::FileSource source;
-    auto const files = nlohmann::json::parse(
-        image.values<std::string>(std::string(scenario_files_entry().name), Rank::scalar).front());
+    auto const files = nlohmann::json::parse(text(scenario_files_entry()));
     for (auto const& [name, content] : files.items())
         source.files.push_back({name, content.get<std::string>()});
     record.scenario =
@@ -197,57 +163,70 @@ CaseRecord read_record(ImageReader const& image, std::filesystem::path const& pa
     return record;
 }
 
+/// The files that the scenario names, as JSON. Bytes that are not UTF-8 cannot be in JSON and are replaced;
+/// files whose numbers could be read have none.
+std::string files_as_json(scenario::Scenario const& scenario) {
+    nlohmann::json files = nlohmann::json::object();
+    for (scenario::NamedFile const& file : named_files(scenario)) files[file.name] = file.content;
+    return files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// The bytes of result.h5.
+std::string result_bytes(CaseRecord const& record) {
+    Hdf5MemoryFileWriter file;
+    file.attribute("format", result_format);
+    file.attribute("schema_version", result_schema_version);
+    file.attribute("campaign", record.scenario.campaign);
+    for (CaseFact const& fact : case_facts()) {
+        file.attribute(std::string(fact.entry.name), fact.field(record));
+    }
+    auto const put = [&file](Entry const& entry, std::string const& text) {
+        file.dataset(std::string(entry.name), std::vector<std::string>{text}, Rank::scalar, entry.units,
+                     entry.meaning);
+    };
+    put(scenario_entry(), record.scenario_toml);
+    put(certificate_entry(), record.provenance.engine_certificate);
+    put(scenario_files_entry(), files_as_json(record.scenario));
+    file.table("case", columns_of(case_values(), std::span(&record, 1)), Rank::scalar);
+    file.table("packings", columns_of(packing_values(), std::span(record.packings)), Rank::array);
+    for (std::size_t i = 0; i < record.packings.size(); ++i) {
+        add_tables(file, i, record.packings[i], packing_series());
+        add_tables(file, i, record.packings[i], packing_tables());
+    }
+    return file.bytes();
+}
+
+/// The bytes of campaign.h5.
+std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases) {
+    Hdf5MemoryFileWriter file;
+    file.attribute("format", campaign_format);
+    file.attribute("schema_version", campaign_schema_version);
+    file.attribute("campaign", campaign);
+    file.attribute("program_version", std::string(core::program_version()));
+    file.attribute("git_commit", std::string(core::program_commit()));
+    auto const put = [&file](Entry const& entry, Values const& values) {
+        file.dataset(std::string(entry.name), values, Rank::array, entry.units, entry.meaning);
+    };
+    for (CaseFact const& fact : case_facts()) put(fact.entry, stored_values(cases, fact.field));
+    for (CaseValue const& value : case_values()) put(value.entry, stored_values(value, cases));
+    return file.bytes();
+}
+
 }  // namespace
 
 void write_result(std::filesystem::path const& path, CaseRecord const& record) {
-    CaseRecord copy = record;  // see column()
-    std::string bytes;
-    {
-        ImageWriter image;
-        image.attribute("format", result_format);
-        image.attribute("schema_version", result_schema_version);
-        image.attribute("campaign", record.scenario.campaign);
-        for (CaseFact const& fact : case_facts()) {
-            image.attribute(std::string(fact.entry.name), fact.field(copy));
-        }
-        auto const put = [&image](std::string const& name, Entry const& entry, Values const& values,
-                                  Rank rank) {
-            image.dataset(name, values, rank, entry.units, entry.meaning);
-        };
-        Entry const scenario = scenario_entry();
-        put(std::string(scenario.name), scenario, std::vector<std::string>{record.scenario_toml},
-            Rank::scalar);
-        Entry const certificate = certificate_entry();
-        put(std::string(certificate.name), certificate,
-            std::vector<std::string>{record.provenance.engine_certificate}, Rank::scalar);
-        nlohmann::json files = nlohmann::json::object();
-        for (scenario::NamedFile const& file : named_files(record.scenario)) files[file.name] = file.content;
-        Entry const scenario_files = scenario_files_entry();
-        // Bytes that are no UTF-8 cannot be in JSON; what could be read as numbers has none.
-        put(std::string(scenario_files.name), scenario_files,
-            std::vector<std::string>{files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
-            Rank::scalar);
-        std::vector<CaseRecord> const one{record};
-        image.table("case", columns_of(case_values(), one), Rank::scalar);
-        image.table("packings", columns_of(packing_values(), copy.packings), Rank::array);
-        for (std::size_t i = 0; i < copy.packings.size(); ++i) {
-            add_tables(image, i, copy.packings[i], packing_series());
-            add_tables(image, i, copy.packings[i], packing_tables());
-        }
-        bytes = image.bytes();
-    }
-    core::write_file_atomically(path, bytes);
+    core::write_file_atomically(path, result_bytes(record));
 }
 
 CaseRecord read_result(std::filesystem::path const& path) {
     std::string bytes = core::read_file(path);
     try {
-        ImageReader const image(std::move(bytes));
-        check_kind(image, path);
-        return read_record(image, path);
+        Hdf5MemoryFileReader const file(std::move(bytes));
+        check_kind(file, path);
+        return read_record(file, path);
     } catch (nlohmann::json::exception const&) {
         throw core::InputError(
-            fmt::format("{} is damaged (its scenario_files are no JSON); delete it and run its case again",
+            fmt::format("{} is damaged (its scenario_files are not JSON); delete it and run its case again",
                         path.string()));
     } catch (Hdf5Error const& error) {
         throw core::InputError(
@@ -257,28 +236,7 @@ CaseRecord read_result(std::filesystem::path const& path) {
 
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
                     std::vector<CaseRecord> const& cases) {
-    std::vector<CaseRecord> copies = cases;  // see column()
-    std::string bytes;
-    {
-        ImageWriter image;
-        image.attribute("format", campaign_format);
-        image.attribute("schema_version", campaign_schema_version);
-        image.attribute("campaign", campaign);
-        image.attribute("program_version", std::string(core::program_version()));
-        image.attribute("git_commit", std::string(core::program_commit()));
-        for (CaseFact const& fact : case_facts()) {
-            std::vector<std::string> texts;
-            for (CaseRecord& record : copies) texts.push_back(fact.field(record));
-            image.dataset(std::string(fact.entry.name), texts, Rank::array, fact.entry.units,
-                          fact.entry.meaning);
-        }
-        for (CaseValue const& value : case_values()) {
-            image.dataset(std::string(value.entry.name), column(value, cases), Rank::array, value.entry.units,
-                          value.entry.meaning);
-        }
-        bytes = image.bytes();
-    }
-    core::write_file_atomically(path, bytes);
+    core::write_file_atomically(path, campaign_bytes(campaign, cases));
 }
 
 }  // namespace vibrotrough::store

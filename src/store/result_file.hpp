@@ -15,7 +15,7 @@ constexpr int campaign_schema_version = 1;
 void write_result(std::filesystem::path const& path, CaseRecord const& record);
 
 /// Reads result.h5 back. Reading `scenario` uses the stored TOML text.
-/// @throws InputError naming the file when it is damaged, is no result file, or has another schema
+/// @throws InputError naming the file when it is damaged, is not a result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
 /// Writes campaign.h5: one table of all cases, a column per dataset, in the order given; atomically.

@@ -1,8 +1,9 @@
 #include "store/schema.hpp"
 
-#include "store/hdf5_image.hpp"
+#include "store/hdf5_memory_file.hpp"
 #include "store/layer_schema.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -17,7 +18,7 @@ int sum_over_packings(Case record, int measure::PackingEstimate::*field) {
         [field](int sum, PackingRecord const& packing) { return sum + packing.estimate.*field; });
 }
 
-double wall_time(Case record) {
+std::optional<double> wall_time(Case record) {
     return std::accumulate(record.packings.begin(), record.packings.end(), 0.0,
                            [](double sum, PackingRecord const& packing) { return sum + packing.wall_time; });
 }
@@ -25,73 +26,92 @@ double wall_time(Case record) {
 }  // namespace
 
 std::vector<CaseFact> const& case_facts() {
-    using Record = CaseRecord&;
     static std::vector<CaseFact> const facts{
         {{"case", "1", "Case id: hash of the scenario, the deck and the engine's version"},
-         [](Record r) -> std::string& { return r.id; }},
+         case_field([](auto& r) -> auto& { return r.id; })},
         {{"outcome", "1", "How the case ended: finished, not-steady or not-precise"},
-         [](Record r) -> std::string& { return r.outcome; }},
+         case_field([](auto& r) -> auto& { return r.outcome; })},
         {{"program_version", "1", "Version of Vibrotrough that ran the case"},
-         [](Record r) -> std::string& { return r.provenance.program_version; }},
+         case_field([](auto& r) -> auto& { return r.provenance.program_version; })},
         {{"git_commit", "1", "Commit that this Vibrotrough was built from"},
-         [](Record r) -> std::string& { return r.provenance.git_commit; }},
+         case_field([](auto& r) -> auto& { return r.provenance.git_commit; })},
         {{"engine_version", "1", "Version of LIGGGHTS"},
-         [](Record r) -> std::string& { return r.provenance.engine_version; }},
+         case_field([](auto& r) -> auto& { return r.provenance.engine_version; })},
         {{"host", "1", "Machine that the case ran on"},
-         [](Record r) -> std::string& { return r.provenance.host; }},
+         case_field([](auto& r) -> auto& { return r.provenance.host; })},
         {{"started", "1", "When the first packing started, ISO 8601, UTC"},
-         [](Record r) -> std::string& { return r.provenance.started; }},
+         case_field([](auto& r) -> auto& { return r.provenance.started; })},
         {{"finished", "1", "When the case was finished, ISO 8601, UTC"},
-         [](Record r) -> std::string& { return r.provenance.finished; }},
+         case_field([](auto& r) -> auto& { return r.provenance.finished; })},
         {{"layer_mode", "1",
           "The bulk's mode in the theory's letters, of most packings; empty when too few cycles were kept"},
-         [](Record r) -> std::string& { return r.layer_mode; }},
+         case_field([](auto& r) -> auto& { return r.layer_mode; })},
     };
     return facts;
 }
 
 namespace {
 
-using Real = double (*)(Case);
+using Real = std::optional<double> (*)(Case);
 using Integer = int (*)(Case);
 using Text = std::string (*)(Case);
+
+/// A number of a case, which exists always or only of some cases.
+/// @param value  a lambda without captures that returns a double or an optional one
+template <typename Value>
+Real real(Value) {
+    return [](Case record) -> std::optional<double> { return Value{}(record); };
+}
+
+/// An unbounded interval has the half-width infinity in the files; without a mean there is none.
+std::optional<double> half_width(Case record) {
+    measure::CaseEstimate const& estimate = record.estimate;
+    if (estimate.mean && !estimate.half_width) return std::numeric_limits<double>::infinity();
+    return estimate.half_width;
+}
+
+/// Velocity efficiency times the velocity scale.
+std::optional<double> speed(Case record, std::optional<double> const& efficiency) {
+    if (!efficiency) return {};
+    return *efficiency * velocity_scale(record.scenario.trough);
+}
 
 std::vector<CaseValue> drive_and_result_values() {
     return {
         {{"throw_number", "1", "Throw number Gamma = omega^2 r sin(beta) / (g cos(alpha))"},
-         Real([](Case c) { return throw_number(c.scenario.trough); })},
+         real([](Case c) { return throw_number(c.scenario.trough); })},
         {{"machine_number", "1", "Machine number K = omega^2 r / g"},
-         Real([](Case c) { return machine_number(c.scenario.trough); })},
+         real([](Case c) { return machine_number(c.scenario.trough); })},
         {{"vibration_angle", "rad",
           "Vibration angle beta, between the direction of vibration and the trough"},
-         Real([](Case c) { return c.scenario.trough.vibration_angle; })},
+         real([](Case c) { return c.scenario.trough.vibration_angle; })},
         {{"inclination", "rad",
           "Inclination alpha of the trough, uphill positive in the conveying direction"},
-         Real([](Case c) { return c.scenario.trough.inclination; })},
+         real([](Case c) { return c.scenario.trough.inclination; })},
         {{"amplitude", "m", "Amplitude r in the direction of vibration, half the stroke"},
-         Real([](Case c) { return c.scenario.trough.amplitude; })},
+         real([](Case c) { return c.scenario.trough.amplitude; })},
         {{"frequency", "Hz", "Frequency of the vibration, 1/T"},
-         Real([](Case c) { return c.scenario.trough.frequency; })},
+         real([](Case c) { return c.scenario.trough.frequency; })},
         {{"friction", "1", "Friction coefficient mu, grain on trough"},
-         Real([](Case c) { return c.scenario.trough.friction; })},
+         real([](Case c) { return c.scenario.trough.friction; })},
         {{"restitution", "1",
           "Restitution coefficient e, grain on trough, nominal value of the contact model"},
-         Real([](Case c) { return c.scenario.trough.restitution; })},
+         real([](Case c) { return c.scenario.trough.restitution; })},
         {{"velocity_scale", "m/s", "omega r cos(beta), the speed at velocity efficiency 1"},
-         Real([](Case c) { return velocity_scale(c.scenario.trough); })},
+         real([](Case c) { return velocity_scale(c.scenario.trough); })},
         {{"efficiency", "1",
           "Velocity efficiency eta, mean over the packings; NaN when outcome is not-steady"},
-         Real([](Case c) { return c.estimate.mean; })},
+         real([](Case c) { return c.estimate.mean; })},
         {{"efficiency_half_width", "1",
           "Half-width of the confidence interval of efficiency over the packings; NaN when outcome is "
           "not-steady"},
-         Real([](Case c) { return c.estimate.half_width; })},
+         Real(half_width)},
         {{"confidence", "1", "Confidence of every interval in this file"},
-         Real([](Case c) { return c.scenario.measure.confidence; })},
+         real([](Case c) { return c.scenario.measure.confidence; })},
         {{"speed", "m/s", "Conveying speed along the trough: efficiency times velocity_scale"},
-         Real([](Case c) { return c.estimate.mean * velocity_scale(c.scenario.trough); })},
+         real([](Case c) { return speed(c, c.estimate.mean); })},
         {{"speed_half_width", "m/s", "Half-width of the confidence interval of speed"},
-         Real([](Case c) { return c.estimate.half_width * velocity_scale(c.scenario.trough); })},
+         real([](Case c) { return speed(c, half_width(c)); })},
         {{"packings", "1", "Number of independent packings in the mean"},
          Integer([](Case c) { return c.estimate.packings; })},
         {{"cycles_measured", "1", "Cycles kept for the means, sum over the packings"},
@@ -105,21 +125,21 @@ std::vector<CaseValue> drive_and_result_values() {
 std::vector<CaseValue> grain_and_layer_values() {
     return {
         {{"grain_diameter", "m", "Diameter of the grains: mean, or median of the log-normal law"},
-         Real([](Case c) { return c.scenario.grains.diameter; })},
+         real([](Case c) { return c.scenario.grains.diameter; })},
         {{"grain_diameter_spread", "1", "Spread s of the size law"},
-         Real([](Case c) { return c.scenario.grains.diameter_spread; })},
+         real([](Case c) { return c.scenario.grains.diameter_spread; })},
         {{"grain_density", "kg/m3", "Density of the grains' material"},
-         Real([](Case c) { return c.scenario.grains.density; })},
+         real([](Case c) { return c.scenario.grains.density; })},
         {{"grain_youngs_modulus", "Pa", "Young's modulus of grains and trough"},
-         Real([](Case c) { return c.scenario.grains.youngs_modulus; })},
+         real([](Case c) { return c.scenario.grains.youngs_modulus; })},
         {{"grain_poisson_ratio", "1", "Poisson ratio of grains and trough"},
-         Real([](Case c) { return c.scenario.grains.poisson_ratio; })},
+         real([](Case c) { return c.scenario.grains.poisson_ratio; })},
         {{"grain_friction", "1", "Friction coefficient, grain on grain"},
-         Real([](Case c) { return c.scenario.grains.friction; })},
+         real([](Case c) { return c.scenario.grains.friction; })},
         {{"grain_restitution", "1", "Restitution coefficient, grain on grain, nominal"},
-         Real([](Case c) { return c.scenario.grains.restitution; })},
+         real([](Case c) { return c.scenario.grains.restitution; })},
         {{"grain_rolling_friction", "1", "Rolling friction coefficient, 0 when the model is off"},
-         Real([](Case c) { return c.scenario.grains.rolling_friction; })},
+         real([](Case c) { return c.scenario.grains.rolling_friction; })},
         {{"grain_rotation", "1", "free, rolling or blocked"},
          Text([](Case c) { return std::string(name_of(c.scenario.grains.rotation)); })},
         {{"grain_shape", "1", "sphere, cube, rod, or the name of the file with the spheres of a clump"},
@@ -129,20 +149,16 @@ std::vector<CaseValue> grain_and_layer_values() {
         {{"block", "1", "none, or the rigid block in place of the layer: point or plate"},
          Text([](Case c) { return std::string(name_of(c.scenario.layer.block)); })},
         {{"side_wall_friction", "1", "Friction coefficient, grain on side walls; NaN without side walls"},
-         Real([](Case c) {
-             return c.scenario.trough.side_wall_friction.value_or(std::numeric_limits<double>::quiet_NaN());
-         })},
+         real([](Case c) { return c.scenario.trough.side_wall_friction; })},
         {{"rayleigh_fraction", "1", "Largest time step in Rayleigh times of the smallest grain"},
-         Real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
+         real([](Case c) { return c.scenario.solver.rayleigh_fraction; })},
         {{"layer_length", "m", "Length of the periodic piece of layer along the trough"},
-         Real([](Case c) { return c.scenario.layer.length; })},
+         real([](Case c) { return c.scenario.layer.length; })},
         {{"layer_width", "m", "Width of the periodic piece of layer across the trough"},
-         Real([](Case c) { return c.scenario.layer.width; })},
+         real([](Case c) { return c.scenario.layer.width; })},
         {{"layer_height", "m",
           "Height of the layer at rest as asked for; NaN when the number of grains was given"},
-         Real([](Case c) {
-             return c.scenario.layer.height.value_or(std::numeric_limits<double>::quiet_NaN());
-         })},
+         real([](Case c) { return c.scenario.layer.height; })},
         {{"layer_grains", "1", "Number of grains"}, Integer([](Case c) { return c.scenario.layer.grains; })},
     };
 }
@@ -162,30 +178,32 @@ std::vector<CaseValue> const& case_values() {
 namespace {
 
 std::vector<PackingValue> run_packing_values() {
-    using Field = std::variant<int*, double*, std::string*, measure::Verdict*>;
-    using Packing = PackingRecord&;
     return {
-        {{"seed", "1", "Seed of the packing's random positions"}, [](Packing p) -> Field { return &p.seed; }},
+        {{"seed", "1", "Seed of the packing's random positions"},
+         packing_field([](auto& p) -> auto& { return p.seed; })},
         {{"steps_per_cycle", "1", "Time steps of the engine per cycle"},
-         [](Packing p) -> Field { return &p.steps_per_cycle; }},
-        {{"time_step", "s", "Time step of the engine"}, [](Packing p) -> Field { return &p.time_step; }},
-        {{"mass", "kg", "Mass of all grains"}, [](Packing p) -> Field { return &p.mass; }},
-        {{"wall_time", "s", "Wall time of the engine"}, [](Packing p) -> Field { return &p.wall_time; }},
+         packing_field([](auto& p) -> auto& { return p.steps_per_cycle; })},
+        {{"time_step", "s", "Time step of the engine"},
+         packing_field([](auto& p) -> auto& { return p.time_step; })},
+        {{"mass", "kg", "Mass of all grains"}, packing_field([](auto& p) -> auto& { return p.mass; })},
+        {{"wall_time", "s", "Wall time of the engine"},
+         packing_field([](auto& p) -> auto& { return p.wall_time; })},
         {{"efficiency", "1", "Velocity efficiency eta, mean over the cycles kept"},
-         [](Packing p) -> Field { return &p.estimate.mean; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.mean; })},
         {{"efficiency_half_width", "1",
           "Half-width of the confidence interval of efficiency, corrected for correlation between cycles"},
-         [](Packing p) -> Field { return &p.estimate.half_width; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.half_width; })},
         {{"cycles_discarded", "1", "Cycles cut as start-up (MSER)"},
-         [](Packing p) -> Field { return &p.estimate.discarded; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.discarded; })},
         {{"cycles_measured", "1", "Cycles kept for the mean"},
-         [](Packing p) -> Field { return &p.estimate.measured; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.measured; })},
         {{"correlation_time", "1",
           "Statistical inefficiency g: that many cycles are worth one independent cycle"},
-         [](Packing p) -> Field { return &p.estimate.correlation_time; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.correlation_time; })},
         {{"verdict", "1", "How well the mean is known: precise, not-precise or not-steady"},
-         [](Packing p) -> Field { return &p.estimate.verdict; }},
-        {{"deck", "1", "The LIGGGHTS deck, in.liggghts"}, [](Packing p) -> Field { return &p.deck; }},
+         packing_field([](auto& p) -> auto& { return p.estimate.verdict; })},
+        {{"deck", "1", "The LIGGGHTS deck, in.liggghts"},
+         packing_field([](auto& p) -> auto& { return p.deck; })},
     };
 }
 
@@ -201,35 +219,35 @@ std::vector<PackingValue> const& packing_values() {
 }
 
 std::vector<PackingSeries> const& packing_series() {
-    using Packing = PackingRecord&;
-    using Series = std::vector<double>&;
     static std::vector<PackingSeries> const series{
         {{"centre_of_mass_x", "m", "Centre of mass along the trough at the end of cycle 0 ... n, unwrapped"},
          SeriesLength::cycle_ends,
-         [](Packing p) -> Series { return p.series.x; }},
+         packing_field([](auto& p) -> auto& { return p.series.x; })},
         {{"centre_of_mass_z", "m", "Centre of mass above the resting trough at the end of cycle 0 ... n"},
          SeriesLength::cycle_ends,
-         [](Packing p) -> Series { return p.series.z; }},
+         packing_field([](auto& p) -> auto& { return p.series.z; })},
         {{"centre_of_mass_velocity_z", "m/s",
           "Velocity of the centre of mass normal to the trough at the end of cycle 0 ... n"},
          SeriesLength::cycle_ends,
-         [](Packing p) -> Series { return p.series.vz; }},
+         packing_field([](auto& p) -> auto& { return p.series.vz; })},
         {{"normal_force", "N",
           "Force of the layer on the trough, normal, cycle mean, positive when pressing"},
          SeriesLength::cycles,
-         [](Packing p) -> Series { return p.series.normal_force; }},
+         packing_field([](auto& p) -> auto& { return p.series.normal_force; })},
         {{"tangential_force", "N", "Force of the layer on the trough along x, cycle mean"},
          SeriesLength::cycles,
-         [](Packing p) -> Series { return p.series.tangential_force; }},
+         packing_field([](auto& p) -> auto& { return p.series.tangential_force; })},
         {{"flight_fraction", "1", "Fraction of the cycle without contact between layer and trough"},
          SeriesLength::cycles,
-         [](Packing p) -> Series { return p.series.flight_fraction; }},
+         packing_field([](auto& p) -> auto& { return p.series.flight_fraction; })},
         {{"mean_velocity", "m/s", "Velocity of the centre of mass along the trough, cycle mean"},
          SeriesLength::cycles,
-         [](Packing p) -> Series { return p.series.mean_velocity; }},
-        {{"efficiency", "1", "Velocity efficiency eta of each cycle"},
-         SeriesLength::cycles,
-         [](Packing p) -> Series { return p.efficiency; }},
+         packing_field([](auto& p) -> auto& { return p.series.mean_velocity; })},
+        {
+            {"efficiency", "1", "Velocity efficiency eta of each cycle"},
+            SeriesLength::cycles,
+            packing_field([](auto& p) -> auto& { return p.efficiency; }),
+        },
     };
     return series;
 }
@@ -265,6 +283,46 @@ measure::Verdict verdict_of(std::string const& name) {
         if (verdict_name(verdict) == name) return verdict;
     }
     throw Hdf5Error("use the verdict '" + name + "', it is unknown");
+}
+
+int to_stored(int value) {
+    return value;
+}
+
+double to_stored(double value) {
+    return value;
+}
+
+double to_stored(std::optional<double> const& value) {
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::string to_stored(std::string const& value) {
+    return value;
+}
+
+std::string to_stored(measure::Verdict value) {
+    return verdict_name(value);
+}
+
+void from_stored(int stored, int& value) {
+    value = stored;
+}
+
+void from_stored(double stored, double& value) {
+    value = stored;
+}
+
+void from_stored(double stored, std::optional<double>& value) {
+    value = std::isfinite(stored) ? std::optional(stored) : std::nullopt;
+}
+
+void from_stored(std::string const& stored, std::string& value) {
+    value = stored;
+}
+
+void from_stored(std::string const& stored, measure::Verdict& value) {
+    value = verdict_of(stored);
 }
 
 }  // namespace vibrotrough::store

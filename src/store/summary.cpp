@@ -3,103 +3,111 @@
 #include "core/error.hpp"
 #include "store/schema.hpp"
 
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
 #include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace vibrotrough::store {
 namespace {
 
-/// Long, and in no table.
+using Json = nlohmann::json;
+
+/// Long, and not a column of any table.
 bool is_long(PackingValue const& value) {
     return value.entry.name == "deck";
 }
 
-template <typename Number>
-requires std::is_arithmetic_v<Number>
-void put(std::string& bytes, Number number) {
-    char raw[sizeof number];
-    std::memcpy(raw, &number, sizeof number);
-    bytes.append(raw, sizeof number);
+Json to_json(int value) {
+    return value;
 }
-void put(std::string& bytes, std::string const& text) {
-    put(bytes, static_cast<std::uint32_t>(text.size()));
-    bytes += text;
+Json to_json(double value) {
+    return value;
 }
-void put(std::string& bytes, measure::Verdict verdict) {
-    put(bytes, static_cast<std::int32_t>(verdict));
+Json to_json(std::optional<double> const& value) {
+    return value ? Json(*value) : Json(nullptr);
 }
-
-std::string_view take(std::string_view& bytes, std::size_t size) {
-    if (bytes.size() < size) throw core::InputError("a summary of results ends too early");
-    std::string_view const part = bytes.substr(0, size);
-    bytes.remove_prefix(size);
-    return part;
+Json to_json(std::string const& value) {
+    return Json::binary({value.begin(), value.end()});  // texts of other machines need not be UTF-8
+}
+Json to_json(measure::Verdict value) {
+    return static_cast<int>(value);
 }
 
-template <typename Number>
-requires std::is_arithmetic_v<Number>
-void get(std::string_view& bytes, Number& number) {
-    std::memcpy(&number, take(bytes, sizeof number).data(), sizeof number);
+void from_json(Json const& json, int& value) {
+    value = json.get<int>();
 }
-void get(std::string_view& bytes, std::string& text) {
-    std::uint32_t size = 0;
-    get(bytes, size);
-    text = std::string(take(bytes, size));
+void from_json(Json const& json, double& value) {
+    value = json.get<double>();
 }
-void get(std::string_view& bytes, measure::Verdict& verdict) {
-    std::int32_t number = 0;
-    get(bytes, number);
-    if (number < 0 || number > static_cast<std::int32_t>(measure::Verdict::not_steady))
-        throw core::InputError("a summary of results holds an unknown verdict");
-    verdict = static_cast<measure::Verdict>(number);
+void from_json(Json const& json, std::optional<double>& value) {
+    value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+void from_json(Json const& json, std::string& value) {
+    auto const& bytes = json.get_binary();
+    value.assign(bytes.begin(), bytes.end());
+}
+void from_json(Json const& json, measure::Verdict& value) {
+    int const number = json.get<int>();
+    if (number < 0 || number > static_cast<int>(measure::Verdict::not_steady))
+        throw core::InputError("a summary of a result holds an unknown verdict");
+    value = static_cast<measure::Verdict>(number);
+}
+
+Json packing_json(PackingRecord const& packing) {
+    Json values = Json::array();
+    for (PackingValue const& value : packing_values()) {
+        if (is_long(value)) continue;
+        std::visit([&](auto const& field) { values.push_back(to_json(field(packing))); }, value.field);
+    }
+    return values;
+}
+
+PackingRecord packing_from(Json const& values) {
+    PackingRecord packing{};
+    std::size_t at = 0;
+    for (PackingValue const& value : packing_values()) {
+        if (is_long(value)) continue;
+        std::visit([&](auto const& field) { from_json(values.at(at++), field(packing)); }, value.field);
+    }
+    return packing;
+}
+
+CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) {
+    CaseRecord record{};
+    record.scenario = scenario;
+    Json const& facts = summary.at(0);
+    std::size_t at = 0;
+    for (CaseFact const& fact : case_facts()) from_json(facts.at(at++), fact.field(record));
+    Json const& estimate = summary.at(1);
+    from_json(estimate.at(0), record.estimate.mean);
+    from_json(estimate.at(1), record.estimate.half_width);
+    from_json(estimate.at(2), record.estimate.packings);
+    for (Json const& packing : summary.at(2)) record.packings.push_back(packing_from(packing));
+    return record;
 }
 
 }  // namespace
 
 CaseRecord summary_of(CaseRecord const& record) {
-    std::string const packed = pack_summary(record);
-    std::string_view bytes = packed;
-    return unpack_summary(bytes, record.scenario);
+    return unpack_summary(pack_summary(record), record.scenario);
 }
 
-std::string pack_summary(CaseRecord const& record) {
-    std::string bytes;
-    // The schema's field functions serve reading too and so take a record that may change; this one does not.
-    auto& same = const_cast<CaseRecord&>(record);
-    for (CaseFact const& fact : case_facts()) put(bytes, fact.field(same));
-    put(bytes, record.estimate.mean);
-    put(bytes, record.estimate.half_width);
-    put(bytes, record.estimate.packings);
-    put(bytes, static_cast<std::uint32_t>(record.packings.size()));
-    for (PackingRecord& packing : same.packings) {
-        for (PackingValue const& value : packing_values()) {
-            if (is_long(value)) continue;
-            std::visit([&](auto* field) { put(bytes, *field); }, value.field(packing));
-        }
-    }
-    return bytes;
+std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
+    Json facts = Json::array(), packings = Json::array();
+    for (CaseFact const& fact : case_facts()) facts.push_back(to_json(fact.field(record)));
+    for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
+    Json estimate = Json::array({to_json(record.estimate.mean), to_json(record.estimate.half_width),
+                                 to_json(record.estimate.packings)});
+    return Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
 }
 
-CaseRecord unpack_summary(std::string_view& bytes, scenario::Scenario const& scenario) {
-    CaseRecord record{};
-    record.scenario = scenario;
-    for (CaseFact const& fact : case_facts()) get(bytes, fact.field(record));
-    get(bytes, record.estimate.mean);
-    get(bytes, record.estimate.half_width);
-    get(bytes, record.estimate.packings);
-    std::uint32_t packings = 0;
-    get(bytes, packings);
-    if (packings > 1000) throw core::InputError("a summary of results has too many packings");
-    record.packings.resize(packings);
-    for (PackingRecord& packing : record.packings) {
-        for (PackingValue const& value : packing_values()) {
-            if (is_long(value)) continue;
-            std::visit([&](auto* field) { get(bytes, *field); }, value.field(packing));
-        }
+CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenario const& scenario) {
+    try {
+        return record_from(Json::from_cbor(bytes.begin(), bytes.end()), scenario);
+    } catch (Json::exception const& error) {
+        throw core::InputError(fmt::format("a summary of a result is damaged ({})", error.what()));
     }
-    return record;
 }
 
 std::string summary_layout() {

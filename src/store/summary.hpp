@@ -2,8 +2,10 @@
 
 #include "store/case_record.hpp"
 
+#include <cstdint>
+#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace vibrotrough::store {
 
@@ -11,14 +13,14 @@ namespace vibrotrough::store {
 /// campaign.h5 is the same from either.
 CaseRecord summary_of(CaseRecord const& record);
 
-/// The summary as bytes, for a cache on this machine: facts, estimate and the packings' values, as schema.hpp
-/// lists them; not the scenario, which the case's id stands for.
-std::string pack_summary(CaseRecord const& record);
+/// The summary as CBOR (RFC 8949), for a cache on this machine: the facts, the estimate and the packings'
+/// values in the order of schema.hpp. The scenario is not in it, because the case's id stands for it.
+std::vector<std::uint8_t> pack_summary(CaseRecord const& record);
 
-/// Reads back what pack_summary wrote and takes it from the front of `bytes`.
+/// Reads back what pack_summary wrote.
 /// @param scenario  of the case
-/// @throws InputError when the bytes end too early or hold nonsense
-CaseRecord unpack_summary(std::string_view& bytes, scenario::Scenario const& scenario);
+/// @throws InputError when the bytes are not exactly one summary
+CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenario const& scenario);
 
 /// Changes whenever pack_summary writes something else than before.
 std::string summary_layout();

@@ -2,7 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/version.hpp"
-#include "store/hdf5_image.hpp"
+#include "store/hdf5_memory_file.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int schema_version = 1;
 
-/// Numbers for the modes that occur, in order of appearance; 0 is no mode.
+/// Numbers for the modes that occur, in order of appearance; 0 stands for "none".
 class ModeIndex {
   public:
     int operator()(theory::ModeCode code) {
@@ -28,14 +28,14 @@ class ModeIndex {
     std::vector<std::string> names_{"none"};
 };
 
-void write_header(ImageWriter& file, std::string const& format) {
+void write_header(Hdf5MemoryFileWriter& file, std::string const& format) {
     file.attribute("format", format);
     file.attribute("schema_version", schema_version);
     file.attribute("program_version", std::string(core::program_version()));
     file.attribute("git_commit", std::string(core::program_commit()));
 }
 
-void write_axis(ImageWriter& file, std::string const& name, theory::MapAxis const& axis) {
+void write_axis(Hdf5MemoryFileWriter& file, std::string const& name, theory::MapAxis const& axis) {
     std::vector<double> values;
     for (int i = 0; i < axis.count; ++i) values.push_back(axis.value(i));
     file.attribute(name + "_name", std::string(theory::name_of(axis.input)));
@@ -43,7 +43,7 @@ void write_axis(ImageWriter& file, std::string const& name, theory::MapAxis cons
                  "Values of the input named by @" + name + "_name");
 }
 
-void write_boundaries(ImageWriter& file, theory::Map const& map, ModeIndex& modes) {
+void write_boundaries(Hdf5MemoryFileWriter& file, theory::Map const& map, ModeIndex& modes) {
     std::vector<double> x0, y0, x1, y1;
     std::vector<int> a, b;
     for (theory::BoundaryPiece const& piece : map.boundaries) {
@@ -75,7 +75,7 @@ std::string units_of(theory::Input input) {
 
 void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
                       theory::Inputs const& fixed) {
-    ImageWriter file;
+    Hdf5MemoryFileWriter file;
     write_header(file, "vibrotrough theory map");
     write_axis(file, "x", map.x);
     write_axis(file, "y", map.y);
@@ -113,7 +113,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
 }
 
 void write_theory_table(std::filesystem::path const& path, std::vector<TheoryColumn> const& columns) {
-    ImageWriter file;
+    Hdf5MemoryFileWriter file;
     write_header(file, "vibrotrough theory table");
     for (TheoryColumn const& column : columns) {
         if (!column.texts.empty()) {

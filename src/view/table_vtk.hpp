@@ -1,19 +1,17 @@
 #pragma once
 
+#include "compare/columns.hpp"
+
 #include <filesystem>
-#include <string>
-#include <variant>
+#include <span>
 #include <vector>
 
 namespace vibrotrough::view {
 
-struct TableColumn {
-    std::string name;
-    std::variant<std::vector<double>, std::vector<std::string>> values;  ///< one for each row; NaN: not known
-};
-
-/// Writes a table for ParaView (.vtt), inline binary, atomically. All columns have the same length.
+/// Writes the columns of `compare` that scripts see as a table for ParaView (.vtt), inline binary,
+/// atomically: numbers as doubles, NaN where they are not known, and texts, empty where they are not known.
 /// @throws MissingError when the disk refuses
-void write_table(std::filesystem::path const& path, std::vector<TableColumn> const& columns);
+void write_table(std::filesystem::path const& path, std::vector<compare::Row> const& rows,
+                 std::span<compare::Column const> columns = compare::all_columns());
 
 }  // namespace vibrotrough::view

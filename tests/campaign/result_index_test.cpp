@@ -7,6 +7,8 @@
 #include "store/sample_record.hpp"
 #include "store/summary.hpp"
 
+#include <cmath>
+
 namespace vibrotrough::campaign {
 namespace {
 
@@ -69,16 +71,39 @@ TEST_F(ResultIndexTest, ADamagedIndexIsMadeAnew) {
     }
 }
 
+TEST_F(ResultIndexTest, AChangedByteIsNoticed) {
+    look();
+    fs::path const file = folder / ".index";
+    std::string const whole = core::read_file(file);
+    for (std::size_t position = 0; position < whole.size(); position += 7) {
+        std::string damaged = whole;
+        damaged[position] = static_cast<char>(damaged[position] ^ 0x15);
+        overwrite(file, damaged);
+        EXPECT_TRUE(look().second) << position;
+        ASSERT_EQ(core::read_file(file), whole);
+    }
+}
+
 TEST(Summary, EndsTooEarlyAnywhere) {
     auto const record = store::sample_record("0123456789ab");
-    std::string const bytes = store::pack_summary(record);
-    for (std::size_t size = 0; size < bytes.size(); ++size) {
-        std::string_view part(bytes.data(), size);
-        EXPECT_THROW(store::unpack_summary(part, record.scenario), core::InputError) << size;
-    }
-    std::string_view all = bytes;
-    EXPECT_EQ(store::pack_summary(store::unpack_summary(all, record.scenario)), bytes);
-    EXPECT_TRUE(all.empty());
+    std::vector<std::uint8_t> const bytes = store::pack_summary(record);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_THROW(store::unpack_summary({bytes.data(), size}, record.scenario), core::InputError) << size;
+    EXPECT_EQ(store::pack_summary(store::unpack_summary(bytes, record.scenario)), bytes);
+}
+
+TEST(Summary, KeepsWhatIsNotKnown) {
+    auto record = store::sample_record("0123456789ab");
+    record.estimate.mean.reset();
+    record.estimate.half_width.reset();
+    record.packings[0].motion.landing_phase.reset();
+    record.packings[0].estimate.half_width = INFINITY;
+    record.provenance.host = "t\xFFrough";
+    store::CaseRecord const read = store::summary_of(record);
+    EXPECT_FALSE(read.estimate.mean || read.estimate.half_width || read.packings[0].motion.landing_phase);
+    EXPECT_EQ(read.packings[0].estimate.half_width, INFINITY);
+    EXPECT_EQ(read.packings[1].motion.landing_phase, record.packings[1].motion.landing_phase);
+    EXPECT_EQ(read.provenance.host, record.provenance.host);
 }
 
 }  // namespace

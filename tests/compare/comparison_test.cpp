@@ -6,7 +6,6 @@
 #include "theory/quantities.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -136,7 +135,7 @@ TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
 
 TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
     store::CaseRecord unknown = record;
-    unknown.estimate.half_width = std::numeric_limits<double>::infinity();
+    unknown.estimate.half_width.reset();
     Row const row = compare("", prepare::prepare_case(record.scenario), unknown, "");
     EXPECT_EQ(row.efficiency_dem, 0.82);
     EXPECT_FALSE(row.efficiency_dem_half_width);

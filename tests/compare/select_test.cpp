@@ -65,14 +65,14 @@ TEST(Filter, SaysWhatIsWrong) {
     };
     EXPECT_NE(said("gamma>1").find("there is no column 'gamma'; the columns are case, throw_number,"),
               std::string::npos);
-    EXPECT_NE(said("throw_number").find("is no condition; write a column"), std::string::npos);
-    EXPECT_NE(said("throw_number>").find("is no condition"), std::string::npos);
-    EXPECT_NE(said("throw_number=>1").find("is no condition"), std::string::npos);
-    EXPECT_NE(said("").find("is no condition"), std::string::npos);
+    EXPECT_NE(said("throw_number").find("is not a condition; write a column"), std::string::npos);
+    EXPECT_NE(said("throw_number>").find("is not a condition"), std::string::npos);
+    EXPECT_NE(said("throw_number=>1").find("is not a condition"), std::string::npos);
+    EXPECT_NE(said("").find("is not a condition"), std::string::npos);
     EXPECT_NE(said(">1").find("there is no column ''"), std::string::npos);
     for (char const* value :
          {"throw_number>high", "throw_number>1.5x", "throw_number>nan", "throw_number>1e999"})
-        EXPECT_NE(said(value).find("is no number"), std::string::npos) << value;
+        EXPECT_NE(said(value).find("is not a number"), std::string::npos) << value;
     EXPECT_NE(said("outcome>finished").find("'outcome' is a text; compare it with = or !="),
               std::string::npos);
     EXPECT_EQ(said("a\nb>1").find('\n'), std::string::npos) << "one line";

@@ -49,8 +49,8 @@ TEST_F(Assemble, MeasuresWhatTheCyclesSay) {
     EXPECT_EQ(estimate.discarded, 0);
     EXPECT_EQ(estimate.verdict, measure::Verdict::precise);
     // The case: mean of the means, and t_1 = 12.706 of their deviation 0.0707 over sqrt(2).
-    EXPECT_NEAR(record.estimate.mean, 0.55, 1e-12);
-    EXPECT_NEAR(record.estimate.half_width, 12.706 * 0.1 / 2, 1e-4);
+    EXPECT_NEAR(record.estimate.mean.value(), 0.55, 1e-12);
+    EXPECT_NEAR(record.estimate.half_width.value(), 12.706 * 0.1 / 2, 1e-4);
     EXPECT_EQ(record.estimate.packings, 2);
 }
 
@@ -83,7 +83,7 @@ TEST_F(Assemble, SaysWhenTheMeanIsNotPrecise) {
     EXPECT_EQ(record.packings[1].series.cycles(), 60);
     EXPECT_GT(record.packings[1].estimate.half_width, scenario.measure.half_width);
     // The case cannot be better known than its worst packing.
-    EXPECT_GE(record.estimate.half_width, record.packings[1].estimate.half_width);
+    EXPECT_GE(record.estimate.half_width.value(), record.packings[1].estimate.half_width);
 }
 
 TEST_F(Assemble, NotSteadyOutweighsNotPrecise) {
@@ -124,7 +124,7 @@ TEST_F(Assemble, MeasuresTheLayer) {
     store::CaseRecord const record = assembled();
     EXPECT_EQ(record.layer_mode, "P");
     EXPECT_EQ(record.packings[1].motion.mode, "P");
-    EXPECT_NEAR(record.packings[0].motion.friction_ratio, 0.01 / 0.09, 1e-12);
+    EXPECT_NEAR(record.packings[0].motion.friction_ratio.value(), 0.01 / 0.09, 1e-12);
     EXPECT_EQ(record.packings[0].motion.curves.phase.size(), 100u);
     EXPECT_EQ(record.packings[0].motion.largest_overlap, 2e-6);
     EXPECT_EQ(record.packings[0].profiles.solid_fraction,

@@ -154,7 +154,7 @@ TEST(Estimate, IntervalOverPackingsCoversTheTruthAlsoWhenCyclesWander) {
                 packings.push_back(estimate_sequentially(values, {0.95, 0.03}).estimate);
             }
             auto const combined = combine(packings, 0.95);
-            if (std::abs(combined.mean - 0.8) <= combined.half_width) ++covered;
+            if (std::abs(combined.mean.value() - 0.8) <= combined.half_width.value()) ++covered;
         }
         EXPECT_GE(covered / 200.0, 0.95) << rho;
     }
@@ -168,8 +168,9 @@ PackingEstimate packing(double mean, double half_width) {
 TEST(Estimate, CombinesPackingsByTheirScatter) {
     std::vector const three{packing(0.80, 0.003), packing(0.81, 0.004), packing(0.82, 0.003)};
     auto const combined = combine(three, 0.95);
-    EXPECT_NEAR(combined.mean, 0.81, 1e-12);
-    EXPECT_NEAR(combined.half_width, 4.302653 * 0.01 / std::sqrt(3.0), 1e-8);  // the table has 7 digits
+    EXPECT_NEAR(combined.mean.value(), 0.81, 1e-12);
+    EXPECT_NEAR(combined.half_width.value(), 4.302653 * 0.01 / std::sqrt(3.0),
+                1e-8);  // the table has 7 digits
     EXPECT_EQ(combined.packings, 3);
 }
 
@@ -179,6 +180,15 @@ TEST(Estimate, AgreementByLuckDoesNotNarrowTheInterval) {
     std::vector const one{packing(0.8, 0.02)};
     EXPECT_EQ(combine(one, 0.95).half_width, 0.02);
     EXPECT_THROW(combine({}, 0.95), std::invalid_argument);
+}
+
+TEST(Estimate, AnUnboundedIntervalHasNoHalfWidth) {
+    double const unbounded = std::numeric_limits<double>::infinity();
+    std::vector const some{packing(0.8, 0.02), packing(0.7, unbounded)};
+    EXPECT_NEAR(combine(some, 0.95).mean.value(), 0.75, 1e-12);
+    EXPECT_FALSE(combine(some, 0.95).half_width);
+    std::vector const empty{packing(std::numeric_limits<double>::quiet_NaN(), unbounded)};
+    EXPECT_FALSE(combine(empty, 0.95).mean);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 """Draws all figures of the sample and writes its report with hostile texts; then headless Chromium opens it: it renders,
 sorts on a click, says no error on the console and asks the network for nothing.
 
-usage: check_report.py SCRIPTS SAMPLE WORK; exits with 77 when Chromium is not installed
+usage: check_report.py SCRIPTS SAMPLE COLUMNS WORK; exits with 77 when Chromium is not installed
+COLUMNS is the program that prints the columns as campaign.json describes them.
 """
 
 import html
@@ -33,7 +34,7 @@ PROBE = """<script>
 </script>"""
 
 
-def make_campaign(sample, work):
+def make_campaign(sample, columns, work):
     """The sample as a campaign's folder, with what the program writes for the figures."""
     folder = work / "campaign"
     shutil.rmtree(folder, ignore_errors=True)
@@ -46,14 +47,14 @@ def make_campaign(sample, work):
     row = {"throw_number": 2.1, "machine_number": 4.4, "vibration_angle_deg": 28.6479, "inclination_deg": -2.86, "friction": 0.23,
            "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency_dem": 0.82, "efficiency_dem_half_width": 0.127,
            "speed_dem_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
-           "wall_s": 23.75, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
+           "wall_s": 23.75, "difference": 0.27, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
     cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory)
              for number, (case, theory) in enumerate(CASES.items())]
     failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency_dem=None,
                   efficiency_dem_half_width=None, efficiency_theory=0.1)
     (data / "campaign.json").write_text(json.dumps({
         "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
-        "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "cases": [*cases, failed]}), encoding="utf-8")
+        "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "cases": [*cases, failed]}), encoding="utf-8")
     (data / "theory_curves.csv").write_text(
         "throw_number,vibration_angle_deg,velocity_efficiency\n2.0,28.6479,0.5\n3.5,28.6479,0.7\n", encoding="utf-8")
     (folder / "certificate.json").write_text(json.dumps({"engine": HOSTILE, "passed": True, "checks": [
@@ -90,6 +91,9 @@ def check_page(page):
     assert not outside, f"asks for {outside}"
     assert page.count("<svg") == len(re.findall(r"<figcaption", page)) >= 4
     assert "lost-grains" in words.text and "restitution" in words.text
+    assert "\u03b7, theory" in words.text and "+0.270" in words.text and "friction_layer" not in page, "columns of the table"
+    assert 'title="Velocity efficiency' in page, "a heading says what it means"
+    assert "\u03b1 = -2.86\u00b0" in words.text, "what is the same in all cases is said once"
     names = re.findall(r'\bid="(figure\d+-[^"]+)"', page)
     assert len(names) > 50 and not re.search(r'url\(#(?!figure\d)', page)
 
@@ -115,9 +119,9 @@ def check_in_browser(browser, report, work):
     assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 20000
 
 
-def main(scripts, sample, work):
+def main(scripts, sample, columns, work):
     scripts, sample, work = pathlib.Path(scripts), pathlib.Path(sample), pathlib.Path(work).resolve()
-    folder = make_campaign(sample, work)
+    folder = make_campaign(sample, json.loads(subprocess.run([columns], capture_output=True, check=True).stdout), work)
     drawn = run_script(scripts, "figures.py", folder)
     assert {path.name for path in drawn} >= {
         f"{name}.{kind}" for kind in ("svg", "png")
@@ -145,6 +149,6 @@ def main(scripts, sample, work):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 5:
         sys.exit(__doc__)
     main(*sys.argv[1:])

@@ -3,8 +3,6 @@
 #include "store/case_record.hpp"
 #include "store/schema.hpp"
 
-#include <limits>
-
 namespace vibrotrough::store {
 
 /// Columns of `length` values that differ from one another and from packing to packing.
@@ -17,7 +15,6 @@ inline void fill_layer(PackingRecord& packing, double first) {
     packing.motion.restitution = 0.0625;
     packing.motion.dissipation = 0.001 + first / 1024;
     packing.motion.floor_slip = 0.03;
-    packing.motion.friction_ratio = std::numeric_limits<double>::quiet_NaN();
     packing.motion.largest_overlap = 3e-5 * (1 + first);
     packing.motion.largest_floor_overlap = 2e-5;
     packing.profiles.velocity_gradient = -0.01;

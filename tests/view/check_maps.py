@@ -30,7 +30,7 @@ def main(folder):
     source, found = open_file(folder, "campaign.vtt")
     assert found.GetNumberOfRows() == 3
     table = servermanager.Fetch(source)
-    numbers, names = table.GetColumnByName("throw_number"), table.GetColumnByName("case")
+    numbers, names = table.GetColumnByName("efficiency_theory"), table.GetColumnByName("case")
     assert [numbers.GetValue(row) for row in (0, 1)] == [1.5, 2.0] and math.isnan(numbers.GetValue(2))
     assert [names.GetValue(row) for row in range(3)] == ["a", "b", "c"]
     print("map, modes and table open")

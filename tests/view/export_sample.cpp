@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <limits>
 #include <numbers>
 
 namespace {
@@ -64,10 +63,11 @@ void export_maps(fs::path const& folder) {
                                               {theory::Input::vibration_angle_deg, 10, 50, 5}, {.jobs = 1});
     view::write_theory_image(folder / "map.vti", map);
     view::write_theory_boundaries(folder / "modes.vtp", map);
-    view::write_table(
-        folder / "campaign.vtt",
-        {{"case", std::vector<std::string>{"a", "b", "c"}},
-         {"throw_number", std::vector<double>{1.5, 2.0, std::numeric_limits<double>::quiet_NaN()}}});
+    std::vector<compare::Row> rows(3);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].id = std::string(1, "abc"[i]);
+    rows[0].efficiency_theory = 1.5;
+    rows[1].efficiency_theory = 2.0;
+    view::write_table(folder / "campaign.vtt", rows);
 }
 
 }  // namespace

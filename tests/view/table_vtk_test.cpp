@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,25 +18,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+compare::Row row_of(std::string const& id, double throw_number) {
+    compare::Row row{};
+    row.id = id;
+    row.throw_number = throw_number;
+    return row;
+}
+
 TEST(Table, IsReadBackByVtk) {
     fs::path const path = fs::path(testing::TempDir()) / ("table_" + std::to_string(::getpid()) + ".vtt");
-    double constexpr unknown = std::numeric_limits<double>::quiet_NaN();
-    write_table(path, {{"case", std::vector<std::string>{"a", "b \xCE\xB2", ""}},
-                       {"throw_number", std::vector<double>{1.7, 1e-300, unknown}}});
+    std::vector<compare::Row> rows{row_of("a", 1.7), row_of("b \xCE\xB2", 1e-300), row_of("", 2)};
+    rows[1].mode_layer = "FP'N";
+    rows[1].packings = 3;
+    rows[1].efficiency_dem = 0.5;
+    write_table(path, rows);
     EXPECT_EQ(core::read_file(path).find("<AppendedData"), std::string::npos);
     vtkNew<vtkXMLTableReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
     vtkTable& table = *reader->GetOutput();
     ASSERT_EQ(table.GetNumberOfRows(), 3);
-    ASSERT_EQ(table.GetNumberOfColumns(), 2);
+    EXPECT_EQ(table.GetColumnByName("difference"), nullptr) << "the columns are those of the JSON";
     auto const* const numbers = vtkDoubleArray::SafeDownCast(table.GetColumnByName("throw_number"));
     auto* const texts = vtkStringArray::SafeDownCast(table.GetColumnByName("case"));
     ASSERT_NE(numbers, nullptr);
     ASSERT_NE(texts, nullptr);
     EXPECT_EQ(numbers->GetValue(0), 1.7);
     EXPECT_EQ(numbers->GetValue(1), 1e-300);
-    EXPECT_TRUE(std::isnan(numbers->GetValue(2)));
+    auto const* const efficiencies = vtkDoubleArray::SafeDownCast(table.GetColumnByName("efficiency_dem"));
+    auto const* const packings = vtkDoubleArray::SafeDownCast(table.GetColumnByName("packings"));
+    auto* const modes = vtkStringArray::SafeDownCast(table.GetColumnByName("mode_layer"));
+    ASSERT_TRUE(efficiencies != nullptr && packings != nullptr && modes != nullptr);
+    EXPECT_EQ(efficiencies->GetValue(1), 0.5);
+    EXPECT_EQ(packings->GetValue(1), 3);
+    EXPECT_EQ(modes->GetValue(1), "FP'N");
+    EXPECT_TRUE(std::isnan(efficiencies->GetValue(0)) && std::isnan(packings->GetValue(0))) << "not known";
+    EXPECT_EQ(modes->GetValue(0), "") << "not known";
     EXPECT_EQ(texts->GetValue(1), "b \xCE\xB2");
     EXPECT_EQ(texts->GetValue(2), "");
     fs::remove(path);
@@ -45,7 +61,7 @@ TEST(Table, IsReadBackByVtk) {
 
 TEST(Table, OfNoRowOpens) {
     fs::path const path = fs::path(testing::TempDir()) / ("no_row_" + std::to_string(::getpid()) + ".vtt");
-    write_table(path, {{"throw_number", std::vector<double>{}}});
+    write_table(path, {});
     vtkNew<vtkXMLTableReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();

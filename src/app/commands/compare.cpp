@@ -1,9 +1,11 @@
 #include "app/commands.hpp"
-#include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "compare/comparison.hpp"
+#include "compare/compared_cases.hpp"
+#include "compare/exports.hpp"
 #include "compare/select.hpp"
+#include "compare/table.hpp"
 
 #include <cstdlib>
 #include <memory>
@@ -41,7 +43,7 @@ compare::TableStyle style_for(std::string const& colour) {
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    std::vector<compare::Row> rows = compared_cases(plan).rows;
+    std::vector<compare::Row> rows = compare::compared_cases(plan, campaign::activity_in(plan.folder)).rows;
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort);
     if (options.json) {

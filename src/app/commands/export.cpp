@@ -1,9 +1,9 @@
 #include "app/commands.hpp"
-#include "app/compared_cases.hpp"
 #include "app/exit_code.hpp"
 #include "app/point_mass.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "compare/select.hpp"
+#include "compare/compared_cases.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
@@ -11,16 +11,13 @@
 #include "view/table_vtk.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace vibrotrough::app {
@@ -34,38 +31,11 @@ struct Options {
     bool table = false;
 };
 
-/// The rows of `compare` as columns; what is not known is an empty text or NaN.
-std::vector<view::TableColumn> columns_of(std::vector<compare::Row> const& rows) {
-    using Json = nlohmann::ordered_json;
-    Json const list = Json::parse(compare::to_json(rows));
-    Json const names = Json::parse(compare::to_json({compare::Row{}})).at(0);
-    std::vector<view::TableColumn> columns;
-    for (auto const& [name, unused] : names.items()) {
-        std::vector<std::string> texts;
-        std::vector<double> numbers;
-        for (Json const& row : list) {
-            Json const& value = row.at(name);
-            if (compare::is_text_column(name)) {
-                texts.push_back(value.is_null() ? "" : value.get<std::string>());
-            } else {
-                numbers.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                                  : value.get<double>());
-            }
-        }
-        if (compare::is_text_column(name)) {
-            columns.push_back({name, std::move(texts)});
-        } else {
-            columns.push_back({name, std::move(numbers)});
-        }
-    }
-    return columns;
-}
-
 /// Writes the campaign's table for ParaView and returns its path.
 fs::path export_table(campaign::Plan const& plan) {
     fs::path const path = plan.folder / "view" / "campaign.vtt";
     core::make_folder(path.parent_path());
-    view::write_table(path, columns_of(compared_cases(plan).rows));
+    view::write_table(path, compare::compared_cases(plan, campaign::activity_in(plan.folder)).rows);
     return fs::absolute(path).lexically_normal();
 }
 

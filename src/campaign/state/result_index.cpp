@@ -6,34 +6,24 @@
 #include "core/hash.hpp"
 #include "store/summary.hpp"
 
-#include <cstring>
+#include <utility>
 
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 namespace vibrotrough::campaign {
 namespace {
 
-constexpr std::size_t id_length = 12;
-constexpr std::size_t digest_length = 64;
+using Json = nlohmann::json;
 
-std::string head() {
-    return "vibrotrough index " + store::summary_layout() + "\n";
+/// The file is CBOR of {"layout": text, "sha256": of the entries, "entries": bytes}. The bytes are CBOR of
+/// one [case id, size, time, inode, summary] per result.
+std::string layout() {
+    return "vibrotrough index 2 " + store::summary_layout();
 }
 
-template <typename Number>
-void put(std::string& bytes, Number number) {
-    char raw[sizeof number];
-    std::memcpy(raw, &number, sizeof number);
-    bytes.append(raw, sizeof number);
-}
-
-template <typename Number>
-Number take(std::string_view& bytes) {
-    Number number{};
-    if (bytes.size() < sizeof number) throw core::InputError("the index ends too early");
-    std::memcpy(&number, bytes.data(), sizeof number);
-    bytes.remove_prefix(sizeof number);
-    return number;
+std::string digest_of(Json::binary_t const& bytes) {
+    return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -42,30 +32,21 @@ ResultIndex::ResultIndex(Plan const& plan) : file_(plan.folder / ".index") {
     try {
         load();
     } catch (core::Error const&) {
-        entries_.clear();  // none, of another version, or damaged: made anew
+        entries_.clear();  // There is no such file.
+    } catch (Json::exception const&) {
+        entries_.clear();  // It is damaged, or of another version.
     }
 }
 
 void ResultIndex::load() {
-    std::string const content = core::read_file(file_);
-    std::string const start = head();
-    if (content.size() < start.size() + digest_length || !content.starts_with(start)) return;
-    std::string_view bytes(content);
-    std::string_view const digest = bytes.substr(bytes.size() - digest_length);
-    bytes.remove_suffix(digest_length);
-    if (core::sha256_hex(bytes) != digest) return;
-    bytes.remove_prefix(start.size());
-    while (!bytes.empty()) {
-        if (bytes.size() < id_length) throw core::InputError("the index ends too early");
-        std::string const id(bytes.substr(0, id_length));
-        bytes.remove_prefix(id_length);
-        Entry entry{};
-        entry.stamp = {take<std::int64_t>(bytes), take<std::int64_t>(bytes), take<std::int64_t>(bytes)};
-        auto const size = take<std::uint32_t>(bytes);
-        if (bytes.size() < size) throw core::InputError("the index ends too early");
-        entry.summary = std::string(bytes.substr(0, size));
-        bytes.remove_prefix(size);
-        entries_.emplace(id, std::move(entry));
+    Json const file = Json::from_cbor(core::read_file(file_));
+    auto const& bytes = file.at("entries").get_binary();
+    if (file.at("layout") != layout() || file.at("sha256") != digest_of(bytes)) return;
+    Json entries = Json::from_cbor(bytes.begin(), bytes.end());
+    for (Json& one : entries) {
+        Stamp const stamp{one.at(1).get<std::int64_t>(), one.at(2).get<std::int64_t>(),
+                          one.at(3).get<std::int64_t>()};
+        entries_.emplace(one.at(0).get<std::string>(), Entry{stamp, std::move(one.at(4).get_binary())});
     }
 }
 
@@ -82,10 +63,9 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     auto const found = entries_.find(planned.id);
     if (found != entries_.end() && found->second.stamp == *stamp) {
         try {
-            std::string_view bytes = found->second.summary;
-            return store::unpack_summary(bytes, planned.scenario());
+            return store::unpack_summary(found->second.summary, planned.scenario());
         } catch (core::InputError const&) {
-            // As good as not there.
+            // The same as if it were not there.
         }
     }
     auto const record = read_whole_result(planned);
@@ -93,8 +73,7 @@ std::optional<store::CaseRecord> ResultIndex::find(PlannedCase const& planned) {
     Entry& entry = entries_[planned.id];
     entry = {*stamp, store::pack_summary(*record)};
     changed_ = true;
-    std::string_view bytes = entry.summary;
-    return store::unpack_summary(bytes, planned.scenario());
+    return store::unpack_summary(entry.summary, planned.scenario());
 }
 
 void ResultIndex::remember(PlannedCase const& planned, store::CaseRecord const& record) {
@@ -106,21 +85,20 @@ void ResultIndex::remember(PlannedCase const& planned, store::CaseRecord const& 
 
 void ResultIndex::save() {
     if (!changed_) return;
-    std::string bytes = head();
+    Json entries = Json::array();
     for (auto const& [id, entry] : entries_) {
-        if (id.size() != id_length) continue;
-        bytes += id;
-        put(bytes, entry.stamp.size);
-        put(bytes, entry.stamp.time);
-        put(bytes, entry.stamp.inode);
-        put(bytes, static_cast<std::uint32_t>(entry.summary.size()));
-        bytes += entry.summary;
+        auto const& [size, time, inode] = entry.stamp;
+        entries.push_back({id, size, time, inode, Json::binary(entry.summary)});
     }
-    bytes += core::sha256_hex(bytes);
+    Json::binary_t bytes(Json::to_cbor(entries));
+    std::string const digest = digest_of(bytes);
+    std::vector<std::uint8_t> const file =
+        Json::to_cbor({{"layout", layout()}, {"sha256", digest}, {"entries", std::move(bytes)}});
     try {
-        core::write_file_atomically(file_, bytes);
+        core::write_file_atomically(file_, {reinterpret_cast<char const*>(file.data()), file.size()});
         changed_ = false;
     } catch (core::MissingError const&) {
+        // The folder may only be read.
     }
 }
 

@@ -8,12 +8,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vibrotrough::campaign {
 
 /// The summaries of a campaign's results, so that thousands need not be read whole at every look. A cache
 /// beside the results, DIR/.index: an entry counts only while size, time and inode of its result.h5 are what
-/// they were when that file was read whole or written. It may be deleted at any time.
+/// they were when that file was read whole or written. A file that is damaged or of another version of the
+/// program is made anew. It may be deleted at any time.
 class ResultIndex {
   public:
     explicit ResultIndex(Plan const& plan);
@@ -27,7 +29,7 @@ class ResultIndex {
     /// Whether results were read that the file did not know.
     bool has_changed() const { return changed_; }
 
-    /// Writes the file when it has changed; a folder that may only be read keeps its old one.
+    /// Writes the file when it has changed. A folder that may only be read keeps its old one.
     void save();
 
   private:
@@ -37,7 +39,7 @@ class ResultIndex {
     };
     struct Entry {
         Stamp stamp;
-        std::string summary;
+        std::vector<std::uint8_t> summary;  ///< store::pack_summary
     };
     static std::optional<Stamp> stamp_of(std::filesystem::path const& file);
     void load();

@@ -22,7 +22,7 @@ class Hdf5Error : public std::runtime_error {
 using Values = std::variant<std::vector<int>, std::vector<double>, std::vector<std::string>>;
 
 /// One column of a table.
-struct Column {
+struct Hdf5Column {
     std::string_view name;
     std::string_view units;
     std::string_view description;
@@ -35,17 +35,17 @@ enum class Rank {
 };
 
 /// An HDF5 handle that closes itself.
-class Handle {
+class Hdf5Handle {
   public:
     using Close = herr_t (*)(hid_t);
 
-    /// @throws Hdf5Error "cannot <action>" when `id` is no valid handle
-    Handle(hid_t id, Close closer, std::string const& action);
-    Handle(Handle const&) = delete;
-    Handle& operator=(Handle const&) = delete;
-    Handle(Handle&& other) noexcept;
-    Handle& operator=(Handle&&) = delete;
-    ~Handle();
+    /// @throws Hdf5Error "cannot <action>" when `id` is not a valid handle
+    Hdf5Handle(hid_t id, Close closer, std::string const& action);
+    Hdf5Handle(Hdf5Handle const&) = delete;
+    Hdf5Handle& operator=(Hdf5Handle const&) = delete;
+    Hdf5Handle(Hdf5Handle&& other) noexcept;
+    Hdf5Handle& operator=(Hdf5Handle&&) = delete;
+    ~Hdf5Handle();
     hid_t id() const { return id_; }
 
   private:
@@ -54,15 +54,16 @@ class Handle {
 };
 
 /// What all datasets and attributes of a file are made with.
-struct Makings {
-    Makings();
-    Handle text;       ///< type of attributes
-    Handle one;        ///< shape of one value
-    Handle in_groups;  ///< link properties: groups are made on the way
-    Handle timeless;   ///< dataset properties: same values, same bytes
+struct Hdf5CreationProperties {
+    Hdf5CreationProperties();
+    Hdf5Handle text_type;            ///< of attributes
+    Hdf5Handle scalar_space;         ///< shape of a single value
+    Hdf5Handle with_parent_groups;   ///< link properties: missing groups are made on the way
+    Hdf5Handle without_time_stamps;  ///< dataset properties: the same values always give the same bytes
 };
 
-/// One thread at a time is inside HDF5, whose usual builds are not thread-safe; its own error print is off.
+/// Lets one thread at a time use HDF5, whose usual builds are not thread-safe, and switches off the messages
+/// that HDF5 itself prints about errors.
 class Hdf5Session {
   public:
     Hdf5Session();
@@ -71,10 +72,11 @@ class Hdf5Session {
     std::lock_guard<std::mutex> lock_;
 };
 
-/// Makes an HDF5 file in memory, so that a refusing disk is met by a plain write and not inside HDF5.
-class ImageWriter {
+/// Makes an HDF5 file in memory. The bytes are then written like those of any other file, so that a full disk
+/// is an ordinary error and not one inside HDF5.
+class Hdf5MemoryFileWriter {
   public:
-    ImageWriter();
+    Hdf5MemoryFileWriter();
     void attribute(std::string const& name, int value);
     void attribute(std::string const& name, std::string const& value);
 
@@ -84,7 +86,7 @@ class ImageWriter {
 
     /// Writes a table: one dataset of compound type, a field per column, with the attributes `units` and
     /// `description`, a text for each field in order.
-    void table(std::string const& path, std::vector<Column> const& columns, Rank rank);
+    void table(std::string const& path, std::vector<Hdf5Column> const& columns, Rank rank);
 
     /// Writes numbers of one kind in two dimensions, row by row, and the attributes of dataset().
     void grid(std::string const& path, Values const& values, std::size_t rows, std::size_t columns,
@@ -95,19 +97,19 @@ class ImageWriter {
     std::string bytes() const;
 
   private:
-    void write(std::string const& path, Values const& values, Handle const& space, std::string_view units,
+    void write(std::string const& path, Values const& values, Hdf5Handle const& space, std::string_view units,
                std::string_view description);
 
     Hdf5Session session_;
-    Makings makings_;
-    Handle file_;
+    Hdf5CreationProperties properties_;
+    Hdf5Handle file_;
 };
 
 /// A table that was read. Every function throws Hdf5Error when the column is missing or of another kind.
-class ImageTable {
+class Hdf5Table {
   public:
     /// @param limit  bytes; the table must not claim more
-    ImageTable(hid_t file, std::string const& path, Rank rank, std::size_t limit);
+    Hdf5Table(hid_t file, std::string const& path, Rank rank, std::size_t limit);
     std::size_t rows() const { return rows_; }
 
     /// Values of a column: int, double or std::string.
@@ -122,7 +124,7 @@ class ImageTable {
     Place find(std::string const& name, H5T_class_t kind) const;
 
     std::string path_;
-    Handle data_, type_;
+    Hdf5Handle data_, type_;
     std::size_t rows_ = 0;
     std::size_t row_size_ = 0;
     std::string bytes_;
@@ -130,16 +132,16 @@ class ImageTable {
 
 /// Reads an HDF5 file from memory. Every function throws Hdf5Error when the object is missing or of another
 /// kind.
-class ImageReader {
+class Hdf5MemoryFileReader {
   public:
-    /// @throws Hdf5Error when the bytes are not as ImageWriter gave them
-    explicit ImageReader(std::string bytes);
+    /// @throws Hdf5Error when the bytes are not as Hdf5MemoryFileWriter gave them
+    explicit Hdf5MemoryFileReader(std::string bytes);
     bool has_attribute(std::string const& name) const;
     int integer_attribute(std::string const& name) const;
     std::string text_attribute(std::string const& name) const;
 
-    ImageTable table(std::string const& path, Rank rank) const {
-        return ImageTable(file_.id(), path, rank, size_);
+    Hdf5Table table(std::string const& path, Rank rank) const {
+        return Hdf5Table(file_.id(), path, rank, size_);
     }
 
     /// Values of a dataset: int, double or std::string.
@@ -149,21 +151,21 @@ class ImageReader {
   private:
     Hdf5Session session_;
     std::size_t size_;  ///< of the file, no dataset may claim more
-    Handle file_;
+    Hdf5Handle file_;
 };
 
 template <>
-std::vector<int> ImageReader::values(std::string const& path, Rank rank) const;
+std::vector<int> Hdf5MemoryFileReader::values(std::string const& path, Rank rank) const;
 template <>
-std::vector<double> ImageReader::values(std::string const& path, Rank rank) const;
+std::vector<double> Hdf5MemoryFileReader::values(std::string const& path, Rank rank) const;
 template <>
-std::vector<std::string> ImageReader::values(std::string const& path, Rank rank) const;
+std::vector<std::string> Hdf5MemoryFileReader::values(std::string const& path, Rank rank) const;
 
 template <>
-std::vector<int> ImageTable::values(std::string const& name) const;
+std::vector<int> Hdf5Table::values(std::string const& name) const;
 template <>
-std::vector<double> ImageTable::values(std::string const& name) const;
+std::vector<double> Hdf5Table::values(std::string const& name) const;
 template <>
-std::vector<std::string> ImageTable::values(std::string const& name) const;
+std::vector<std::string> Hdf5Table::values(std::string const& name) const;
 
 }  // namespace vibrotrough::store

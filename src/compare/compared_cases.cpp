@@ -1,0 +1,38 @@
+#include "compare/compared_cases.hpp"
+
+#include "campaign/state/friction_results.hpp"
+#include "compare/exports.hpp"
+#include "scenario/reader/shake_test.hpp"
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::compare {
+
+ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity) {
+    auto const tests = campaign::read_friction(plan.folder);
+    ComparedCases found{.cases = campaign::survey(plan, activity), .rows = {}};
+    for (campaign::CaseOverview const& one : found.cases) {
+        std::optional<MeasuredFriction> friction;
+        if (auto const test = tests.find(layer_key(one.planned->scenario())); test != tests.end())
+            friction = {*test->second.friction, *test->second.low, *test->second.high};
+        found.rows.push_back(
+            compare(one.planned->id, *one.planned->prepared, one.record, std::string(one.label()), friction));
+    }
+    return found;
+}
+
+nlohmann::ordered_json case_list(ComparedCases const& compared, std::span<Column const> columns) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < compared.rows.size(); ++i) {
+        nlohmann::ordered_json object = to_object(compared.rows[i], columns);
+        object["message"] = compared.cases[i].message;
+        object["packings_done"] = compared.cases[i].packings_done;
+        object["packings_wanted"] = compared.cases[i].planned->scenario().measure.packings;
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+}  // namespace vibrotrough::compare

@@ -1,0 +1,106 @@
+#include "compare/exports.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(std::optional<Value> const& value) {
+    if (!value) return nullptr;
+    return std::visit([](auto const& known) { return Json(known); }, *value);
+}
+
+std::string csv_field(std::optional<Value> const& value) {
+    if (!value) return {};
+    if (auto const* const text = std::get_if<std::string>(&*value)) return *text;  // never has comma or quote
+    return json_of(value).dump();
+}
+
+std::string_view name_of(ColumnType type) {
+    constexpr std::array<std::string_view, 3> names{"number", "integer", "text"};
+    return names.at(static_cast<std::size_t>(type));
+}
+
+/// Where a column is seen, apart from --filter and --sort, which know all.
+std::string places_of(Column const& column) {
+    std::string places;
+    auto const add = [&places](bool there, std::string_view place) {
+        if (there) places += (places.empty() ? "" : ", ") + std::string(place);
+    };
+    add(column.in_data, "data");
+    add(column.terminal.has_value(), "terminal");
+    add(column.report.has_value(), "report");
+    return places;
+}
+
+}  // namespace
+
+Json to_object(Row const& row, std::span<Column const> columns) {
+    Json object = Json::object();
+    for (Column const& column : columns)
+        object.push_back({std::string(column.name), json_of(column.of(row))});
+    return object;
+}
+
+std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns) {
+    Json array = Json::array();
+    for (Row const& row : rows) {
+        Json object = Json::object();
+        for (Column const& column : columns) {
+            if (column.in_data) object.push_back({std::string(column.name), json_of(column.of(row))});
+        }
+        array.push_back(std::move(object));
+    }
+    return array.dump(2) + "\n";
+}
+
+std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns) {
+    std::string text;
+    auto const add_line = [&](auto const& field_of) {
+        char const* separator = "";
+        for (Column const& column : columns) {
+            if (!column.in_data) continue;
+            text += separator + field_of(column);
+            separator = ",";
+        }
+        text += "\n";
+    };
+    add_line([](Column const& column) { return std::string(column.name); });
+    for (Row const& row : rows) add_line([&](Column const& column) { return csv_field(column.of(row)); });
+    return text;
+}
+
+Json column_descriptions(std::span<Column const> columns) {
+    Json list = Json::array();
+    for (Column const& column : columns) {
+        Json one{{"name", column.name},
+                 {"unit", column.unit},
+                 {"type", name_of(column.type())},
+                 {"meaning", column.meaning},
+                 {"report", nullptr}};
+        if (column.report) {
+            one["report"] = {{"heading", column.report->heading},
+                             {"format", column.format},
+                             {"position", column.position},
+                             {"once_when_same", column.report->once_when_same}};
+        }
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+std::string column_reference(std::span<Column const> columns) {
+    std::string text = "| column | unit | type | shown in | meaning |\n|---|---|---|---|---|\n";
+    for (Column const& column : columns) {
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", column.name, column.unit,
+                            name_of(column.type()), places_of(column), column.meaning);
+    }
+    return text;
+}
+
+}  // namespace vibrotrough::compare
