@@ -81,6 +81,45 @@ TEST(Design, PointsFromACsvFile) {
     std::filesystem::remove_all(folder);
 }
 
+// What spreadsheets write: quotes around everything, a byte order mark, ; with decimal commas.
+TEST(Design, PointsFromASpreadsheet) {
+    auto const folder =
+        std::filesystem::path(testing::TempDir()) / ("design_sheet_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "campaign.toml") << example_campaign << "[points_from]\nfile = \"points.csv\"\n";
+    auto const heights = [&](std::string const& table) {
+        std::ofstream(folder / "points.csv") << table;
+        std::vector<double> found;
+        for (auto const& scenario : scenario::read_campaign(folder / "campaign.toml").cases)
+            found.push_back(scenario.layer.height.value());
+        return found;
+    };
+    auto const refusal = [&](std::string const& table) -> std::string {
+        try {
+            heights(table);
+        } catch (core::InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    std::vector<double> const expected{0.009, 0.0155};
+    EXPECT_EQ(heights("\xEF\xBB\xBF\"layer.height\",\"trough.throw_number\"\r\n\"9 mm\",\"2\"\r\n"
+                      "\"15.5 mm\",\"2.5\"\r\n"),
+              expected);
+    EXPECT_EQ(heights("layer.height;trough.throw_number\n9 mm;2\n15,5 mm;2,5\n"), expected);
+    // A comma within quotes separates nothing: the value is refused whole, where it stands.
+    std::string const quoted = refusal("layer.height,trough.throw_number\n9 mm,2\n\"15,5 mm\",2.5\n");
+    EXPECT_NE(quoted.find("points.csv:3: layer.height: "), std::string::npos) << quoted;
+    EXPECT_NE(quoted.find("15,5 mm"), std::string::npos) << quoted;
+    std::string const ragged = refusal("layer.height,trough.throw_number\n9 mm\n");
+    EXPECT_NE(ragged.find("points.csv:2: has 1 values for 2 columns"), std::string::npos) << ragged;
+    std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
+    EXPECT_NE(open.find("points.csv:2: a quote is opened and not closed"), std::string::npos) << open;
+    EXPECT_NE(refusal("").find("points.csv:1: is empty"), std::string::npos);
+    EXPECT_NE(refusal("layer.hight\n9 mm\n").find("points.csv:1: layer.hight: is no key"), std::string::npos);
+    std::filesystem::remove_all(folder);
+}
+
 TEST(Design, ExclusionsSeeGivenAndDerivedValues) {
     // K = Gamma cos(alpha) / sin(beta): 30 degrees make K = 2 Gamma.
     auto const campaign = parse(

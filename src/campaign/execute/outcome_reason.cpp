@@ -1,6 +1,7 @@
 #include "campaign/execute/outcome_reason.hpp"
 
-#include "core/error.hpp"
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "measure/cycle_series.hpp"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -50,20 +50,21 @@ bool is_sane(double speed, double limit) {
 
 Reached how_far(PlannedCase const& planned, fs::path const& folder) {
     Reached reached;
-    std::ifstream file(folder / "cycles.csv");
     double const limit = 100 * angular_frequency(planned.scenario.trough) * planned.scenario.trough.amplitude;
-    for (std::string line; std::getline(file, line);) {
-        if (line.empty() || line[0] < '0' || line[0] > '9' || file.eof()) continue;
-        // step,grains,x_com,z_com,vz_com,mean_vx,...: see measure/cycle_series.cpp
-        int column = 0;
-        for (std::size_t start = 0; start != std::string::npos; ++column) {
-            std::size_t const comma = line.find(',', start);
-            double const value = std::strtod(line.c_str() + start, nullptr);
-            bool const is_speed = column == 4 || column == 5;
-            reached.blew_up |= !std::isfinite(value) || (is_speed && !is_sane(value, limit));
-            start = comma == std::string::npos ? comma : comma + 1;
+    try {
+        std::string const text = core::read_file(folder / "cycles.csv");
+        core::CsvReader table(
+            text, "cycles.csv",
+            {.comments = true, .blanks = true, .growing = true, .numbers = core::CsvNumbers::any});
+        std::vector<double> row(table.columns().size());
+        for (; table.next(row); ++reached.cycles) {
+            for (std::size_t column = 0; column < row.size(); ++column) {
+                bool const is_speed =
+                    table.columns()[column] == "vz_com" || table.columns()[column] == "mean_vx";
+                reached.blew_up |= !std::isfinite(row[column]) || (is_speed && !is_sane(row[column], limit));
+            }
         }
-        ++reached.cycles;
+    } catch (core::Error const&) {  // the file is missing or damaged: what was read so far counts
     }
     reached.cycles = std::max(0, reached.cycles - 1);  // the first line is the start
     return reached;
