@@ -13,7 +13,6 @@
 namespace vibrotrough::deck {
 namespace {
 
-namespace mustache = kainjow::mustache;
 constexpr double degrees = 180 / std::numbers::pi;
 
 std::string text(double number) {
@@ -43,14 +42,15 @@ std::string template_of(scenario::Scenario const& s, DeckNumbers const& n, doubl
                        fmt::join(inertia, " "), turns ? "" : " tflag off off off");
 }
 
-mustache::list describe_classes(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
-    mustache::list list;
+std::vector<core::TemplateData> describe_classes(scenario::Scenario const& s, DeckNumbers const& n,
+                                                 int packing) {
+    std::vector<core::TemplateData> list;
     int index = 0;
     int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
     // Packings have seeds of their own: three primes each for three classes, as many as there are for more.
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
     for (ClassCount const& size : n.classes) {
-        mustache::data entry;
+        core::TemplateData entry;
         so_far += size.count;
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
@@ -71,7 +71,7 @@ std::string grain_words(scenario::Scenario const& s) {
     return is_clump(s.grains) ? fmt::format("clumps of shape {}", s.grains.shape) : "spheres";
 }
 
-void describe_inputs(mustache::data& data, scenario::Scenario const& s) {
+void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("inclination_deg", rounded(s.trough.inclination * degrees));
     data.set("trough_friction", text(s.trough.friction));
     data.set("trough_restitution", text(s.trough.restitution));
@@ -111,7 +111,7 @@ std::string repeated(int times, double value) {
         "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
 }
 
-void describe_block_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n,
+void describe_block_contact(core::TemplateData& data, scenario::Scenario const& s, DeckNumbers const& n,
                             int types) {
     BlockContact const contact =
         block_contact(s, n.mass, n.clump ? static_cast<int>(n.clump->spheres.size()) : 1);
@@ -121,7 +121,7 @@ void describe_block_contact(mustache::data& data, scenario::Scenario const& s, D
     data.set("contact_dampings", everywhere(contact.damping));
 }
 
-void describe_contact(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
+void describe_contact(core::TemplateData& data, scenario::Scenario const& s, DeckNumbers const& n) {
     bool const block = s.layer.block != scenario::Block::none,
                rolls = s.grains.rotation == scenario::Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
@@ -153,7 +153,7 @@ std::string integrator(scenario::Scenario const& s) {
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
 }
 
-void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time) {
+void describe_drive(core::TemplateData& data, scenario::Scenario const& s, TimeGrid const& time) {
     data.set("vibration_angle_deg", rounded(s.trough.vibration_angle * degrees));
     data.set("amplitude", text(s.trough.amplitude));
     data.set("frequency", text(s.trough.frequency));
@@ -170,11 +170,11 @@ void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid 
     }
     data.set("drive_remark", remark);
     scenario::DriveMotion const motion = drive_motion(s.trough);
-    mustache::list lines;
+    std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] : {std::pair{"x", &motion.along}, std::pair{"z", &motion.normal}}) {
         DriveFormula const formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
-            mustache::data entry;
+            core::TemplateData entry;
             entry.set("name", term.name);
             entry.set("expression", term.expression);
             lines.push_back(entry);
@@ -190,7 +190,8 @@ void describe_drive(mustache::data& data, scenario::Scenario const& s, TimeGrid 
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
-void describe_output(mustache::data& data, scenario::Scenario const& s, TimeGrid const& time, int packing) {
+void describe_output(core::TemplateData& data, scenario::Scenario const& s, TimeGrid const& time,
+                     int packing) {
     bool const frames = packing == 1 && s.output.frames_per_cycle > 0;  // frames show the first packing
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
@@ -200,7 +201,7 @@ void describe_output(mustache::data& data, scenario::Scenario const& s, TimeGrid
 }
 
 /// Where the grains are poured from, and how long that may take.
-void describe_packing(mustache::data& data, scenario::Scenario const& s, DeckNumbers const& n) {
+void describe_packing(core::TemplateData& data, scenario::Scenario const& s, DeckNumbers const& n) {
     bool const walls = s.trough.side_wall_friction.has_value();
     double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
@@ -237,9 +238,9 @@ int seed_number(int index) {
     return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
 }
 
-mustache::data describe(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
-    mustache::data data;
-    mustache::list const classes = describe_classes(s, n, packing);
+core::TemplateData describe(scenario::Scenario const& s, DeckNumbers const& n, int packing) {
+    core::TemplateData data;
+    std::vector<core::TemplateData> const classes = describe_classes(s, n, packing);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
     data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));

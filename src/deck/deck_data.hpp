@@ -1,13 +1,12 @@
 #pragma once
 
+#include "core/template.hpp"
 #include "deck/clump.hpp"
 #include "deck/time_grid.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <optional>
 #include <vector>
-
-#include <kainjow/mustache.hpp>
 
 namespace vibrotrough::deck {
 
@@ -35,6 +34,6 @@ DeckNumbers make_numbers(scenario::Scenario const& scenario);
 int seed_number(int index);
 
 /// What both decks show.
-kainjow::mustache::data describe(scenario::Scenario const& scenario, DeckNumbers const& numbers, int packing);
+core::TemplateData describe(scenario::Scenario const& scenario, DeckNumbers const& numbers, int packing);
 
 }  // namespace vibrotrough::deck

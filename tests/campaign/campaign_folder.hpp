@@ -2,6 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/plan.hpp"
+#include "core/temporary_folder.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -12,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::campaign {
 
@@ -60,8 +60,6 @@ inline void write_layer(std::filesystem::path const& folder, scenario::Scenario 
 /// A campaign folder of one case with two packings; nothing is written at first.
 class CampaignFolder : public testing::Test {
   protected:
-    ~CampaignFolder() override { std::filesystem::remove_all(folder); }
-
     /// The packing's files as an engine that ended well leaves them.
     void write_packing(int packing, std::string const& cycles, FinishedPacking const& marker = {}) const {
         overwrite(planned.packing_folder(packing) / "in.liggghts", fmt::format("# deck {}\n", packing));
@@ -71,8 +69,8 @@ class CampaignFolder : public testing::Test {
     }
 
     std::string campaign_text = with("packings = 3", "packings = 2");
-    std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("campaign_{}", ::getpid());
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path folder = own_folder.path() / "campaign";
     Plan plan = make_plan(scenario::parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
     PlannedCase planned = plan.cases.front();
     scenario::Scenario scenario = planned.scenario;

@@ -1,5 +1,6 @@
 #include "scenario/model/drive.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -10,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -92,8 +92,8 @@ TEST(Drive, WaveformMistakesAreNamed) {
 // Amplitude and vibration angle stay the keys', and the error says what to write when they are not the
 // file's.
 TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
-    std::filesystem::path const folder = testing::TempDir() + "waveform_" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
     std::ofstream(folder / "shaker.csv") << samples(32, 0.1);
     auto const read = [&](std::string const& drive) {
         std::string const text = with("amplitude = \"6 mm\"\nthrow_number = 2.0", drive,
@@ -113,7 +113,6 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
     scenario::Scenario const s =
         read("amplitude = \"5.83095 mm\"\nvibration_angle = \"30.964 deg\"\n" + file);
     EXPECT_EQ(drive_motion(s.trough).along.size(), 2u);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "core/temporary_folder.hpp"
 #include "run_program.hpp"
 
 #include <algorithm>
@@ -29,14 +30,7 @@ void expect_refused(std::string const& command, std::string const& words) {
 
 class TheoryFiles : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("theory_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    std::string path(std::string const& name) const { return (folder_ / name).string(); }
+    std::string path(std::string const& name) const { return (folder_.path() / name).string(); }
     static std::vector<std::vector<std::string>> read_csv(std::string const& name) {
         std::vector<std::vector<std::string>> rows;
         std::ifstream file(name);
@@ -49,7 +43,7 @@ class TheoryFiles : public testing::Test {
     }
 
   private:
-    fs::path folder_;
+    core::TemporaryFolder const folder_;
 };
 
 // Read back by h5py and by VTK in validation/theory_figures; here that the files are there and the cost is

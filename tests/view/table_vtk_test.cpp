@@ -2,12 +2,12 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkStringArray.h>
@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Table, IsReadBackByVtk) {
-    fs::path const path = fs::path(testing::TempDir()) / ("table_" + std::to_string(::getpid()) + ".vtt");
+    core::TemporaryFolder const folder;
+    fs::path const path = folder.path() / "table.vtt";
     double constexpr unknown = std::numeric_limits<double>::quiet_NaN();
     write_table(path, {{"case", std::vector<std::string>{"a", "b \xCE\xB2", ""}},
                        {"throw_number", std::vector<double>{1.7, 1e-300, unknown}}});
@@ -40,17 +41,16 @@ TEST(Table, IsReadBackByVtk) {
     EXPECT_TRUE(std::isnan(numbers->GetValue(2)));
     EXPECT_EQ(texts->GetValue(1), "b \xCE\xB2");
     EXPECT_EQ(texts->GetValue(2), "");
-    fs::remove(path);
 }
 
 TEST(Table, OfNoRowOpens) {
-    fs::path const path = fs::path(testing::TempDir()) / ("no_row_" + std::to_string(::getpid()) + ".vtt");
+    core::TemporaryFolder const folder;
+    fs::path const path = folder.path() / "no_row.vtt";
     write_table(path, {{"throw_number", std::vector<double>{}}});
     vtkNew<vtkXMLTableReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
     EXPECT_EQ(reader->GetOutput()->GetNumberOfRows(), 0);
-    fs::remove(path);
     EXPECT_THROW(write_table("/proc/no/such.vtt", {}), core::MissingError);
 }
 
