@@ -237,6 +237,26 @@ TEST_F(TheoryFiles, BatchRepeatsItsColumnsAndAddsTheAnswers) {
     EXPECT_TRUE(fs::exists(path("out.h5")));
 }
 
+// A spreadsheet's file: quotes, also with a comma within, and ; with decimal commas.
+TEST_F(TheoryFiles, BatchReadsSpreadsheets) {
+    std::string const head = "throw_number,tan_vibration_angle,tan_inclination,friction\n";
+    auto const answer_to = [&](std::string const& text) {
+        std::ofstream(path("in.csv")) << text;
+        Answer const answer = run_program("theory batch " + path("in.csv") + " --output " + path("out.csv"));
+        EXPECT_EQ(answer.exit_code, 0) << answer.text;
+        return read_csv(path("out.csv"));
+    };
+    auto const plain = answer_to(head + "2,0.5,-0.05,0.23\n");
+    EXPECT_EQ(answer_to(head + "\"2\",\"0.5\",\"-0.05\",\"0.23\"\r\n"), plain);
+    EXPECT_EQ(
+        answer_to(
+            "\xEF\xBB\xBFthrow_number;tan_vibration_angle;tan_inclination;friction\n2;0,5;-0,05;0,23\n"),
+        plain);
+    std::ofstream(path("in.csv")) << head << "\"2,5\",0.5,0,0.23\n";
+    expect_refused("batch " + path("in.csv") + " --output " + path("out.csv"),
+                   "in.csv:2: column throw_number: '2,5' is not a finite plain number");
+}
+
 TEST_F(TheoryFiles, BatchRefusesWrongTables) {
     auto const write = [&](char const* text) { std::ofstream(path("in.csv")) << text; };
     std::string const command = "batch " + path("in.csv") + " --output " + path("out.csv");
