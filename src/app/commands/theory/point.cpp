@@ -95,13 +95,9 @@ void run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     std::optional<theory::Machine> machine;
     if (options.amplitude) machine = read_machine(options);
-    theory::ConveyorMotion answer;
-    if (options.motion.plastic()) answer.motion = theory::solve(input.point);
-    if (!options.motion.plastic() || options.amplitude) {
-        theory::Motion const exact = answer.motion;
-        answer = theory::solve(input);
-        if (options.motion.plastic()) answer.motion = exact;
-    }
+    theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
+    theory::ConveyorMotion const answer =
+        options.motion.plastic() ? theory::solve_plastic(input, detail) : theory::solve(input);
     Json json = as_json(input, answer);
     if (!options.json) print_text(input, answer);
     if (machine && !answer.pieces.empty()) {
