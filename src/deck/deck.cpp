@@ -3,7 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/phases.hpp"
-#include "deck/templates.hpp"
+#include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
@@ -14,8 +14,6 @@
 
 namespace vibrotrough::deck {
 namespace {
-
-namespace mustache = kainjow::mustache;
 
 constexpr std::string_view processors_line =
     "\nprocessors      * * 1                      # the floor is shared out, not the height";
@@ -40,33 +38,6 @@ std::string tidy(std::string const& text) {
     return result;
 }
 
-/// The template with its parts, {{> name}}, in their places.
-std::string with_parts(std::string const& name) {
-    std::string text(input_templates.at(name));
-    for (std::size_t start = 0; (start = text.find("{{> ", start)) != std::string::npos;) {
-        std::size_t const end = text.find("}}", start);
-        std::string const part = with_parts(text.substr(start + 4, end - start - 4));
-        text.replace(start, end + 2 - start, part);
-        start += part.size();
-    }
-    return text;
-}
-
-/// Parsed once: a campaign of ten thousand cases renders each of its decks to know its cases' ids.
-mustache::mustache& parsed(std::string const& name) {
-    thread_local std::map<std::string, mustache::mustache> decks;
-    auto found = decks.find(name);
-    if (found == decks.end()) found = decks.emplace(name, mustache::mustache(with_parts(name))).first;
-    return found->second;
-}
-
-std::string render(char const* name, mustache::data const& data) {
-    mustache::mustache& deck = parsed(name);
-    std::string const result = deck.render(data);
-    if (!deck.is_valid()) throw std::logic_error("input_templates: " + deck.error_message());
-    return tidy(result);
-}
-
 std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
@@ -86,12 +57,12 @@ Deck make_deck(prepare::PreparedCase const& prepared, int packing) {
     if (packing < 1 || packing > 1000)
         throw std::invalid_argument(fmt::format("no packing number {}", packing));
     Deck deck;
-    mustache::data data = describe(prepared, packing);
+    core::TemplateData data = describe(prepared, packing);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     deck.settle_files = meshes(prepared);
-    deck.settle_files[settle_file] = render(settle_file, data);
+    deck.settle_files[settle_file] = tidy(render_template(settle_file, data));
     deck.files = deck.settle_files;
-    deck.files[drive_file] = render(drive_file, data);
+    deck.files[drive_file] = tidy(render_template(drive_file, data));
     deck.files[control_file] = control_go_on;
     return deck;
 }

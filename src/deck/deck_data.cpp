@@ -13,7 +13,6 @@
 namespace vibrotrough::deck {
 namespace {
 
-namespace mustache = kainjow::mustache;
 constexpr double degrees = 180 / std::numbers::pi;
 
 std::string text(double number) {
@@ -44,14 +43,14 @@ std::string template_of(prepare::PreparedCase const& n, double diameter, int ind
                        fmt::join(inertia, " "), turns ? "" : " tflag off off off");
 }
 
-mustache::list describe_classes(prepare::PreparedCase const& n, int packing) {
-    mustache::list list;
+std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n, int packing) {
+    std::vector<core::TemplateData> list;
     int index = 0;
     int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
     // Packings have seeds of their own: three primes each for three classes, as many as there are for more.
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
     for (prepare::ClassCount const& size : n.classes) {
-        mustache::data entry;
+        core::TemplateData entry;
         so_far += size.count;
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
@@ -72,7 +71,7 @@ std::string grain_words(scenario::Scenario const& s) {
     return is_clump(s.grains) ? fmt::format("clumps of shape {}", s.grains.shape) : "spheres";
 }
 
-void describe_inputs(mustache::data& data, scenario::Scenario const& s) {
+void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("inclination_deg", rounded(s.trough.inclination * degrees));
     data.set("trough_friction", text(s.trough.friction));
     data.set("trough_restitution", text(s.trough.restitution));
@@ -112,7 +111,7 @@ std::string repeated(int times, double value) {
         "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
 }
 
-void describe_block_contact(mustache::data& data, prepare::PreparedCase const& n, int types) {
+void describe_block_contact(core::TemplateData& data, prepare::PreparedCase const& n, int types) {
     scenario::Scenario const& s = n.scenario;
     prepare::BlockContact const contact = prepare::block_contact(s, n.mass, n.spheres_per_grain);
     auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
@@ -121,7 +120,7 @@ void describe_block_contact(mustache::data& data, prepare::PreparedCase const& n
     data.set("contact_dampings", everywhere(contact.damping));
 }
 
-void describe_contact(mustache::data& data, prepare::PreparedCase const& n) {
+void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const block = s.layer.block != scenario::Block::none,
                rolls = s.grains.rotation == scenario::Rotation::rolling;
@@ -154,7 +153,7 @@ std::string integrator(scenario::Scenario const& s) {
     return s.grains.rotation == scenario::Rotation::blocked ? "nve" : "nve/sphere";
 }
 
-void describe_drive(mustache::data& data, prepare::PreparedCase const& n) {
+void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     prepare::TimeGrid const& time = n.time;
     data.set("vibration_angle_deg", rounded(s.trough.vibration_angle * degrees));
@@ -173,11 +172,11 @@ void describe_drive(mustache::data& data, prepare::PreparedCase const& n) {
             harmonic.order, harmonic.ratio, harmonic.phase * degrees);
     }
     data.set("drive_remark", remark);
-    mustache::list lines;
+    std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] : {std::pair{"x", &n.motion.along}, std::pair{"z", &n.motion.normal}}) {
         DriveFormula const formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
-            mustache::data entry;
+            core::TemplateData entry;
             entry.set("name", term.name);
             entry.set("expression", term.expression);
             lines.push_back(entry);
@@ -193,7 +192,7 @@ void describe_drive(mustache::data& data, prepare::PreparedCase const& n) {
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
-void describe_output(mustache::data& data, scenario::Scenario const& s, prepare::TimeGrid const& time,
+void describe_output(core::TemplateData& data, scenario::Scenario const& s, prepare::TimeGrid const& time,
                      int packing) {
     bool const frames = packing == 1 && s.output.frames_per_cycle > 0;  // frames show the first packing
     data.set("frames", frames);
@@ -204,7 +203,7 @@ void describe_output(mustache::data& data, scenario::Scenario const& s, prepare:
 }
 
 /// Where the grains are poured from, and how long that may take.
-void describe_packing(mustache::data& data, prepare::PreparedCase const& n) {
+void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const walls = s.trough.side_wall_friction.has_value();
     double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
@@ -242,10 +241,10 @@ int seed_number(int index) {
     return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
 }
 
-mustache::data describe(prepare::PreparedCase const& n, int packing) {
+core::TemplateData describe(prepare::PreparedCase const& n, int packing) {
     scenario::Scenario const& s = n.scenario;
-    mustache::data data;
-    mustache::list const classes = describe_classes(n, packing);
+    core::TemplateData data;
+    std::vector<core::TemplateData> const classes = describe_classes(n, packing);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
     data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "core/template.hpp"
 #include "prepare/prepared_case.hpp"
-
-#include <kainjow/mustache.hpp>
 
 namespace vibrotrough::deck {
 
@@ -10,6 +9,6 @@ namespace vibrotrough::deck {
 int seed_number(int index);
 
 /// What both decks show of one packing of a case.
-kainjow::mustache::data describe(prepare::PreparedCase const& prepared, int packing);
+core::TemplateData describe(prepare::PreparedCase const& prepared, int packing);
 
 }  // namespace vibrotrough::deck

@@ -1,8 +1,8 @@
 #include "engine/engine.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <system_error>
@@ -38,31 +38,14 @@ void prepare_child(pid_t driver) {
 /// reads beyond its strings.)
 constexpr char const* no_daemon = "OMPI_MCA_ess_singleton_isolated=1";
 
-/// A folder of its own for what Open MPI keeps while an engine runs. By default all engines of a user share
-/// one below the temporary folder, which goes when the last one ends: an engine that starts at that moment
-/// ends with exit code 1 and no message.
-class SessionFolder {
-  public:
-    SessionFolder() {
-        static std::atomic<int> count = 0;
-        std::error_code ignored;
-        fs::path const temporary = fs::temp_directory_path(ignored);
-        folder_ = (ignored ? fs::path("/tmp") : temporary) /
-                  fmt::format("vibrotrough-engine-{}-{}", ::getpid(), ++count);
-    }
-    ~SessionFolder() {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-    SessionFolder(SessionFolder const&) = delete;
-    SessionFolder& operator=(SessionFolder const&) = delete;
+/// The setting that gives an engine a folder of its own for what Open MPI keeps while it runs. By default all
+/// engines of a user share one below the temporary folder, which goes when the last one ends: an engine that
+/// starts at that moment ends with exit code 1 and no message.
+std::string session_setting(core::TemporaryFolder const& session) {
+    return "OMPI_MCA_orte_tmpdir_base=" + session.path().string();
+}
 
-    /// The setting for Open MPI; it makes the folder itself.
-    std::string setting() const { return "OMPI_MCA_orte_tmpdir_base=" + folder_.string(); }
-
-  private:
-    fs::path folder_;
-};
+constexpr char const* session_name = "vibrotrough-engine";
 
 fs::path search_program(std::optional<fs::path> const& asked) {
     if (asked) {
@@ -86,13 +69,13 @@ fs::path search_program(std::optional<fs::path> const& asked) {
 
 std::string ask_version(fs::path const& program) {
     try {
-        SessionFolder const session;
+        core::TemporaryFolder const session(session_name);
         bp::ipstream output;
         // A program that is no LIGGGHTS may do anything, such as never end.
-        bp::child child(
-            bp::search_path("env"),
-            bp::args({no_daemon, session.setting(), "timeout", "10", program.string(), "-log", "none", "-h"}),
-            bp::std_out > output, bp::std_err > bp::null, bp::std_in < bp::null);
+        bp::child child(bp::search_path("env"),
+                        bp::args({no_daemon, session_setting(session), "timeout", "10", program.string(),
+                                  "-log", "none", "-h"}),
+                        bp::std_out > output, bp::std_err > bp::null, bp::std_in < bp::null);
         std::string version;
         for (std::string line; std::getline(output, line);) {
             auto const start = line.find("(Version ");
@@ -111,8 +94,9 @@ std::string ask_version(fs::path const& program) {
 }
 
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
-std::vector<std::string> run_words(Engine const& engine, Launch const& launch, SessionFolder const& session) {
-    std::vector<std::string> words{no_daemon, session.setting()};
+std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
+                                   core::TemporaryFolder const& session) {
+    std::vector<std::string> words{no_daemon, session_setting(session)};
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
             throw core::MissingError(
@@ -120,7 +104,7 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch, S
                 "ranks = 1 under [run]");
         }
         // mpirun would bind every run to the first cores; as root it wants to be told twice.
-        words = {session.setting(),
+        words = {session_setting(session),
                  "OMPI_MCA_mpi_yield_when_idle=1",
                  "OMPI_ALLOW_RUN_AS_ROOT=1",
                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
@@ -156,7 +140,7 @@ struct EngineProcess::State {
         if (!ended && process.valid()) ::kill(-process.id(), number);
     }
 
-    SessionFolder session;
+    core::TemporaryFolder session{session_name};
     bp::child process;
     boost::asio::steady_timer patience;
     std::function<void(ExitStatus)> on_exit;

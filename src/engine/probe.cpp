@@ -1,18 +1,15 @@
 #include "engine/probe.hpp"
 
 #include "core/atomic_file.hpp"
-#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 #include "engine/probe_decks.hpp"
 #include "engine/probe_output.hpp"
 #include "engine/probe_verdicts.hpp"
 
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -30,29 +27,6 @@ namespace fs = std::filesystem;
 
 /// An engine that needs longer than this for one of these decks hangs.
 constexpr std::chrono::seconds patience{120};
-
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "vibrotrough-probe-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            throw core::MissingError(
-                fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another place", name,
-                            std::strerror(errno)));
-        }
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(TemporaryFolder const&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder const&) = delete;
-    fs::path const& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 /// Runs decks side by side and remembers what became of each.
 class DeckRunner {
@@ -158,7 +132,7 @@ std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity con
                             0,
                             0,
                             {}};
-    TemporaryFolder const folder;
+    core::TemporaryFolder const folder("vibrotrough-probe");
     DeckRunner runner(engine, folder.path());
     std::vector<ProbeDeck> decks;
     for (auto const& [deck, judge] : questions) decks.push_back(deck);

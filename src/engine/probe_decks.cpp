@@ -21,7 +21,7 @@ constexpr double diameter = 0.003;
 constexpr double side = 0.1;  // m, of the square floor under impacts and inclines
 constexpr double grain_friction = 0.5;
 
-using Values = deck::TemplateValues;
+using core::TemplateData;
 
 std::string text(double number) {
     return fmt::format("{}", number);
@@ -46,26 +46,32 @@ std::string pair_matrix(double among, std::vector<double> const& with_floor) {
     return list;
 }
 
+TemplateData data_of(std::map<std::string, std::string> const& values) {
+    TemplateData data;
+    for (auto const& [name, value] : values) data.set(name, value);
+    return data;
+}
+
 /// One grain type per element of the lists, which are of equal length.
-Values world(std::string const& title, double time_step, std::vector<double> const& restitutions,
-             std::vector<double> const& frictions) {
+TemplateData world(std::string const& title, double time_step, std::vector<double> const& restitutions,
+                   std::vector<double> const& frictions) {
     ContactMaterial const material = probe_material(0.5, grain_friction);
     std::size_t const types = restitutions.size() + 1;
-    return {{"title", "Vibrotrough probes the engine: " + title},
-            {"floor_type", std::to_string(types)},
-            {"length", text(side)},
-            {"width", text(side)},
-            {"bottom", "-0.02"},
-            {"top", "0.06"},
-            {"skin", text(0.3 * diameter)},
-            {"time_step", text(time_step)},
-            {"moduli", repeated(material.youngs_modulus, types)},
-            {"poisson_ratios", repeated(material.poisson_ratio, types)},
-            {"restitutions", pair_matrix(0.5, restitutions)},
-            {"frictions", pair_matrix(grain_friction, frictions)},
-            {"diameter", text(diameter)},
-            {"density", text(material.density)},
-            {"gravity", text(scenario::gravity)}};
+    return data_of({{"title", "Vibrotrough probes the engine: " + title},
+                    {"floor_type", std::to_string(types)},
+                    {"length", text(side)},
+                    {"width", text(side)},
+                    {"bottom", "-0.02"},
+                    {"top", "0.06"},
+                    {"skin", text(0.3 * diameter)},
+                    {"time_step", text(time_step)},
+                    {"moduli", repeated(material.youngs_modulus, types)},
+                    {"poisson_ratios", repeated(material.poisson_ratio, types)},
+                    {"restitutions", pair_matrix(0.5, restitutions)},
+                    {"frictions", pair_matrix(grain_friction, frictions)},
+                    {"diameter", text(diameter)},
+                    {"density", text(material.density)},
+                    {"gravity", text(scenario::gravity)}});
 }
 
 std::vector<Impact> impacts(std::vector<std::array<double, 2>> const& speeds,
@@ -90,57 +96,59 @@ double rayleigh_time(ContactMaterial const& m) {
 ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, double time_step,
                       double duration) {
     std::vector<double> const restitutions(probed_restitutions.begin(), probed_restitutions.end());
-    Values values = world("impacts, " + name, time_step, restitutions,
-                          std::vector<double>(restitutions.size(), impact_friction));
-    values["steps"] = std::to_string(std::lround(duration / time_step));
-    std::vector<Values> grains;
+    TemplateData values = world("impacts, " + name, time_step, restitutions,
+                                std::vector<double>(restitutions.size(), impact_friction));
+    values.set("steps", std::to_string(std::lround(duration / time_step)));
+    std::vector<TemplateData> grains;
     for (std::size_t i = 0; i < list.size(); ++i) {
         // Off the mesh's nodes and edges, 3 diameters apart: no grain meets another.
         double const x = 0.0071 + 0.009 * static_cast<double>(i % 10),
                      y = 0.0053 + 0.009 * static_cast<double>(i / 10);
-        grains.push_back({{"id", std::to_string(i + 1)},
-                          {"type", std::to_string(list[i].type)},
-                          {"x", text(x)},
-                          {"y", text(y)},
-                          {"z", text(diameter / 2 + list[i].gap)},
-                          {"vx", text(list[i].tangential_speed)},
-                          {"vz", text(-list[i].normal_speed)}});
+        grains.push_back(data_of({{"id", std::to_string(i + 1)},
+                                  {"type", std::to_string(list[i].type)},
+                                  {"x", text(x)},
+                                  {"y", text(y)},
+                                  {"z", text(diameter / 2 + list[i].gap)},
+                                  {"vx", text(list[i].tangential_speed)},
+                                  {"vz", text(-list[i].normal_speed)}}));
     }
+    values.set("grains", grains);
     return {name,
-            {{"in.liggghts", deck::render_template("probes/impact", values, {{"grains", grains}})},
+            {{"in.liggghts", deck::render_template("probes/impact", values)},
              {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
 }
 
 /// The values and lists that the campaigns' own templates `trough` and `drive` want.
-void add_campaign_values(Values& values, std::map<std::string, std::vector<Values>>& lists,
-                         MovingTrough const& motion) {
+void add_campaign_values(TemplateData& values, MovingTrough const& motion) {
     scenario::Trough trough{};
     trough.amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
     trough.vibration_angle = std::atan2(motion.amplitude_z, motion.amplitude_x);
     trough.frequency = 1 / motion.period;
     scenario::DriveMotion const drive = drive_motion(trough);
+    std::vector<TemplateData> lines;
     for (auto const& [axis, terms] : {std::pair{"x", &drive.along}, std::pair{"z", &drive.normal}}) {
         deck::DriveFormula const formula = deck::drive_formula(*terms, axis);
         for (deck::Formula const& term : formula.terms)
-            lists["drive_terms"].push_back({{"name", term.name}, {"expression", term.expression}});
-        values[fmt::format("speed_{}", axis)] = formula.speed;
+            lines.push_back(data_of({{"name", term.name}, {"expression", term.expression}}));
+        values.set(fmt::format("speed_{}", axis), formula.speed);
     }
-    values["steps_per_cycle"] = std::to_string(motion.steps);
-    values["wall_model"] = "hertz tangential history";
-    values["contact_options"] = "limitForce on tangential_damping off";
+    values.set("drive_terms", lines);
+    values.set("steps_per_cycle", std::to_string(motion.steps));
+    values.set("wall_model", "hertz tangential history");
+    values.set("contact_options", "limitForce on tangential_damping off");
 }
 
 ProbeDeck motion_deck(std::string const& name, MovingTrough const& motion,
-                      std::vector<Values> const& grains) {
+                      std::vector<TemplateData> const& grains) {
     constexpr double length = 0.036, width = 0.018;
-    Values values = world(name, motion.period / motion.steps, {0.5}, {grain_friction});
-    std::map<std::string, std::vector<Values>> lists{{"grains", grains}};
-    add_campaign_values(values, lists, motion);
-    values["length"] = text(length);
-    values["width"] = text(width);
-    values["steps"] = std::to_string(motion.steps);
+    TemplateData values = world(name, motion.period / motion.steps, {0.5}, {grain_friction});
+    values.set("grains", grains);
+    add_campaign_values(values, motion);
+    values.set("length", text(length));
+    values.set("width", text(width));
+    values.set("steps", std::to_string(motion.steps));
     return {name,
-            {{"in.liggghts", deck::render_template("probes/trough", values, lists)},
+            {{"in.liggghts", deck::render_template("probes/trough", values)},
              {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
 }
 
@@ -186,35 +194,36 @@ ProbeDeck coarse_impact_deck() {
 
 ProbeDeck incline_deck() {
     Incline const incline;
-    Values values =
+    TemplateData values =
         world("incline", incline.time_step, {0.5, 0.5}, {incline.holding_friction, incline.sliding_friction});
-    values["inclination_deg"] = fmt::format("{:.6g}", incline.angle * 180 / std::numbers::pi);
-    values["gravity_x"] = text(std::sin(incline.angle));
-    values["gravity_z"] = text(-std::cos(incline.angle));
-    values["steps"] = std::to_string(incline.steps);
-    values["sample_steps"] = std::to_string(incline.sample_steps);
-    std::vector<Values> grains;
+    values.set("inclination_deg", fmt::format("{:.6g}", incline.angle * 180 / std::numbers::pi));
+    values.set("gravity_x", text(std::sin(incline.angle)));
+    values.set("gravity_z", text(-std::cos(incline.angle)));
+    values.set("steps", std::to_string(incline.steps));
+    values.set("sample_steps", std::to_string(incline.sample_steps));
+    std::vector<TemplateData> grains;
     for (int const id : {1, 2, 3}) {
-        grains.push_back({{"type", id == 2 ? "2" : "1"},
-                          {"x", "0.0071"},
-                          {"y", text(0.0053 + 0.012 * id)},
-                          {"z", text(diameter / 2 - resting_overlap(incline.angle))}});
+        grains.push_back(data_of({{"type", id == 2 ? "2" : "1"},
+                                  {"x", "0.0071"},
+                                  {"y", text(0.0053 + 0.012 * id)},
+                                  {"z", text(diameter / 2 - resting_overlap(incline.angle))}}));
     }
+    values.set("grains", grains);
     return {"incline",
-            {{"in.liggghts", deck::render_template("probes/incline", values, {{"grains", grains}})},
+            {{"in.liggghts", deck::render_template("probes/incline", values)},
              {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
 }
 
 ProbeDeck contact_deck() {
-    std::vector<Values> grains;
+    std::vector<TemplateData> grains;
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 7; ++column) {
             // Seven to the length and four to the width are not the mesh's numbers: the moving mesh passes
             // under the grains with its edges, diagonals and seams at the periodic faces.
-            grains.push_back({{"type", "1"},
-                              {"x", text(0.00017 + 0.0051 * column + 0.0003 * row)},
-                              {"y", text(0.00013 + 0.0045 * row)},
-                              {"z", text(diameter / 2 - resting_overlap(0))}});
+            grains.push_back(data_of({{"type", "1"},
+                                      {"x", text(0.00017 + 0.0051 * column + 0.0003 * row)},
+                                      {"y", text(0.00013 + 0.0045 * row)},
+                                      {"z", text(diameter / 2 - resting_overlap(0))}}));
         }
     }
     return motion_deck("contact", sliding_trough(), grains);
@@ -223,31 +232,29 @@ ProbeDeck contact_deck() {
 ProbeDeck drive_deck() {
     // One grain, out of the trough's way: without any, the engine does not run.
     return motion_deck("drive", flying_trough(),
-                       {{{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}}});
+                       {data_of({{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}})});
 }
 
 ProbeDeck speed_deck(int steps) {
     constexpr double length = 12 * diameter, width = 6 * diameter;
     double const time_step = 0.2 * rayleigh_time(probe_material(0.5, 0.5));
-    Values values = world("speed", time_step, {0.5}, {0.23});
-    std::map<std::string, std::vector<Values>> lists;
-    add_campaign_values(values, lists,
-                        {.amplitude_x = 0.0052,
-                         .amplitude_z = 0.003,
-                         .period = 3000 * time_step,
-                         .steps = 3000,
-                         .grains = 0});
-    values["length"] = text(length);
-    values["width"] = text(width);
-    values["top"] = "0.2";
-    values["spacing"] = text(diameter);
-    values["layer_top"] = text(14 * diameter - 1e-6);
-    values["jitter"] = text(0.1 * diameter);  // so that columns of grains do not stand
-    values["lift"] = text(0.51 * diameter);
-    values["fall_speed"] = "-0.1";
-    values["steps"] = std::to_string(steps);
+    TemplateData values = world("speed", time_step, {0.5}, {0.23});
+    add_campaign_values(values, {.amplitude_x = 0.0052,
+                                 .amplitude_z = 0.003,
+                                 .period = 3000 * time_step,
+                                 .steps = 3000,
+                                 .grains = 0});
+    values.set("length", text(length));
+    values.set("width", text(width));
+    values.set("top", "0.2");
+    values.set("spacing", text(diameter));
+    values.set("layer_top", text(14 * diameter - 1e-6));
+    values.set("jitter", text(0.1 * diameter));  // so that columns of grains do not stand
+    values.set("lift", text(0.51 * diameter));
+    values.set("fall_speed", "-0.1");
+    values.set("steps", std::to_string(steps));
     return {fmt::format("speed-{}", steps),
-            {{"in.liggghts", deck::render_template("probes/speed", values, lists)},
+            {{"in.liggghts", deck::render_template("probes/speed", values)},
              {"trough.stl", deck::flat_trough_stl(length, width, 3 * diameter)}}};
 }
 

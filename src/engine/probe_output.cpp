@@ -1,10 +1,11 @@
 #include "engine/probe_output.hpp"
 
-#include "core/error.hpp"
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
 
-#include <cstdio>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -39,15 +40,18 @@ std::vector<std::vector<GrainSample>> read_samples(std::filesystem::path const& 
 }
 
 std::vector<TroughSample> read_trough_samples(std::filesystem::path const& path) {
-    std::ifstream file(path);
     std::vector<TroughSample> samples;
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with('#')) continue;
-        TroughSample one{};
-        if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &one.step, &one.x, &one.z, &one.force_z,
-                        &one.grains) != 5)
-            throw unreadable(path);
-        samples.push_back(one);
+    try {
+        std::string const text = core::read_file(path);
+        // The deck writes the columns' names as a comment.
+        core::CsvReader table(text, path.filename().string(),
+                              {.comments = true,
+                               .numbers = core::CsvNumbers::any,
+                               .columns = {"step", "x", "z", "force_z", "grains"}});
+        std::array<double, 5> row{};
+        while (table.next(row)) samples.push_back({row[0], row[1], row[2], row[3], row[4]});
+    } catch (core::Error const&) {
+        throw unreadable(path);
     }
     if (samples.empty()) throw unreadable(path);
     return samples;

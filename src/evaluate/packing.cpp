@@ -1,13 +1,12 @@
 #include "evaluate/packing.hpp"
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "deck/deck.hpp"
 #include "evaluate/layer.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <span>
 
 #include <fmt/format.h>
@@ -80,23 +79,6 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
             carried, prepared.weight)};
 }
 
-bool is_data_line(std::string const& line) {
-    return !line.empty() && line[0] >= '0' && line[0] <= '9';
-}
-
-/// Whether a line of cycles.csv (step, grains, x, z, vz, mean vx, ...) shows a simulation that blew up.
-bool has_diverged(std::string const& line, double largest_speed) {
-    int column = 0;
-    for (std::size_t start = 0; start != std::string::npos; ++column) {
-        std::size_t const comma = line.find(',', start);
-        double const value = std::strtod(line.c_str() + start, nullptr);
-        bool const is_speed = column == 4 || column == 5;
-        if (!std::isfinite(value) || (is_speed && std::abs(value) > largest_speed)) return true;
-        start = comma == std::string::npos ? comma : comma + 1;
-    }
-    return false;
-}
-
 }  // namespace
 
 InterimEstimate estimate_so_far(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
@@ -153,14 +135,26 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
 
 RunExtent extent_of_run(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
     RunExtent extent;
-    std::ifstream file(packing_folder / "cycles.csv");
-    double const limit =
+    double const largest_speed =
         largest_speed_ratio * prepared.angular_frequency * prepared.scenario.trough.amplitude;
     int lines = 0;
-    for (std::string line; std::getline(file, line);) {
-        if (!is_data_line(line) || file.eof()) continue;  // the last line may be cut
-        extent.diverged = extent.diverged || has_diverged(line, limit);
-        ++lines;
+    try {
+        std::string const text = core::read_file(packing_folder / "cycles.csv");
+        core::CsvReader table(
+            text, "cycles.csv",
+            {.comments = true, .blanks = true, .growing = true, .numbers = core::CsvNumbers::any});
+        std::vector<double> row(table.columns().size());
+        for (; table.next(row); ++lines) {
+            for (std::size_t column = 0; column < row.size(); ++column) {
+                std::string_view const name = table.columns()[column];
+                bool const is_speed = name == "vz_com" || name == "mean_vx";
+                bool const is_sane =
+                    std::isfinite(row[column]) && (!is_speed || std::abs(row[column]) <= largest_speed);
+                extent.diverged = extent.diverged || !is_sane;
+            }
+        }
+    } catch (core::Error const&) {
+        // The file is missing or damaged: what was read so far counts.
     }
     extent.cycles = std::max(0, lines - 1);  // the first line is the start
     return extent;

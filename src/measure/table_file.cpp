@@ -1,59 +1,47 @@
 #include "measure/table_file.hpp"
 
-#include "core/error.hpp"
+#include "core/csv.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::measure {
 namespace {
 
-bool parse_row(std::string_view line, std::span<double> row) {
-    char const* at = line.data();
-    char const* const end = line.data() + line.size();
-    for (std::size_t column = 0; column < row.size(); ++column) {
-        auto const [next, failure] = std::from_chars(at, end, row[column]);
-        if (failure != std::errc()) return false;
-        bool const last = column + 1 == row.size();
-        if (last ? next != end : (next == end || *next != ',')) return false;
-        at = next + 1;
-    }
-    return true;
+std::string header_of(core::CsvReader const& table) {
+    return fmt::format("{}", fmt::join(table.columns(), ","));
 }
 
 }  // namespace
 
 void parse_table(core::TextFile const& file, TableFormat const& format,
                  std::function<void(int line_number, std::span<double const> row)> const& take) {
-    auto const& [path, content] = file;
-    std::vector<double> row(static_cast<std::size_t>(std::ranges::count(format.header, ',')) + 1);
-    bool seen_header = false;
-    int line_number = 0;
+    std::string const path = file.path.string();
+    // An engine that diverges writes NaN; what that means is decided later.
+    core::CsvReader table(
+        file.content, path,
+        {.comments = true, .blanks = true, .growing = true, .numbers = core::CsvNumbers::any});
+    if (table.columns().empty()) return;  // the engine has not written its first line yet
+    if (header_of(table) != format.header) {
+        throw core::InputError(
+            fmt::format("{}:{}: is no table of {}", path, table.header_line(), format.kind));
+    }
+    std::vector<double> row(table.columns().size());
     long expected_step = format.first_step;
-    for (std::size_t start = 0; start < content.size();) {
-        std::size_t const end = content.find('\n', start);
-        if (end == std::string::npos) break;  // the engine is still writing this line
-        std::string_view const line(content.data() + start, end - start);
-        start = end + 1;
-        ++line_number;
-        if (line.empty() || line.front() == '#') continue;
-        if (!seen_header) {
-            if (line != format.header) {
-                throw core::InputError(
-                    fmt::format("{}:{}: is no table of {}", path.string(), line_number, format.kind));
-            }
-            seen_header = true;
-            continue;
+    auto const refuse = [&](int line, std::string const& problem) {
+        throw core::InputError(fmt::format("{}:{}: the line is damaged; expected {} numbers for step {} ({})",
+                                           path, line, row.size(), expected_step, problem));
+    };
+    try {
+        for (; table.next(row); expected_step += format.step_distance) {
+            if (row[0] != static_cast<double>(expected_step))
+                refuse(table.line(), fmt::format("step {}", row[0]));
+            take(table.line(), row);
         }
-        if (!parse_row(line, row) || row[0] != static_cast<double>(expected_step)) {
-            throw core::InputError(fmt::format("{}:{}: the line is damaged; expected {} numbers for step {}",
-                                               path.string(), line_number, row.size(), expected_step));
-        }
-        take(line_number, row);
-        expected_step += format.step_distance;
+    } catch (core::CsvError const& error) {
+        refuse(error.line(), error.problem());
     }
 }
 

@@ -336,4 +336,11 @@ ConveyorMotion solve(Conveyor const& conveyor) {
     }
 }
 
+ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {
+    ConveyorMotion answer;
+    if (detail == Detail::pieces) answer = solve(conveyor);
+    answer.motion = solve(conveyor.point);
+    return answer;
+}
+
 }  // namespace vibrotrough::theory

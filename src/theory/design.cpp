@@ -186,4 +186,13 @@ Design fastest_design(DesignLimits const& asked) {
     return design;
 }
 
+std::vector<Sensitivity> sensitivities_at(Design const& design, double friction) {
+    Inputs inputs;
+    inputs.set(Input::throw_number, design.throw_number);
+    inputs.set(Input::tan_vibration_angle, std::tan(design.vibration_angle));
+    inputs.set(Input::tan_inclination, std::tan(design.inclination));
+    inputs.set(Input::friction, friction);
+    return sensitivities(inputs);
+}
+
 }  // namespace vibrotrough::theory

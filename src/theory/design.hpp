@@ -1,6 +1,7 @@
 #pragma once
 
 #include "theory/quantities.hpp"
+#include "theory/sensitivity.hpp"
 
 #include <string>
 #include <vector>
@@ -45,5 +46,8 @@ struct Design {
 ///
 /// @throws std::invalid_argument when a limit has no sense
 Design fastest_design(DesignLimits const& asked);
+
+/// How eta answers to each input of a design. @param friction  mu, as in its limits
+std::vector<Sensitivity> sensitivities_at(Design const& design, double friction);
 
 }  // namespace vibrotrough::theory

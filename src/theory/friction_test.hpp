@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 // Friction from a horizontal shake test (Sloot & Kruyt 1996, Section 6 and Fig. 8): a box of grains slides on
 // a plate that is shaken horizontally, beta = 0; the largest displacement of the box against the plate tells
@@ -22,6 +23,18 @@ struct ShakeMotion {
 /// The forward curve of Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver elsewhere). mu > |tan(alpha)|.
 /// Falls with mu from 2 (mu = 0: the box stands still in space) to 0 at mu = K.
 ShakeMotion shake(ShakeTest const& test, double friction);
+
+/// The mass rests within the cycle, so that static friction acts on the result: the mode is not PN.
+bool rests_within_cycle(std::string const& mode);
+
+/// A point of the forward curve.
+struct ShakePoint {
+    double friction;
+    ShakeMotion motion;
+};
+
+/// The forward curve at `count` >= 2 equal steps of mu from `from` to `to`, both included.
+std::vector<ShakePoint> shake_curve(ShakeTest const& test, double from, double to, int count);
 
 struct FrictionEstimate {
     double friction;

@@ -96,4 +96,14 @@ double pn_machine_number(double friction) {
     return friction * std::sqrt(1 + pi * pi / 4);
 }
 
+Limits limits(double tan_vibration_angle, double tan_inclination, double friction) {
+    double const whole = throw_number_of_flight(1);
+    return {.whole_cycle_throw_number = whole,
+            .whole_cycle_efficiency = solve(PointMass{whole, 1e-9, 0, friction}).velocity_efficiency,
+            .best_throw_number_small_angle = best_throw_number_small_angle(),
+            .best = best_throw_number(tan_vibration_angle, tan_inclination, friction),
+            .small_angle_efficiency = small_angle_efficiency(tan_inclination, friction),
+            .pn_machine_number = pn_machine_number(friction)};
+}
+
 }  // namespace vibrotrough::theory

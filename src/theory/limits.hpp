@@ -45,4 +45,17 @@ double small_angle_efficiency(double tan_inclination, double friction);
 /// rests between slides. (The paper reads 0.67 at mu = 0.35 off Fig. 7; this gives 0.652.)
 double pn_machine_number(double friction);
 
+/// All of these for one trough.
+struct Limits {
+    double whole_cycle_throw_number;       ///< of a flight that lasts one cycle, sqrt(1 + pi^2) (Eq. 15)
+    double whole_cycle_efficiency;         ///< eta there, for a small vibration angle, level
+    double best_throw_number_small_angle;  ///< Eq. 19
+    Optimum best;                          ///< for this vibration angle, inclination and friction
+    double small_angle_efficiency;         ///< Eq. 21
+    double pn_machine_number;              ///< from which the mode is PN, beta = 0, level
+};
+
+/// @throws std::invalid_argument as best_throw_number() and small_angle_efficiency()
+Limits limits(double tan_vibration_angle, double tan_inclination, double friction);
+
 }  // namespace vibrotrough::theory

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -179,6 +180,12 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
     });
     for (auto const& row : found) map.boundaries.insert(map.boundaries.end(), row.begin(), row.end());
     return map;
+}
+
+std::size_t count_modes(Map const& map) {
+    std::set<ModeCode> modes;
+    for (MapPoint const& point : map.points) modes.insert(point.mode);
+    return modes.size();
 }
 
 }  // namespace vibrotrough::theory

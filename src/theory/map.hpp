@@ -54,6 +54,9 @@ struct MapOptions {
 /// value is out of its range; PhaseError when a point cannot be solved
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options);
 
+/// How many different modes the points of a map have.
+std::size_t count_modes(Map const& map);
+
 /// One point as in a map, for any inputs. `solver` is used for the plastic point mass.
 MapPoint solve_inputs(Inputs const& inputs, EfficiencySolver& solver);
 

@@ -227,4 +227,56 @@ EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine con
     return q;
 }
 
+std::vector<TraceColumn> const& trace_columns() {
+    using S = TraceSample;
+    static std::vector<TraceColumn> const columns{
+        {"time_rad", "time_s", &S::t},
+        {"trough_velocity_x", "trough_velocity_x_m_per_s", &S::trough_vx},
+        {"mass_velocity_x", "mass_velocity_x_m_per_s", &S::mass_vx},
+        {"trough_velocity_y", "trough_velocity_y_m_per_s", &S::trough_vy},
+        {"mass_velocity_y", "mass_velocity_y_m_per_s", &S::mass_vy},
+        {"trough_acceleration_x", "trough_acceleration_x_m_per_s2", &S::trough_ax},
+        {"trough_acceleration_y", "trough_acceleration_y_m_per_s2", &S::trough_ay},
+        {"relative_displacement", "relative_displacement_m", &S::displacement},
+        {"gap", "gap_m", &S::gap},
+        {"normal_force", "normal_force_n_per_kg", &S::normal_force},
+        {"tangential_force", "tangential_force_n_per_kg", &S::tangential_force}};
+    return columns;
+}
+
+std::vector<TraceSample> in_si_units(std::vector<TraceSample> samples, PointMass const& point,
+                                     Machine const& machine) {
+    double const omega = angular_frequency(point, machine), time = 1 / omega;
+    double const tangent = point.tan_vibration_angle, cosine = 1 / std::hypot(1, tangent);
+    double const length_x = machine.amplitude * cosine, length_y = machine.amplitude * cosine * tangent;
+    double const speed_x = omega * length_x, speed_y = omega * length_y;
+    double const acceleration_x = omega * speed_x, acceleration_y = omega * speed_y;
+    for (TraceSample& s : samples) {
+        s.t *= time;
+        for (double* const value : {&s.trough_vx, &s.mass_vx}) *value *= speed_x;
+        for (double* const value : {&s.trough_vy, &s.mass_vy}) *value *= speed_y;
+        for (double* const value : {&s.trough_ax, &s.tangential_force}) *value *= acceleration_x;
+        for (double* const value : {&s.trough_ay, &s.normal_force}) *value *= acceleration_y;
+        s.displacement *= length_x;
+        s.gap *= length_y;
+    }
+    return samples;
+}
+
+std::vector<NamedQuantity> listed(EngineerQuantities const& q) {
+    return {{"frequency", "Hz", q.frequency},
+            {"conveying_speed", "m/s", q.conveying_speed},
+            {"mass_flow", "kg/s", q.mass_flow},
+            {"impact_speed", "m/s", q.impact_speed},
+            {"normal_impact_speed", "m/s", q.normal_impact_speed},
+            {"impacts_per_cycle", "1", q.impacts_per_cycle},
+            {"friction_energy", "J/kg per cycle", q.friction_energy},
+            {"impact_energy", "J/kg per cycle", q.impact_energy},
+            {"trough_work", "J/kg per cycle", q.trough_work},
+            {"mean_power", "W/kg", q.mean_power},
+            {"largest_normal_force", "N/kg", q.largest_normal_force},
+            {"largest_tangential_force", "N/kg", q.largest_tangential_force},
+            {"largest_impulse", "N s/kg", q.largest_impulse}};
+}
+
 }  // namespace vibrotrough::theory

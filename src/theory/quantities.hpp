@@ -27,6 +27,16 @@ std::vector<TraceSample> trace(ConveyorMotion const& motion, int count);
 /// @throws std::invalid_argument when the motion has no pieces
 TraceSample sample(ConveyorMotion const& motion, double t);
 
+/// A number of a trace and what its column is called: as it is, and after in_si_units().
+struct TraceColumn {
+    char const* name;
+    char const* si_name;
+    double TraceSample::*value;
+};
+
+/// All numbers of a trace in the order of a table; `kind` is apart from them.
+std::vector<TraceColumn> const& trace_columns();
+
 /// Energies per unit mass and cycle in (omega r)^2; `beta` weighs the two directions.
 struct EnergyBalance {
     double trough_work;    ///< by normal force, friction and impacts on the mass
@@ -68,6 +78,20 @@ struct EngineerQuantities {
 
 /// omega from Gamma and r: omega^2 = Gamma g cos(alpha) / (r sin(beta)).
 double angular_frequency(PointMass const& point, Machine const& machine);
+
+/// The trace of a machine: s, m, m/s, m/s^2 and N/kg in the places of the dimensionless numbers.
+std::vector<TraceSample> in_si_units(std::vector<TraceSample> samples, PointMass const& point,
+                                     Machine const& machine);
+
+/// A number with its name and unit.
+struct NamedQuantity {
+    char const* name;
+    char const* unit;
+    double value;
+};
+
+/// The quantities in the order of a table; the angular frequency, which is the frequency again, is left out.
+std::vector<NamedQuantity> listed(EngineerQuantities const& quantities);
 
 /// @throws std::invalid_argument when the motion has no pieces (it runs away) or the machine has no sense
 EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine const& machine);

@@ -2,23 +2,19 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/template.hpp"
 #include "view/scene_template.hpp"
 
-#include <algorithm>
 #include <numbers>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::view {
 namespace {
 
-void replace_all(std::string& text, std::string_view from, std::string const& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-        text.replace(at, from.size(), to);
-    }
-}
+/// The scene's template is a Python program, so that it can be checked as one: its tags are texts.
+constexpr core::TemplateTags tags{"\"@", "@\""};
 
 /// The text as a Python string literal.
 std::string python_literal(std::string_view text) {
@@ -33,17 +29,14 @@ std::string python_literal(std::string_view text) {
 }  // namespace
 
 std::filesystem::path write_scene(FrameSource const& source, std::filesystem::path const& target) {
-    std::string script(scene_template);
     // The trough's own largest speed sets the colours, so that they mean the same in every frame and case.
     double speed = scenario::largest_speed({source.drive.along, {}}, source.angular_frequency);
     if (!(speed > 0.0)) speed = largest_speed(source.drive, source.angular_frequency);
-    std::pair<std::string_view, std::string> const values[] = {
-        {"\"@CAPTION@\"", python_literal(source.caption)},
-        {"\"@FREQUENCY@\"", fmt::format("{}", source.angular_frequency / (2.0 * std::numbers::pi))},
-        {"\"@SPEED@\"", fmt::format("{}", speed > 0.0 ? speed : 1.0)},
-    };
-    for (auto const& [name, value] : values) replace_all(script, name, value);
-    core::write_file_atomically(target / "view_case.py", script);
+    core::TemplateData data;
+    data.set("CAPTION", python_literal(source.caption));
+    data.set("FREQUENCY", fmt::format("{}", source.angular_frequency / (2.0 * std::numbers::pi)));
+    data.set("SPEED", fmt::format("{}", speed > 0.0 ? speed : 1.0));
+    core::write_file_atomically(target / "view_case.py", core::Template(scene_template, tags).render(data));
 
     std::filesystem::path const starter = target / "view.sh";
     core::write_file_atomically(starter, scene_starter);

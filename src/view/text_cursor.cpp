@@ -17,12 +17,6 @@ std::string_view TextCursor::line() {
     return found;
 }
 
-void TextCursor::comma() {
-    if (at_ == end_) throw TextEnds{};
-    if (*at_ != ',') refuse("has no comma here");
-    ++at_;
-}
-
 void TextCursor::end_line() {
     skip_spaces();
     if (at_ == end_) throw TextEnds{};

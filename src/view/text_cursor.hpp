@@ -23,7 +23,7 @@ class TextCursor {
     /// The rest of the line, without its end. @throws TextEnds when it has none
     std::string_view line();
 
-    /// Reads a number up to the next space, comma or line end. @throws InputError when it is none or not
+    /// Reads a number up to the next space or line end. @throws InputError when it is none or not
     /// finite
     /// @throws TextEnds when the text stops within it
     template <typename Number>
@@ -40,9 +40,6 @@ class TextCursor {
         return value;
     }
 
-    /// Passes over a comma. @throws InputError when there is none
-    void comma();
-
     /// Passes over spaces and a line end. @throws InputError when there is more on the line
     void end_line();
 
@@ -50,7 +47,7 @@ class TextCursor {
     [[noreturn]] void refuse(std::string_view what) const;
 
   private:
-    static bool ends_a_value(char c) { return c == ' ' || c == '\n' || c == ','; }
+    static bool ends_a_value(char c) { return c == ' ' || c == '\n'; }
     void skip_spaces() {
         while (at_ != end_ && *at_ == ' ') ++at_;
     }

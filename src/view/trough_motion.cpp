@@ -1,11 +1,20 @@
 #include "view/trough_motion.hpp"
 
 #include "core/atomic_file.hpp"
-#include "view/text_cursor.hpp"
+#include "core/csv.hpp"
 
+#include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace vibrotrough::view {
+namespace {
+
+constexpr std::array<std::string_view, 3> columns{"step", "trough_x", "trough_z"};
+constexpr double largest_step = 9e15;  // whole numbers up to here are exact
+
+}  // namespace
 
 TroughState trough_state(FrameSource const& source, double time) {
     double const angle = source.angular_frequency * time;
@@ -24,33 +33,22 @@ TroughState trough_state(FrameSource const& source, double time) {
 
 std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path) {
     std::string const text = core::read_file(path);
+    constexpr std::string_view cure = "the file is damaged, run its case again";
+    core::CsvReader table(text, path.string(), {.comments = true, .growing = true, .cure = cure});
     std::vector<TroughPosition> positions;
-    TextCursor cursor(text, path);
-    try {
-        TextCursor line = cursor;
-        while (cursor.line().starts_with('#')) line = cursor;
-        if (TextCursor(line).line() != "step,trough_x,trough_z")
-            line.refuse("should be 'step,trough_x,trough_z'");
-        while (!cursor.at_end()) {
-            line = cursor;
-            if (TextCursor(line).line().starts_with('#')) {
-                cursor.line();
-                continue;
-            }
-            TroughPosition position{};
-            position.step = cursor.number<long>();
-            cursor.comma();
-            position.x = cursor.number<double>();
-            cursor.comma();
-            position.z = cursor.number<double>();
-            cursor.end_line();
-            if (!positions.empty() && position.step <= positions.back().step) {
-                line.refuse("has a step that is not after the one before");
-            }
-            positions.push_back(position);
-        }
-    } catch (TextEnds const&) {
-        return positions;
+    if (table.columns().empty()) return positions;
+    if (!table.has_columns(columns)) {
+        throw core::CsvError(path.string(), table.header_line(), "the columns are not step,trough_x,trough_z",
+                             cure);
+    }
+    std::array<double, columns.size()> row{};
+    while (table.next(row)) {
+        if (row[0] != std::floor(row[0]) || std::abs(row[0]) > largest_step)
+            table.fail("the step is not a whole number", cure);
+        TroughPosition const position{static_cast<long>(row[0]), row[1], row[2]};
+        if (!positions.empty() && position.step <= positions.back().step)
+            table.fail(fmt::format("step {} is not after the one before", position.step), cure);
+        positions.push_back(position);
     }
     return positions;
 }

@@ -2,6 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/plan.hpp"
+#include "core/temporary_folder.hpp"
 #include "evaluate/packing.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -13,7 +14,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::campaign {
 
@@ -61,8 +61,6 @@ inline void write_layer(std::filesystem::path const& folder, scenario::Scenario 
 /// A campaign folder of one case with two packings; nothing is written at first.
 class CampaignFolder : public testing::Test {
   protected:
-    ~CampaignFolder() override { std::filesystem::remove_all(folder); }
-
     /// The packing's files as an engine that ended well leaves them.
     void write_packing(int packing, std::string const& cycles,
                        evaluate::PackingMarker const& marker = {}) const {
@@ -73,8 +71,8 @@ class CampaignFolder : public testing::Test {
     }
 
     std::string campaign_text = with("packings = 3", "packings = 2");
-    std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("campaign_{}", ::getpid());
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path folder = own_folder.path() / "campaign";
     Plan plan = make_plan(scenario::parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
     PlannedCase planned = plan.cases.front();
     scenario::Scenario scenario = planned.scenario();

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -18,10 +18,8 @@ namespace fs = std::filesystem;
 
 class BatchTest : public testing::Test {
   protected:
-    BatchTest() { fs::create_directories(folder); }
-    ~BatchTest() override { fs::remove_all(folder); }
-
-    fs::path folder = fs::path(testing::TempDir()) / fmt::format("batch_{}", ::getpid());
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
     std::vector<PackingId> tasks{{"0123456789ab", 1}, {"0123456789ab", 2}, {"ffffffffffff", 1000}};
 };
 

@@ -1,9 +1,9 @@
 #include "core/atomic_file.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -12,9 +12,8 @@ namespace fs = std::filesystem;
 
 class AtomicFile : public testing::Test {
   protected:
-    AtomicFile() { fs::create_directories(folder); }
-    ~AtomicFile() override { fs::remove_all(folder); }
-    fs::path folder = fs::path(testing::TempDir()) / ("atomic_file_" + std::to_string(::getpid()));
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
 };
 
 TEST_F(AtomicFile, WritesAndReplaces) {

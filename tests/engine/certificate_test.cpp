@@ -1,5 +1,6 @@
 #include "engine/certificate.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "engine/certificate_cache.hpp"
 
 #include <cmath>
@@ -9,7 +10,6 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::engine {
 namespace {
@@ -99,12 +99,10 @@ TEST(EngineIdentity, NamesTheLinkedLibrary) {
 class CertificateCache : public testing::Test {
   protected:
     CertificateCache() { ::setenv("XDG_CACHE_HOME", folder.c_str(), 1); }
-    ~CertificateCache() override {
-        ::unsetenv("XDG_CACHE_HOME");
-        fs::remove_all(folder);
-    }
+    ~CertificateCache() override { ::unsetenv("XDG_CACHE_HOME"); }
     fs::path file() const { return *certificate_folder() / (sample().engine.key() + ".json"); }
-    std::string folder = testing::TempDir() + "cache_" + std::to_string(::getpid());
+    core::TemporaryFolder const own_folder;
+    std::string folder = own_folder.path() / "cache";
 };
 
 TEST_F(CertificateCache, KeepsWhatPassed) {

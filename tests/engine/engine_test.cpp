@@ -1,6 +1,7 @@
 #include "engine/engine.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "engine/run_report.hpp"
 
 #include <csignal>
@@ -8,7 +9,6 @@
 
 #include <boost/asio/steady_timer.hpp>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::engine {
 namespace {
@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 // These tests run the real LIGGGHTS, on decks without a grain.
 class EngineTest : public testing::Test {
   protected:
-    EngineTest() { fs::create_directories(folder); }
-    ~EngineTest() override { fs::remove_all(folder); }
-
     void write_deck(std::string const& text) { std::ofstream(folder / "in.liggghts") << text; }
 
     std::string error_for(fs::path const& asked) {
@@ -32,7 +29,8 @@ class EngineTest : public testing::Test {
         return "no error";
     }
 
-    fs::path folder = testing::TempDir() + "engine_" + std::to_string(::getpid());
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
     boost::asio::io_context context;
 };
 

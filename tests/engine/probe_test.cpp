@@ -1,5 +1,6 @@
 #include "engine/probe.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "deck/deck.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe_decks.hpp"
@@ -11,7 +12,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::engine {
 namespace {
@@ -21,9 +21,6 @@ namespace fs = std::filesystem;
 // These tests probe the real LIGGGHTS, and scripts that spoil its decks before they start it.
 class Probe : public testing::Test {
   protected:
-    Probe() { fs::create_directories(folder); }
-    ~Probe() override { fs::remove_all(folder); }
-
     static Certificate certificate_of(Engine const& engine) {
         return probe_engine(engine, identify(engine)).value();
     }
@@ -41,7 +38,8 @@ class Probe : public testing::Test {
         return names;
     }
 
-    fs::path folder = testing::TempDir() + "probe_" + std::to_string(::getpid());
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
 };
 
 using Names = std::set<std::string>;

@@ -1,25 +1,24 @@
 #include "engine/run_report.hpp"
 
+#include "core/temporary_folder.hpp"
+
 #include <csignal>
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::engine {
 namespace {
 
 class RunReportTest : public testing::Test {
   protected:
-    RunReportTest() { std::filesystem::create_directories(folder); }
-    ~RunReportTest() override { std::filesystem::remove_all(folder); }
-
     RunReport examine(std::string const& output, ExitStatus status = {0, 0}, Stage stage = Stage::driving) {
         std::ofstream(folder / output_file) << output;
         return examine_run(folder, status, stage);
     }
 
-    std::filesystem::path folder = testing::TempDir() + "outcome_" + std::to_string(::getpid());
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path folder = own_folder.path();
     std::string const settled = "VIBROTROUGH SETTLED floor_force -0.0991 mass 0.0101 centre_height 0.0095\n";
     std::string const whole = settled + "Loop time of 1\nVIBROTROUGH DONE step 59000 grains 500\n";
 };

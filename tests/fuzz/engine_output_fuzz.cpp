@@ -2,6 +2,7 @@
 // crashes its driver.
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "engine/run_report.hpp"
 #include "measure/cycle_series.hpp"
 
@@ -11,19 +12,13 @@
 #include <fstream>
 #include <string>
 
-#include <unistd.h>
-
 namespace {
 
 namespace fs = std::filesystem;
 
 fs::path const& folder() {
-    static fs::path const made = [] {
-        fs::path const path = fs::temp_directory_path() / ("vibrotrough-fuzz-" + std::to_string(::getpid()));
-        fs::create_directories(path);
-        return path;
-    }();
-    return made;
+    static core::TemporaryFolder const made("vibrotrough-fuzz");
+    return made.path();
 }
 
 }  // namespace

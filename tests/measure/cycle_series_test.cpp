@@ -1,19 +1,17 @@
 #include "measure/cycle_series.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::measure {
 namespace {
 
 class CyclesFile : public testing::Test {
   protected:
-    ~CyclesFile() override { std::filesystem::remove(path); }
-
     CycleSeries read(std::string const& text) {
         std::ofstream(path) << text;
         return read_cycles(path, 100, 50);
@@ -27,7 +25,8 @@ class CyclesFile : public testing::Test {
         return "no error";
     }
 
-    std::filesystem::path path = testing::TempDir() + "cycles_" + std::to_string(::getpid()) + ".csv";
+    core::TemporaryFolder const folder;
+    std::filesystem::path path = folder.path() / "cycles.csv";
     std::string const whole =
         "# SI units\nstep,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction\n"
         "0,50,0.01,0.005,0,0,0,0,0\n# driven from here\n"

@@ -1,6 +1,7 @@
 #include "measure/layer_profiles.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -9,16 +10,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::measure {
 namespace {
 
 class Snapshots : public testing::Test {
   protected:
-    Snapshots() { std::filesystem::create_directories(folder); }
-    ~Snapshots() override { std::filesystem::remove_all(folder); }
-
     void write(std::string const& name, std::string const& text) const {
         std::ofstream(folder / name) << text;
     }
@@ -38,8 +35,8 @@ class Snapshots : public testing::Test {
         return "no error";
     }
 
-    std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("snapshots_{}", ::getpid());
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path folder = own_folder.path();
     std::string const head = "# Spatial-averaged data\n# Timestep Number-of-bins\n";
 };
 

@@ -1,21 +1,19 @@
 #include "measure/phase_series.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough::measure {
 namespace {
 
 class PhasesFile : public testing::Test {
   protected:
-    ~PhasesFile() override { std::filesystem::remove(path); }
-
     PhaseSeries read(std::string const& text) {
         std::ofstream(path) << text;
         return read_phases(path, 300);
@@ -29,7 +27,8 @@ class PhasesFile : public testing::Test {
         return "no error";
     }
 
-    std::filesystem::path path = testing::TempDir() + "phases_" + std::to_string(::getpid()) + ".csv";
+    core::TemporaryFolder const folder;
+    std::filesystem::path path = folder.path() / "phases.csv";
     std::string const whole =
         "# SI units\n"
         "step,x_com,z_com,vx_com,vz_com,trough_x,trough_z,force_x,force_z,floor_z,touching,touching_vx,"

@@ -1,6 +1,7 @@
 #include "scenario/reader/design.hpp"
 
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -11,7 +12,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -59,8 +59,8 @@ TEST(Design, ZippedListsGoInStepAndMultiplyWithTheSweep) {
 }
 
 TEST(Design, PointsFromACsvFile) {
-    auto const folder = std::filesystem::path(testing::TempDir()) / ("design_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
     std::ofstream(folder / "points.csv")
         << "# measured\r\ntrough.throw_number, layer.height\r\n1.5,9 mm\r\n\n2.5,0.015 m\n";
     std::ofstream(folder / "campaign.toml") << example_campaign << "[points_from]\nfile = \"points.csv\"\n";
@@ -78,7 +78,44 @@ TEST(Design, PointsFromACsvFile) {
                         .starts_with((folder / "points.csv").string() + ":3: trough.throw_number: "))
             << error.what();
     }
-    std::filesystem::remove_all(folder);
+}
+
+// What spreadsheets write: quotes around everything, a byte order mark, ; with decimal commas.
+TEST(Design, PointsFromASpreadsheet) {
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
+    std::ofstream(folder / "campaign.toml") << example_campaign << "[points_from]\nfile = \"points.csv\"\n";
+    auto const heights = [&](std::string const& table) {
+        std::ofstream(folder / "points.csv") << table;
+        std::vector<double> found;
+        for (auto const& scenario : scenario::read_campaign(folder / "campaign.toml").cases)
+            found.push_back(std::round(1e9 * scenario.layer.height.value()));
+        return found;
+    };
+    auto const refusal = [&](std::string const& table) -> std::string {
+        try {
+            heights(table);
+        } catch (core::InputError const& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    std::vector<double> const expected{9'000'000, 15'500'000};  // nm
+    EXPECT_EQ(heights("\xEF\xBB\xBF\"layer.height\",\"trough.throw_number\"\r\n\"9 mm\",\"2\"\r\n"
+                      "\"15.5 mm\",\"2.5\"\r\n"),
+              expected);
+    EXPECT_EQ(heights("layer.height;trough.throw_number\n9 mm;2\n15,5 mm;2,5\n"), expected);
+    // A comma within quotes separates nothing: the value is refused whole, where it stands.
+    std::string const quoted = refusal("layer.height,trough.throw_number\n9 mm,2\n\"15,5 mm\",2.5\n");
+    EXPECT_NE(quoted.find("points.csv:3: layer.height: "), std::string::npos) << quoted;
+    EXPECT_NE(quoted.find("',5 mm' is not a unit"), std::string::npos) << quoted;
+    std::string const ragged = refusal("layer.height,trough.throw_number\n9 mm\n");
+    EXPECT_NE(ragged.find("points.csv:2: has 1 values for 2 columns"), std::string::npos) << ragged;
+    std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
+    EXPECT_NE(open.find("points.csv:2: a quote is opened and not closed"), std::string::npos) << open;
+    EXPECT_NE(refusal("").find("points.csv:1: is empty"), std::string::npos);
+    EXPECT_NE(refusal("layer.hight\n9 mm\n").find("points.csv:1:1: layer.hight: is no key"),
+              std::string::npos);
 }
 
 TEST(Design, ExclusionsSeeGivenAndDerivedValues) {

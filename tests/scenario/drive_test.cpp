@@ -1,5 +1,6 @@
 #include "scenario/model/drive.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -10,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -78,8 +78,9 @@ TEST(Drive, WaveformMistakesAreNamed) {
         return {};
     };
     EXPECT_EQ(error_of("t,x,z\n"), "line 1 is not the header time_s,x_m,z_m");
-    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,1\n"), "line 2 is not three numbers");
-    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,nan\n"), "line 2 is not three numbers");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,1\n"), "line 2: has 2 values for 3 columns");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,nan\n"),
+              "line 2: column z_m: 'nan' is not a finite plain number");
     EXPECT_EQ(error_of(samples(7, 0.1)), "7 samples are fewer than 8");
     EXPECT_NE(error_of(samples(16, 0.2)).find("sample 2 is at 0.0125 s"), std::string::npos);
     EXPECT_NE(error_of(samples(16, 0.1, 0.001)).find("sample 4 is at"), std::string::npos);
@@ -91,8 +92,8 @@ TEST(Drive, WaveformMistakesAreNamed) {
 // Amplitude and vibration angle stay the keys', and the error says what to write when they are not the
 // file's.
 TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
-    std::filesystem::path const folder = testing::TempDir() + "waveform_" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
     std::ofstream(folder / "shaker.csv") << samples(32, 0.1);
     auto const read = [&](std::string const& drive) {
         std::string const text = with("amplitude = \"6 mm\"\nthrow_number = 2.0", drive,
@@ -112,7 +113,6 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
     scenario::Scenario const s =
         read("amplitude = \"5.83095 mm\"\nvibration_angle = \"30.964 deg\"\n" + file);
     EXPECT_EQ(drive_motion(s.trough).along.size(), 2u);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

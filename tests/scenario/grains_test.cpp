@@ -1,5 +1,6 @@
 #include "scenario/model/grains.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -9,7 +10,6 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -93,22 +93,22 @@ TEST(Grains, ShapeFilesAreReadAndTheirMistakesNamed) {
     EXPECT_EQ(error_of("# a dumb-bell\nx,y,z,radius\n0,0,0,1\r\n1.5,0,0,1\n"), "");
     EXPECT_EQ(error_of(""), "no spheres");
     EXPECT_EQ(error_of("x,y,z\n"), "line 1 is not the header x,y,z,radius");
-    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,1\n0,0,1\n"), "line 3 is not four numbers");
-    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,inf\n"), "line 2 is not four numbers");
+    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,1\n0,0,1\n"), "line 3: has 3 values for 4 columns");
+    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,inf\n"),
+              "line 2: column radius: 'inf' is not a finite plain number");
     EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,0\n"), "line 2 has no radius above 0");
 }
 
 // A campaign with a shape of its own, from the file beside it.
 TEST(Grains, ShapeFileStandsBesideTheCampaign) {
-    std::filesystem::path const folder = testing::TempDir() + "shape_" + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
     std::ofstream(folder / "two.csv") << "x,y,z,radius\n0,0,0,1\n1.5,0,0,1\n";
     std::ofstream(folder / "c.toml") << with("diameter_spread = 0.1", "shape = \"two.csv\"");
     scenario::Scenario const s = scenario::read_campaign(folder / "c.toml").cases.front();
     EXPECT_EQ(shape_spheres(s.grains).size(), 2u);
     ASSERT_EQ(named_files(s).size(), 1u);
     EXPECT_NE(to_toml(s).find("shape = \"two.csv\""), std::string::npos);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "scenario/reader/shake_test.hpp"
 
+#include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 
 #include <algorithm>
@@ -9,20 +10,18 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
 
 class ShakeTestCampaign : public testing::Test {
   protected:
-    ~ShakeTestCampaign() override { std::filesystem::remove(path); }
-
     scenario::Campaign made_from(std::string const& text) {
         std::ofstream(path) << text;
         return scenario::parse_campaign(scenario::shake_test_campaign(path, 0.67), "test.toml");
     }
-    std::filesystem::path path = testing::TempDir() + fmt::format("shake_{}.toml", ::getpid());
+    core::TemporaryFolder const folder;
+    std::filesystem::path path = folder.path() / "shake.toml";
 };
 
 TEST_F(ShakeTestCampaign, ShakesTheSameLayerAlongALevelTrough) {

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "sample_record.hpp"
 #include "store/hdf5_memory_file.hpp"
 
@@ -12,7 +13,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 namespace vibrotrough::store {
 namespace {
@@ -28,9 +28,6 @@ void overwrite(fs::path const& path, std::string const& bytes) {
 
 class ResultFile : public testing::Test {
   protected:
-    ResultFile() { fs::create_directories(folder); }
-    ~ResultFile() override { fs::remove_all(folder); }
-
     /// The message of the InputError of reading `bytes` as result.h5.
     std::string refusal(std::string const& bytes) const {
         overwrite(path, bytes);
@@ -42,7 +39,8 @@ class ResultFile : public testing::Test {
         return "no error";
     }
 
-    fs::path folder = fs::path(testing::TempDir()) / ("result_file_" + std::to_string(::getpid()));
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
     fs::path path = folder / "result.h5";
 };
 

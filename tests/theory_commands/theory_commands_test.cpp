@@ -1,3 +1,4 @@
+#include "core/temporary_folder.hpp"
 #include "run_program.hpp"
 
 #include <algorithm>
@@ -29,14 +30,7 @@ void expect_refused(std::string const& command, std::string const& words) {
 
 class TheoryFiles : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("theory_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    std::string path(std::string const& name) const { return (folder_ / name).string(); }
+    std::string path(std::string const& name) const { return (folder_.path() / name).string(); }
     static std::vector<std::vector<std::string>> read_csv(std::string const& name) {
         std::vector<std::vector<std::string>> rows;
         std::ifstream file(name);
@@ -49,7 +43,7 @@ class TheoryFiles : public testing::Test {
     }
 
   private:
-    fs::path folder_;
+    core::TemporaryFolder const folder_;
 };
 
 // Read back by h5py and by VTK in validation/theory_figures; here that the files are there and the cost is
@@ -241,6 +235,26 @@ TEST_F(TheoryFiles, BatchRepeatsItsColumnsAndAddsTheAnswers) {
     EXPECT_EQ(rows[3].back(), "false");
     EXPECT_EQ(run_program("theory batch " + path("in.csv") + " --output " + path("out.h5")).exit_code, 0);
     EXPECT_TRUE(fs::exists(path("out.h5")));
+}
+
+// A spreadsheet's file: quotes, also with a comma within, and ; with decimal commas.
+TEST_F(TheoryFiles, BatchReadsSpreadsheets) {
+    std::string const head = "throw_number,tan_vibration_angle,tan_inclination,friction\n";
+    auto const answer_to = [&](std::string const& text) {
+        std::ofstream(path("in.csv")) << text;
+        Answer const answer = run_program("theory batch " + path("in.csv") + " --output " + path("out.csv"));
+        EXPECT_EQ(answer.exit_code, 0) << answer.text;
+        return read_csv(path("out.csv"));
+    };
+    auto const plain = answer_to(head + "2,0.5,-0.05,0.23\n");
+    EXPECT_EQ(answer_to(head + "\"2\",\"0.5\",\"-0.05\",\"0.23\"\r\n"), plain);
+    EXPECT_EQ(
+        answer_to(
+            "\xEF\xBB\xBFthrow_number;tan_vibration_angle;tan_inclination;friction\n2;0,5;-0,05;0,23\n"),
+        plain);
+    std::ofstream(path("in.csv")) << head << "\"2,5\",0.5,0,0.23\n";
+    expect_refused("batch " + path("in.csv") + " --output " + path("out.csv"),
+                   "in.csv:2: column throw_number: '2,5' is not a finite plain number");
 }
 
 TEST_F(TheoryFiles, BatchRefusesWrongTables) {

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -35,15 +35,12 @@ constexpr double amplitude_z = 0.00268328;
 class Frames : public testing::Test {
   protected:
     Frames() {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         fs::copy(VIEW_TEST_DATA, source.folder);
         source.trough = source.folder / "trough.stl";
         theory::Conveyor conveyor{};
         conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
         source.point_mass = TheoryMotion{theory::solve(conveyor), amplitude_x, amplitude_z};
     }
-    ~Frames() override { fs::remove_all(folder); }
 
     vtkSmartPointer<vtkPolyData> read(std::string const& file) const {
         auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
@@ -76,7 +73,8 @@ class Frames : public testing::Test {
         std::ofstream(source.folder / name, std::ios::binary | std::ios::trunc) << text;
     }
 
-    fs::path folder = fs::path(testing::TempDir()) / ("frames_" + std::to_string(::getpid()));
+    core::TemporaryFolder const own_folder;
+    fs::path folder = own_folder.path();
     fs::path target = folder / "target";
     FrameSource source{.folder = folder / "dump",
                        .trough = {},

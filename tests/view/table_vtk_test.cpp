@@ -2,11 +2,11 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkStringArray.h>
@@ -26,7 +26,8 @@ compare::Row row_of(std::string const& id, double throw_number) {
 }
 
 TEST(Table, IsReadBackByVtk) {
-    fs::path const path = fs::path(testing::TempDir()) / ("table_" + std::to_string(::getpid()) + ".vtt");
+    core::TemporaryFolder const folder;
+    fs::path const path = folder.path() / "table.vtt";
     std::vector<compare::Row> rows{row_of("a", 1.7), row_of("b \xCE\xB2", 1e-300), row_of("", 2)};
     rows[1].mode_layer = "FP'N";
     rows[1].packings = 3;
@@ -56,17 +57,16 @@ TEST(Table, IsReadBackByVtk) {
     EXPECT_EQ(modes->GetValue(0), "") << "not known";
     EXPECT_EQ(texts->GetValue(1), "b \xCE\xB2");
     EXPECT_EQ(texts->GetValue(2), "");
-    fs::remove(path);
 }
 
 TEST(Table, OfNoRowOpens) {
-    fs::path const path = fs::path(testing::TempDir()) / ("no_row_" + std::to_string(::getpid()) + ".vtt");
+    core::TemporaryFolder const folder;
+    fs::path const path = folder.path() / "no_row.vtt";
     write_table(path, {});
     vtkNew<vtkXMLTableReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();
     EXPECT_EQ(reader->GetOutput()->GetNumberOfRows(), 0);
-    fs::remove(path);
     EXPECT_THROW(write_table("/proc/no/such.vtt", {}), core::MissingError);
 }
 

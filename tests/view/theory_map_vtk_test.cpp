@@ -1,5 +1,7 @@
 #include "view/theory_map_vtk.hpp"
 
+#include "core/temporary_folder.hpp"
+
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -20,8 +22,8 @@ TEST(TheoryMapVtk, IsReadBack) {
     inputs.set(theory::Input::friction, 0.35);
     theory::Map const map = theory::solve_map(inputs, {theory::Input::throw_number, 0.5, 3, 6},
                                               {theory::Input::vibration_angle_deg, 10, 50, 5}, {.jobs = 1});
-    auto const folder = std::filesystem::temp_directory_path() / "theory_map_vtk_test";
-    std::filesystem::create_directories(folder);
+    core::TemporaryFolder const own_folder;
+    std::filesystem::path const& folder = own_folder.path();
     write_theory_image(folder / "map.vti", map);
     write_theory_boundaries(folder / "modes.vtp", map);
     vtkNew<vtkXMLImageDataReader> image;
@@ -39,7 +41,6 @@ TEST(TheoryMapVtk, IsReadBack) {
     lines->SetFileName((folder / "modes.vtp").c_str());
     lines->Update();
     EXPECT_EQ(lines->GetOutput()->GetNumberOfLines(), static_cast<vtkIdType>(map.boundaries.size()));
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

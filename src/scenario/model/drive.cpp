@@ -1,7 +1,7 @@
 #include "scenario/model/drive.hpp"
 
+#include "core/csv.hpp"
 #include "scenario/model/scenario.hpp"
-#include "scenario/reader/number_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +22,8 @@ using Sample = std::array<double, 3>;  // time, x, z
 
 std::vector<Sample> read_samples(std::string_view csv) {
     std::vector<Sample> samples;
-    for (auto const& row : read_number_table<3>(csv, "time_s,x_m,z_m", "three"))
-        samples.push_back(row.values);
+    for (auto const& row : core::read_number_table(csv, {"time_s", "x_m", "z_m"}))
+        samples.push_back({row.values[0], row.values[1], row.values[2]});
     return samples;
 }
 

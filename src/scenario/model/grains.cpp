@@ -1,6 +1,6 @@
 #include "scenario/model/grains.hpp"
 
-#include "scenario/reader/number_table.hpp"
+#include "core/csv.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ std::vector<Sphere> rod_spheres() {
 
 std::vector<Sphere> read_spheres(std::string_view text) {
     std::vector<Sphere> spheres;
-    for (auto const& [values, line] : read_number_table<4>(text, "x,y,z,radius", "four")) {
+    for (auto const& [values, line] : core::read_number_table(text, {"x", "y", "z", "radius"})) {
         if (!(values[3] > 0)) throw std::invalid_argument(fmt::format("line {} has no radius above 0", line));
         spheres.push_back({values[0], values[1], values[2], values[3]});
     }

@@ -1,16 +1,16 @@
 #include "scenario/reader/design_reader.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/keys.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -31,18 +31,6 @@ bool is_word(Key const& key) {
 bool can_vary(Key const& key) {
     return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
            is_word(key);
-}
-
-std::vector<std::string> split_row(std::string line) {
-    if (line.ends_with('\r')) line.pop_back();
-    std::vector<std::string> cells;
-    std::istringstream text(line + ",");
-    for (std::string cell; std::getline(text, cell, ',');) {
-        auto const first = cell.find_first_not_of(" \t\"");
-        auto const last = cell.find_last_not_of(" \t\"");
-        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    return cells;
 }
 
 class DesignReader {
@@ -234,51 +222,44 @@ class DesignReader {
         campaign_.files.push_back(path);
         PointList list;
         list.where = position(table.source());
-        std::istringstream lines(core::read_file(path));
-        int number = 0;
-        for (std::string line; std::getline(lines, line);) {
-            ++number;
-            if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-            read_csv_row(path, number, split_row(line), list);
-        }
+        read_csv_rows(path.string(), core::read_file(path), list);
         add(std::move(list));
     }
 
-    void read_csv_row(std::filesystem::path const& path, int number, std::vector<std::string> const& cells,
-                      PointList& list) {
-        std::string const file = path.string();
-        Position const where{static_cast<unsigned>(number), 1};
-        if (list.keys.empty()) {
-            for (std::string const& cell : cells) {
-                Key const* const key = find_key(cell);
-                if (key == nullptr || !can_vary(*key))
-                    throw_at({file, where}, core::printable(cell, 60), "is no key that can vary",
-                             "write keys such as trough.throw_number in the first line");
-            }
-            list.keys = cells;
-            return;
+    void read_csv_rows(std::string const& file, std::string const& text, PointList& list) {
+        core::CsvReader table(text, file, {.comments = true, .blanks = true, .most_rows = most_points});
+        list.keys = table.columns();
+        for (std::string const& name : list.keys) {
+            Key const* const key = find_key(name);
+            if (key == nullptr || !can_vary(*key))
+                throw_at({file, {static_cast<unsigned>(table.header_line()), 1}}, core::printable(name, 60),
+                         "is no key that can vary",
+                         "write keys such as trough.throw_number in the first line");
         }
-        if (cells.size() != list.keys.size() || list.points.size() >= most_points)
-            throw_at({file, where}, "points_from",
-                     fmt::format("has {} values for {} keys", cells.size(), list.keys.size()),
-                     "write one value for each key of the first line, in at most 100000 lines");
-        std::vector<Value> point;
-        for (std::size_t k = 0; k < cells.size(); ++k)
-            point.push_back({read_cell(file, where, *find_key(list.keys[k]), cells[k]), list.where});
-        list.points.push_back(std::move(point));
+        while (table.next()) {
+            Position const where{static_cast<unsigned>(table.line()), 1};
+            std::vector<Value> point;
+            for (std::size_t k = 0; k < list.keys.size(); ++k) {
+                Key const& key = *find_key(list.keys[k]);
+                std::string const cell = is_word(key)
+                                             ? std::string(table.cells()[k])
+                                             : core::with_decimal_point(table.cells()[k], table.separator());
+                point.push_back({read_cell(file, where, key, cell), list.where});
+            }
+            list.points.push_back(std::move(point));
+        }
     }
 
     /// A cell holds what would stand right of the equals sign, without quotes.
     Content read_cell(std::string const& file, Position where, Key const& key,
                       std::string const& cell) const {
-        double number = 0;
-        auto const [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-        bool const bare = failure == std::errc() && end == cell.data() + cell.size();
-        bool const integral = bare && std::abs(number) < 1e15 && number == std::round(number);
+        // Infinities are for the key to refuse, with what to write instead.
+        std::optional<double> const number = core::csv_number(cell, ',', core::CsvNumbers::any);
+        bool const integral = number && std::abs(*number) < 1e15 && *number == std::round(*number);
         try {
             if (key.kind == KeyKind::integer && integral)
-                return read_(key, toml::value<std::int64_t>(std::llround(number)));
-            if (bare && !is_word(key)) return read_(key, toml::value<double>(number));
+                return read_(key, toml::value<std::int64_t>(std::llround(*number)));
+            if (number && !is_word(key)) return read_(key, toml::value<double>(*number));
             return read_(key, toml::value<std::string>(cell));
         } catch (core::InputError const& error) {
             // The value has no place in the campaign file: its place is the CSV file's.

@@ -4,9 +4,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
-#include "theory/sensitivity.hpp"
 
-#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -107,16 +105,6 @@ nlohmann::ordered_json as_json(theory::Design const& d) {
             {"active_limits", d.active_limits}};
 }
 
-/// How eta answers at the optimum.
-std::vector<theory::Sensitivity> sensitivities_at(theory::Design const& d, double friction) {
-    theory::Inputs inputs;
-    inputs.set(theory::Input::throw_number, d.throw_number);
-    inputs.set(theory::Input::tan_vibration_angle, std::tan(d.vibration_angle));
-    inputs.set(theory::Input::tan_inclination, std::tan(d.inclination));
-    inputs.set(theory::Input::friction, friction);
-    return theory::sensitivities(inputs);
-}
-
 void run(Options const& options) {
     theory::DesignLimits const limits = read(options);
     theory::Design d;
@@ -126,7 +114,7 @@ void run(Options const& options) {
         throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
     }
     auto json = as_json(d);
-    for (auto const& s : sensitivities_at(d, limits.friction)) {
+    for (auto const& s : theory::sensitivities_at(d, limits.friction)) {
         json["sensitivity"][std::string(theory::name_of(s.input))] = s.derivative;
     }
     if (options.json) {

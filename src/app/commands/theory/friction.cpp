@@ -21,7 +21,7 @@ struct Options {
 using Json = nlohmann::ordered_json;
 
 std::string warning_for(std::string const& mode) {
-    if (mode == "PN") return "";
+    if (!theory::rests_within_cycle(mode)) return "";
     return fmt::format(
         "the mode is {}, not PN: the mass rests within the cycle, so static friction acts on the result; "
         "shake harder (larger machine number)",
@@ -41,11 +41,8 @@ void curve(std::string const& text, theory::ShakeTest const& test) {
         read_number_within("--friction", text.substr(first + 1, second - first - 1), example, from, 1e6);
     int const count = read_count("--friction", text.substr(second + 1), example, 2, 1'000'000);
     fmt::print("friction,max_relative_displacement,mode\n");
-    for (int i = 0; i < count; ++i) {
-        double const mu = from + (to - from) * i / (count - 1);
-        theory::ShakeMotion const motion = theory::shake(test, mu);
+    for (auto const& [mu, motion] : theory::shake_curve(test, from, to, count))
         fmt::print("{},{},{}\n", mu, motion.max_relative_displacement, motion.mode);
-    }
 }
 
 void forward(Options const& options, theory::ShakeTest const& test) {
@@ -95,7 +92,7 @@ void inverse(Options const& options, theory::ShakeTest const& test) {
 }
 
 void run(Options const& options) {
-    auto const& k = required("--machine-number", options.machine_number, "1.5");
+    std::string const k = required("--machine-number", options.machine_number, "1.5");
     theory::ShakeTest test{read_number_within("--machine-number", k, "1.5", 1e-3, 1e4)};
     if (options.tan_inclination) {
         test.tan_inclination =

@@ -43,17 +43,15 @@ Inputs read(Options const& o) {
 }
 
 Json answers(Options const& options, Inputs const& in) {
-    double const whole = theory::throw_number_of_flight(1);
-    auto const best = theory::best_throw_number(in.tan_beta, in.tan_alpha, in.mu);
+    theory::Limits const limits = theory::limits(in.tan_beta, in.tan_alpha, in.mu);
     Json json = {
-        {"throw_number_of_whole_cycle_flight", whole},
-        {"efficiency_at_whole_cycle_flight",
-         theory::solve(theory::PointMass{whole, 1e-9, 0, in.mu}).velocity_efficiency},
-        {"best_throw_number_small_angle", theory::best_throw_number_small_angle()},
-        {"best_throw_number", best.throw_number},
-        {"efficiency_at_best_throw_number", best.velocity_efficiency},
-        {"small_angle_efficiency", theory::small_angle_efficiency(in.tan_alpha, in.mu)},
-        {"pn_machine_number_level_small_angle", theory::pn_machine_number(in.mu)},
+        {"throw_number_of_whole_cycle_flight", limits.whole_cycle_throw_number},
+        {"efficiency_at_whole_cycle_flight", limits.whole_cycle_efficiency},
+        {"best_throw_number_small_angle", limits.best_throw_number_small_angle},
+        {"best_throw_number", limits.best.throw_number},
+        {"efficiency_at_best_throw_number", limits.best.velocity_efficiency},
+        {"small_angle_efficiency", limits.small_angle_efficiency},
+        {"pn_machine_number_level_small_angle", limits.pn_machine_number},
     };
     if (!options.throw_number) return json;
     double const gamma = read_number_within("--throw-number", *options.throw_number, "0.8", 1e-9, 1e4);

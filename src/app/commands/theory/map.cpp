@@ -9,7 +9,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -86,10 +85,8 @@ void run(Options const& options) {
     store::write_theory_map(output, map, fixed);
     view::write_theory_image(image, map);
     view::write_theory_boundaries(lines, map);
-    std::set<theory::ModeCode> modes;
-    for (auto const& point : map.points) modes.insert(point.mode);
-    fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(), modes.size(),
-               map.boundaries.size());
+    fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(),
+               theory::count_modes(map), map.boundaries.size());
     fmt::print("{:.3f} microseconds of CPU per solution\n", 1e6 * map.cpu_seconds_per_solution);
     fmt::print("written: {}\n         {}\n         {}\n", output.string(), image.string(), lines.string());
 }

@@ -25,7 +25,7 @@ double read_quantity(std::string const& option, std::string const& text, std::st
 
 }  // namespace
 
-std::string const& required(std::string const& option, Text const& text, std::string const& example) {
+std::string required(std::string const& option, Text const& text, std::string const& example) {
     if (!text)
         throw core::InputError(
             fmt::format("{} is missing; write for example {} {}", option, option, example));

@@ -35,7 +35,7 @@ double read_angle(std::string const& option, std::string const& text, std::strin
                   double low_deg, double high_deg);
 
 /// The text of an option that must be there. @throws InputError with an example when it is missing
-std::string const& required(std::string const& option, Text const& text, std::string const& example);
+std::string required(std::string const& option, Text const& text, std::string const& example);
 
 /// The options that describe a motion, shared by the theory's subcommands.
 class TheoryOptions {

@@ -55,28 +55,6 @@ Json as_json(theory::Conveyor const& input, theory::ConveyorMotion const& answer
             {"friction", input.point.friction}};
 }
 
-struct Quantity {
-    char const* name;
-    char const* unit;
-    double value;
-};
-
-std::vector<Quantity> listed(theory::EngineerQuantities const& q) {
-    return {{"frequency", "Hz", q.frequency},
-            {"conveying_speed", "m/s", q.conveying_speed},
-            {"mass_flow", "kg/s", q.mass_flow},
-            {"impact_speed", "m/s", q.impact_speed},
-            {"normal_impact_speed", "m/s", q.normal_impact_speed},
-            {"impacts_per_cycle", "1", q.impacts_per_cycle},
-            {"friction_energy", "J/kg per cycle", q.friction_energy},
-            {"impact_energy", "J/kg per cycle", q.impact_energy},
-            {"trough_work", "J/kg per cycle", q.trough_work},
-            {"mean_power", "W/kg", q.mean_power},
-            {"largest_normal_force", "N/kg", q.largest_normal_force},
-            {"largest_tangential_force", "N/kg", q.largest_tangential_force},
-            {"largest_impulse", "N s/kg", q.largest_impulse}};
-}
-
 void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer) {
     theory::Motion const& motion = answer.motion;
     fmt::print("throw number         {:.6g}\n", input.point.throw_number);
@@ -117,18 +95,14 @@ void run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     std::optional<theory::Machine> machine;
     if (options.amplitude) machine = read_machine(options);
-    theory::ConveyorMotion answer;
-    if (options.motion.plastic()) answer.motion = theory::solve(input.point);
-    if (!options.motion.plastic() || options.amplitude) {
-        theory::Motion const exact = answer.motion;
-        answer = theory::solve(input);
-        if (options.motion.plastic()) answer.motion = exact;
-    }
+    theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
+    theory::ConveyorMotion const answer =
+        options.motion.plastic() ? theory::solve_plastic(input, detail) : theory::solve(input);
     Json json = as_json(input, answer);
     if (!options.json) print_text(input, answer);
     if (machine && !answer.pieces.empty()) {
         if (!options.json) fmt::print("\n");
-        for (auto const& q : listed(theory::engineer_quantities(answer, *machine))) {
+        for (auto const& q : theory::listed(theory::engineer_quantities(answer, *machine))) {
             json["quantities"][q.name] = {{"value", q.value}, {"units", q.unit}};
             if (!options.json) fmt::print("{:<26} {:>12.6g} {}\n", q.name, q.value, q.unit);
         }

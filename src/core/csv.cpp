@@ -1,0 +1,333 @@
+#include "core/csv.hpp"
+
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::core {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t longest_shown = 60;
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t';
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+std::string place(std::string const& file, int line) {
+    return file.empty() ? fmt::format("line {}", line) : fmt::format("{}:{}", file, line);
+}
+
+/// Whether a ';' stands outside quotes on the first line of the text.
+char find_separator(std::string_view text) {
+    bool in_quotes = false;
+    for (char const c : text) {
+        if (c == '"') in_quotes = !in_quotes;
+        if (in_quotes) continue;
+        if (c == ';') return ';';
+        if (c == '\n') break;
+    }
+    return ',';
+}
+
+}  // namespace
+
+CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
+    : InputError(cure.empty() ? fmt::format("{}: {}", place(file, line), problem)
+                              : fmt::format("{}: {}; {}", place(file, line), problem, cure)),
+      line_(line),
+      problem_(problem) {}
+
+CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
+    : text_(text), file_(std::move(file)), format_(std::move(format)), columns_(format_.columns) {
+    if (text_.size() > format_.most_bytes)
+        fail_at(1, fmt::format("is larger than {} bytes", format_.most_bytes), "give a smaller file");
+    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
+        fail_at(1, "is a UTF-16 text", "save the file as CSV in UTF-8");
+    if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+    if (columns_.empty()) read_header();
+}
+
+void CsvReader::read_header() {
+    if (!find_row()) {
+        if (format_.growing) return;
+        fail_at(1, "is empty", "write a line of column names first");
+    }
+    separator_ =
+        find_separator(text_.substr(quoted_ ? at_ : static_cast<std::size_t>(row_.data() - text_.data())));
+    if (!quoted_) {
+        split_plain(row_);
+    } else if (!split_quoted()) {
+        return;  // a growing text whose header is not whole yet
+    }
+    header_line_ = row_line_;
+    columns_.assign(cells_.begin(), cells_.end());
+    check_columns();
+}
+
+void CsvReader::check_columns() const {
+    if (columns_.size() > format_.most_columns)
+        fail(fmt::format("has more than {} columns", format_.most_columns), "give a smaller table");
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        std::string const name = printable(columns_[i], longest_shown);
+        if (columns_[i].find_first_of(std::string_view("\0\r", 2)) != std::string::npos)
+            fail(fmt::format("column '{}' has control characters in its name", name),
+                 "save the file as CSV in UTF-8 with line ends of Linux or Windows");
+        if (columns_[i].empty())
+            fail(fmt::format("column {} has no name", i + 1), "write a name or remove the separator");
+        if (!seen.insert(columns_[i]).second)
+            fail(fmt::format("column '{}' is there twice", name), "keep one of the two");
+    }
+}
+
+bool CsvReader::has_columns(std::span<std::string_view const> names) const {
+    return std::ranges::equal(columns_, names);
+}
+
+/// Finds the next line that is neither a comment nor blank.
+bool CsvReader::find_row() {
+    while (at_ < text_.size()) {
+        std::size_t const end = text_.find('\n', at_);
+        bool const whole = end != std::string_view::npos;
+        if (!whole && format_.growing) break;
+        std::string_view line = text_.substr(at_, (whole ? end : text_.size()) - at_);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        bool const comment = format_.comments && line.starts_with('#');
+        row_line_ = line_;
+        quoted_ = !comment && line.find('"') != std::string_view::npos;
+        if (quoted_) return true;  // may go on beyond the line's end
+        at_ = whole ? end + 1 : text_.size();
+        ++line_;
+        if (comment || (format_.blanks && std::ranges::all_of(line, is_space))) continue;
+        row_ = line;
+        return true;
+    }
+    at_ = text_.size();
+    return false;
+}
+
+void CsvReader::split_plain(std::string_view line) {
+    cells_.clear();
+    while (true) {
+        std::size_t const end = line.find(separator_);
+        cells_.push_back(trimmed(line.substr(0, end)));
+        if (end == std::string_view::npos) break;
+        line.remove_prefix(end + 1);
+    }
+}
+
+/// Reads the cell whose quote is at `at_`, and goes behind its closing quote. False when there is none.
+bool CsvReader::read_quoted_cell(std::string_view& cell) {
+    std::size_t const begin = ++at_;
+    bool doubled = false;
+    while (true) {
+        std::size_t const quote = text_.find('"', at_);
+        if (quote == std::string_view::npos) return false;
+        at_ = quote + 1;
+        if (at_ == text_.size() || text_[at_] != '"') break;
+        doubled = true;
+        ++at_;
+    }
+    cell = text_.substr(begin, at_ - 1 - begin);
+    line_ += static_cast<int>(std::ranges::count(cell, '\n'));
+    if (!doubled) return true;
+    std::string& plain = unescaped_.emplace_back();
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        plain += cell[i];
+        if (cell[i] == '"') ++i;
+    }
+    cell = plain;
+    return true;
+}
+
+/// Reads a cell without quotes up to the next separator or line end.
+void CsvReader::take_plain_cell() {
+    std::size_t const end =
+        std::min(text_.find_first_of(separator_ == ';' ? ";\n" : ",\n", at_), text_.size());
+    std::string_view cell = text_.substr(at_, end - at_);
+    if ((end == text_.size() || text_[end] == '\n') && cell.ends_with('\r')) cell.remove_suffix(1);
+    if (cell.find('"') != std::string_view::npos)
+        fail_at(line_,
+                fmt::format("a quote stands within the cell '{}'", printable(trimmed(cell), longest_shown)),
+                "put the whole cell in quotes and double the quotes within it");
+    cells_.push_back(trimmed(cell));
+    at_ = end;
+}
+
+/// Splits the row at `at_`, which has quotes. False when a growing text does not have all of it yet.
+bool CsvReader::split_quoted() {
+    cells_.clear();
+    unescaped_.clear();
+    while (true) {
+        std::size_t const start = at_;
+        while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+        if (at_ < text_.size() && text_[at_] == '"') {
+            int const opened = line_;
+            if (!read_quoted_cell(cells_.emplace_back())) {
+                at_ = text_.size();
+                if (format_.growing) return false;
+                fail_at(opened, "a quote is opened and not closed", "write the closing quote");
+            }
+            while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+            if (text_.substr(at_).starts_with("\r\n")) ++at_;
+            if (text_.substr(at_) == "\r") ++at_;
+            if (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n')
+                fail_at(line_, "text follows the closing quote of a cell",
+                        "put the whole cell in quotes and double the quotes within it");
+        } else {
+            at_ = start;
+            take_plain_cell();
+        }
+        if (at_ == text_.size()) return !format_.growing;
+        if (text_[at_++] == '\n') break;
+    }
+    ++line_;
+    return true;
+}
+
+bool CsvReader::next() {
+    if (columns_.empty() || !find_row()) return false;
+    if (!quoted_) {
+        split_plain(row_);
+    } else if (!split_quoted()) {
+        return false;
+    }
+    if (++rows_ > format_.most_rows)
+        fail(fmt::format("there are more than {} rows", format_.most_rows), "give a smaller table");
+    if (cells_.size() != columns_.size())
+        fail(fmt::format("has {} values for {} columns", cells_.size(), columns_.size()),
+             "write one value per column");
+    return true;
+}
+
+/// Reads the numbers without looking for cells first. False when the row is anything but plain numbers.
+bool CsvReader::parse_numbers(std::span<double> row) const {
+    char const* at = row_.data();
+    char const* const end = at + row_.size();
+    for (std::size_t column = 0; column < row.size(); ++column) {
+        auto const [stop, failure] = std::from_chars(at, end, row[column]);
+        if (failure != std::errc()) return false;
+        if (format_.numbers == CsvNumbers::finite && !std::isfinite(row[column])) return false;
+        bool const last = column + 1 == row.size();
+        if (last ? stop != end : (stop == end || *stop != ',')) return false;
+        at = stop + 1;
+    }
+    return true;
+}
+
+bool CsvReader::next(std::span<double> row) {
+    if (columns_.empty()) return false;
+    if (row.size() != columns_.size()) throw std::invalid_argument("the row has another number of columns");
+    std::size_t const at = at_;
+    int const line = line_;
+    if (!find_row()) return false;
+    if (!quoted_ && separator_ == ',' && rows_ < format_.most_rows && parse_numbers(row)) {
+        ++rows_;
+        return true;
+    }
+    at_ = at;
+    line_ = line;
+    if (!next()) return false;
+    for (std::size_t column = 0; column < row.size(); ++column) row[column] = number(column);
+    return true;
+}
+
+double CsvReader::number(std::size_t column) const {
+    if (auto const value = csv_number(cells_[column], separator_, format_.numbers)) return *value;
+    fail(fmt::format("column {}: '{}' is not a {}number", columns_[column],
+                     printable(cells_[column], longest_shown),
+                     format_.numbers == CsvNumbers::finite ? "finite plain " : ""),
+         "write a number such as 0.5");
+}
+
+std::optional<double> CsvReader::number_if_given(std::size_t column) const {
+    if (cells_[column].empty()) return {};
+    return number(column);
+}
+
+void CsvReader::fail(std::string const& problem, std::string_view cure) const {
+    fail_at(row_line_, problem, cure);
+}
+
+void CsvReader::fail_at(int line, std::string const& problem, std::string_view cure) const {
+    throw CsvError(file_, line, problem, format_.cure.empty() ? cure : format_.cure);
+}
+
+std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbers numbers) {
+    std::string text;
+    if (separator == ';' && cell.find(',') != std::string_view::npos) {
+        text = with_decimal_point(cell, separator);
+        cell = text;
+    }
+    if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
+    double value = 0;
+    char const* const end = cell.data() + cell.size();
+    auto const [stop, failure] = std::from_chars(cell.data(), end, value);
+    if (failure != std::errc() || stop != end) return {};
+    if (numbers == CsvNumbers::finite && !std::isfinite(value)) return {};
+    return value;
+}
+
+std::string with_decimal_point(std::string_view cell, char separator) {
+    std::string text(cell);
+    std::size_t const comma = text.find(',');
+    bool const decimal = separator == ';' && comma != std::string::npos && comma + 1 < text.size() &&
+                         is_digit(text[comma + 1]) &&
+                         text.find_first_of(".,", comma + 1) == std::string::npos &&
+                         text.find('.') == std::string::npos;
+    if (decimal) text[comma] = '.';
+    return text;
+}
+
+std::string csv_cell(std::string_view text) {
+    bool const plain = text.find_first_of(",;\"\r\n") == std::string_view::npos && trimmed(text) == text &&
+                       !text.starts_with('#');
+    if (plain) return std::string(text);
+    std::string cell = "\"";
+    for (char const c : text) {
+        if (c == '"') cell += '"';
+        cell += c;
+    }
+    return cell + '"';
+}
+
+std::vector<NumberRow> read_number_table(std::string_view text,
+                                         std::initializer_list<std::string_view> columns) {
+    std::vector<NumberRow> rows;
+    try {
+        // A text that ends before its header has no rows, as one that ends right after it.
+        CsvFormat const format{.comments = true, .blanks = true};
+        if (std::ranges::all_of(text, [](char c) { return is_space(c) || c == '\r' || c == '\n'; }))
+            return rows;
+        CsvReader table(text, "", format);
+        if (!table.has_columns(columns))
+            throw std::invalid_argument(
+                fmt::format("line {} is not the header {}", table.header_line(), fmt::join(columns, ",")));
+        std::vector<double> values(columns.size());
+        while (table.next(values)) rows.push_back({values, table.line()});
+    } catch (CsvError const& error) {
+        throw std::invalid_argument(fmt::format("line {}: {}", error.line(), error.problem()));
+    }
+    return rows;
+}
+
+}  // namespace vibrotrough::core

@@ -1,0 +1,142 @@
+#pragma once
+
+#include "core/error.hpp"
+
+#include <cstddef>
+#include <deque>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::core {
+
+/// A CSV text cannot be read. The message is "file:line: problem; what to do", or "line N: problem; what to
+/// do" when the text has no file name.
+class CsvError : public InputError {
+  public:
+    CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure);
+    int line() const { return line_; }  ///< in the file, from 1
+    /// What is wrong, without the place and without what to do about it.
+    std::string const& problem() const { return problem_; }
+
+  private:
+    int line_;
+    std::string problem_;
+};
+
+/// Which numbers a file may hold.
+enum class CsvNumbers {
+    finite,  ///< infinities and NaN are refused
+    any,     ///< "inf" and "nan" are numbers, too: an engine that diverges writes them
+};
+
+/// How a text is to be read. By default it is one header line and then one row per line.
+struct CsvFormat {
+    bool comments = false;  ///< lines that begin with # are skipped
+    bool blanks = false;    ///< lines that hold only spaces are skipped
+    bool growing = false;   ///< a last line without its end is left out: another program is still writing it
+    CsvNumbers numbers = CsvNumbers::finite;
+    std::vector<std::string> columns = {};  ///< names for a text without a header line; commas separate cells
+    std::string_view cure = {};  ///< what to do about any error; without it each error has advice of its own
+    std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
+    std::size_t most_rows = std::numeric_limits<std::size_t>::max();
+    std::size_t most_columns = 1000;
+};
+
+/// Reads a CSV text (RFC 4180) row by row.
+///
+/// - The separator is ',', or ';' when the header line has a ';' outside quotes. With ';' numbers may have a
+///   decimal comma.
+/// - A cell in double quotes may hold separators, line ends and doubled quotes. Spaces and tabs around a
+///   cell do not belong to it unless they are within its quotes.
+/// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped.
+/// - Every row has as many cells as the header. Column names are neither empty nor given twice.
+///
+/// The text must outlive the reader and the cells.
+class CsvReader {
+  public:
+    /// Reads the header. @param file  names the text in errors; may be empty
+    /// @throws CsvError when the text is empty, too large, or its header is malformed
+    CsvReader(std::string_view text, std::string file, CsvFormat format = {});
+
+    /// Names of the columns; empty when a growing text has no whole header line yet.
+    std::vector<std::string> const& columns() const { return columns_; }
+    bool has_columns(std::span<std::string_view const> names) const;
+    char separator() const { return separator_; }
+    int header_line() const { return header_line_; }  ///< from 1; 0 when there is no header line
+
+    /// Goes to the next row. Returns false after the last one. @throws CsvError
+    bool next();
+    /// Goes to the next row, all of whose cells are numbers. This is the fast way for large tables.
+    /// @param row  receives the numbers, one for each column
+    /// @throws CsvError
+    bool next(std::span<double> row);
+
+    /// The row's line in the text, from 1; its first line when quotes make it longer.
+    int line() const { return row_line_; }
+    /// The cells of the row after `next()`, without their quotes.
+    std::span<std::string_view const> cells() const { return cells_; }
+    /// The number in a cell. @throws CsvError that names the column
+    double number(std::size_t column) const;
+    /// The same, or nothing when the cell is empty.
+    std::optional<double> number_if_given(std::size_t column) const;
+
+    /// @throws CsvError at the row's line, with the format's cure or the given one
+    [[noreturn]] void fail(std::string const& problem, std::string_view cure) const;
+
+  private:
+    bool find_row();
+    void split_row();
+    void split_plain(std::string_view line);
+    bool split_quoted();
+    bool read_quoted_cell(std::string_view& cell);
+    void take_plain_cell();
+    void read_header();
+    void check_columns() const;
+    bool parse_numbers(std::span<double> row) const;
+    [[noreturn]] void fail_at(int line, std::string const& problem, std::string_view cure) const;
+
+    std::string_view text_;
+    std::string file_;
+    CsvFormat format_;
+    std::vector<std::string> columns_;
+    char separator_ = ',';
+    int header_line_ = 0;
+    std::size_t at_ = 0;  ///< where the row that is read next begins
+    int line_ = 1;        ///< the line at `at_`
+    int row_line_ = 0;
+    std::size_t rows_ = 0;
+    std::string_view row_;  ///< the row's text when it is one line without quotes
+    bool quoted_ = false;   ///< the row has quotes and begins at `at_`
+    std::vector<std::string_view> cells_;
+    std::deque<std::string> unescaped_;  ///< cells of this row that had doubled quotes
+};
+
+/// The number that a cell holds, or nothing. A leading '+' is allowed, other text beside the number is not.
+/// @param separator  of the cells: with ';' the number may have a decimal comma
+std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbers numbers);
+
+/// The cell with a decimal point in the place of a decimal comma: "9,5 mm" becomes "9.5 mm" when ';'
+/// separates the cells. Other text stays as it is.
+std::string with_decimal_point(std::string_view cell, char separator);
+
+/// The text as a cell of a CSV file with commas: in quotes when it needs them.
+std::string csv_cell(std::string_view text);
+
+/// A row of a table of numbers.
+struct NumberRow {
+    std::vector<double> values;
+    int line;  ///< in the text, from 1
+};
+
+/// Reads a small table of finite numbers with exactly these columns. Comment lines that begin with # and
+/// blank lines are skipped. A text without a header has no rows.
+/// @throws std::invalid_argument with the line but no file, because the caller knows where the text is from
+std::vector<NumberRow> read_number_table(std::string_view text,
+                                         std::initializer_list<std::string_view> columns);
+
+}  // namespace vibrotrough::core

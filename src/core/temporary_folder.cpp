@@ -1,0 +1,36 @@
+#include "core/temporary_folder.hpp"
+
+#include "core/error.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::core {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder(std::string_view purpose) {
+    std::error_code failure;
+    fs::path const parent = fs::temp_directory_path(failure);
+    if (failure) {
+        throw MissingError(
+            fmt::format("there is no folder for temporary files ({}); set TMPDIR to one", failure.message()));
+    }
+    std::string name = (parent / fmt::format("{}-XXXXXX", purpose)).string();
+    if (::mkdtemp(name.data()) == nullptr) {
+        throw MissingError(fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another place",
+                                       name, std::strerror(errno)));
+    }
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+}  // namespace vibrotrough::core

@@ -1,0 +1,133 @@
+#include "store/theory_table.hpp"
+
+#include "core/csv.hpp"
+#include "store/theory_map.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::store {
+namespace {
+
+constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30;
+
+/// A column of the answers: as a text of the CSV file, and as a number of the HDF5 file unless it is a word.
+struct AnswerColumn {
+    char const* name;
+    char const* description;
+    std::string (*text)(theory::MapPoint const&);
+    double (*number)(theory::MapPoint const&);
+};
+
+bool is_converged(theory::MapPoint const& a) {
+    return a.outcome == theory::Outcome::periodic;
+}
+
+using Point = theory::MapPoint;
+constexpr std::array<AnswerColumn, 5> answer_columns{{
+    {"velocity_efficiency", "Velocity efficiency eta; infinite where the mass runs away",
+     [](Point const& a) { return fmt::format("{}", a.velocity_efficiency); },
+     [](Point const& a) { return a.velocity_efficiency; }},
+    {"half_width", "Half-width of eta at 95 % confidence; 0 when periodic",
+     [](Point const& a) { return fmt::format("{}", a.half_width); },
+     [](Point const& a) { return a.half_width; }},
+    {"mode", "Phases of the motion in order", [](Point const& a) { return theory::to_string(a.mode); },
+     nullptr},
+    {"period_cycles", "Cycles after which the motion repeats; 0 when it does not",
+     [](Point const& a) { return std::to_string(a.period_cycles); },
+     [](Point const& a) { return double(a.period_cycles); }},
+    {"converged", "1 when the periodic motion was found, else 0",
+     [](Point const& a) { return fmt::format("{}", is_converged(a)); },
+     [](Point const& a) { return is_converged(a) ? 1.0 : 0.0; }},
+}};
+
+std::vector<theory::Input> inputs_of(core::CsvReader const& table, std::string const& path) {
+    std::vector<theory::Input> columns;
+    for (std::string const& name : table.columns()) {
+        auto const input = theory::input_named(name);
+        if (!input) {
+            throw core::CsvError(path, table.header_line(), fmt::format("column '{}' is not an input", name),
+                                 "write names such as throw_number, tan_vibration_angle, friction");
+        }
+        columns.push_back(*input);
+    }
+    return columns;
+}
+
+}  // namespace
+
+TheoryPoints read_theory_points(std::filesystem::path const& path) {
+    std::error_code failure;
+    std::uintmax_t const size = std::filesystem::file_size(path, failure);
+    if (failure) {
+        throw core::InputError(fmt::format("{}: cannot be read ({}); write the path of a CSV file",
+                                           path.string(), failure.message()));
+    }
+    if (size > largest_file)
+        throw core::InputError(fmt::format("{}: is larger than 2 GiB; split it", path.string()));
+    return parse_theory_points(core::read_text_file(path));
+}
+
+TheoryPoints parse_theory_points(core::TextFile const& file) {
+    std::string const path = file.path.string();
+    core::CsvReader table(file.content, path, {.comments = true, .blanks = true});
+    TheoryPoints result;
+    result.columns = inputs_of(table, path);
+    while (table.next()) {
+        theory::Inputs inputs;
+        std::vector<std::string>& cells = result.cells.emplace_back();
+        for (std::size_t c = 0; c < result.columns.size(); ++c) {
+            if (auto const value = table.number_if_given(c)) inputs.set(result.columns[c], *value);
+            cells.push_back(core::with_decimal_point(table.cells()[c], table.separator()));
+        }
+        if (auto const problem = inputs.incomplete())
+            table.fail(fmt::format("point {}: {}", result.cells.size(), *problem), "write the value");
+        result.points.push_back(inputs);
+    }
+    return result;
+}
+
+std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers) {
+    std::string text;
+    for (theory::Input const input : table.columns) text += std::string(theory::name_of(input)) + ",";
+    for (AnswerColumn const& column : answer_columns)
+        text += fmt::format("{}{}", &column == &answer_columns.front() ? "" : ",", column.name);
+    text += '\n';
+    for (std::size_t r = 0; r < answers.size(); ++r) {
+        for (std::string const& cell : table.cells[r]) text += core::csv_cell(cell) + ",";
+        for (AnswerColumn const& column : answer_columns) {
+            if (&column != &answer_columns.front()) text += ',';
+            text += core::csv_cell(column.text(answers[r]));
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+void write_theory_answers(std::filesystem::path const& path, TheoryPoints const& table,
+                          std::vector<theory::MapPoint> const& answers) {
+    std::vector<TheoryColumn> columns;
+    for (theory::Input const input : table.columns) {
+        TheoryColumn column{std::string(theory::name_of(input)), units_of(input), "Input", {}, {}};
+        for (theory::Inputs const& point : table.points)
+            column.numbers.push_back(point.get(input).value_or(std::nan("")));
+        columns.push_back(std::move(column));
+    }
+    for (AnswerColumn const& answer : answer_columns) {
+        TheoryColumn column{answer.name, "1", answer.description, {}, {}};
+        for (theory::MapPoint const& point : answers) {
+            if (answer.number == nullptr) {
+                column.texts.push_back(answer.text(point));
+            } else {
+                column.numbers.push_back(answer.number(point));
+            }
+        }
+        columns.push_back(std::move(column));
+    }
+    write_theory_table(path, columns);
+}
+
+}  // namespace vibrotrough::store
