@@ -74,7 +74,7 @@ TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
 TEST(PointMassMotion, SeesSideWalls) {
     scenario::Scenario const s = scenario("side_wall_friction = 0.3");
     double const expected = 0.23 + 0.5 * 0.3 * 12.0 / 18.0;
-    EXPECT_NEAR(theory::effective_friction(conveyor_of(s, 0.23)).kinetic, expected, 1e-12);
+    EXPECT_NEAR(theory::effective_friction(conveyor_of(s, 0.23)).kinetic_friction, expected, 1e-12);
     EXPECT_NE(point_mass_motion(s, 0.23).velocity_efficiency,
               point_mass_motion(scenario(""), 0.23).velocity_efficiency);
 }

@@ -147,7 +147,7 @@ void run(Options const& options) {
     int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
     Table const table = read_table(options.input);
     auto const points = points_of(table, options.input);
-    theory::BatchAnswer answer;
+    theory::BatchResult answer;
     try {
         answer = theory::solve_batch(points, jobs);
     } catch (std::invalid_argument const& error) {
