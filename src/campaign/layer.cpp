@@ -62,7 +62,7 @@ measure::PhaseSeries packing_phases(scenario::Scenario const& s, deck::Deck cons
                                     core::TextFile const& file) {
     auto series = measure::parse_phases(file, deck.time.steps_per_cycle);
     if (!is_clump(s.grains) && s.layer.block != scenario::Block::plate) return series;
-    return measure::with_integrated_places(std::move(series),
+    return measure::with_integrated_positions(std::move(series),
                                            1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
 

@@ -17,9 +17,9 @@ namespace vibrotrough::measure {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// All numbers of a line; nothing when there is something else in it.
+/// All numbers in a line; std::nullopt if the line contains anything else.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
     std::vector<double> numbers;
     char const* at = line.data();
@@ -35,7 +35,8 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
     }
 }
 
-/// Step, number of bins, and then a line per bin: its number, middle, grains, density and means.
+/// Reads a snapshot: step and number of bins, and then a line per bin with its number, middle, grains,
+/// density and means.
 class SnapshotParser {
   public:
     explicit SnapshotParser(core::TextFile const& file) : file_(file) {}
@@ -78,11 +79,11 @@ class SnapshotParser {
 
     core::TextFile const& file_;
     int line_number_ = 0;
-    int left_ = 0;  ///< bins of the last snapshot that are still to come
+    int left_ = 0;  ///< number of bins of the current snapshot that have not been read yet
     std::vector<Snapshot> snapshots_;
 };
 
-/// The step at which the run of NAME.STEP.txt started.
+/// The step at which the run that wrote NAME.STEP.txt started.
 std::optional<long> start_of(fs::path const& path, std::string_view name) {
     std::string const file = path.filename().string();
     if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) return {};
@@ -92,7 +93,7 @@ std::optional<long> start_of(fs::path const& path, std::string_view name) {
     return failure == std::errc() && end == step.data() + step.size() ? std::optional(number) : std::nullopt;
 }
 
-/// Snapshots of the cycles that count, by phase.
+/// The snapshots of the evaluated cycles, sorted by phase.
 std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& snapshots,
                                                    ProfileFacts const& facts) {
     std::vector<std::vector<Snapshot const*>> phases(static_cast<std::size_t>(facts.phases));
@@ -104,7 +105,7 @@ std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& 
     return phases;
 }
 
-/// Mean v_x of the grains between two fractions of the layer's number, counted from below.
+/// The mean v_x of the grains between two fractions of the number of grains, counted from the bottom.
 double mean_between(Snapshot const& one, double from, double to) {
     double grains = 0;
     for (Bin const& bin : one.bins) grains += bin.grains;
@@ -117,7 +118,7 @@ double mean_between(Snapshot const& one, double from, double to) {
     return sum / ((to - from) * grains);
 }
 
-/// Mean over the phases of the means over their snapshots.
+/// The mean over the phases of the mean over the snapshots of each phase.
 template <class Value>
 double mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases, Value const& value) {
     double sum = 0;
@@ -129,10 +130,10 @@ double mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases,
         sum += at_phase / static_cast<double>(snapshots.size());
         ++seen;
     }
-    return seen > 0 ? sum / seen : nothing;
+    return seen > 0 ? sum / seen : not_a_number;
 }
 
-/// First and last bin in which there ever was a grain, as a half-open range.
+/// The first and last bin that ever contained a grain, as a half-open range.
 std::pair<std::size_t, std::size_t> occupied(std::vector<std::vector<Snapshot const*>> const& phases) {
     std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
     for (auto const& snapshots : phases) {
@@ -158,13 +159,13 @@ void add_bin(Profiles& profiles, std::vector<Snapshot const*> const& snapshots, 
         vz += b.grains * b.means[1];
     }
     profiles.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
-    profiles.height.push_back(snapshots.front()->bins[bin].place - facts.trough_z[phase]);
+    profiles.height.push_back(snapshots.front()->bins[bin].position - facts.trough_z[phase]);
     profiles.solid_fraction.push_back(density / static_cast<double>(snapshots.size()) / facts.density);
-    profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : nothing);
-    profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : nothing);
+    profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : not_a_number);
+    profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : not_a_number);
 }
 
-/// Variance of the surface's height along the trough.
+/// The variance of the height of the surface along the trough.
 double surface_variance(Snapshot const& one) {
     double sum = 0, squares = 0, columns = 0;
     for (Bin const& bin : one.bins) {
@@ -197,14 +198,14 @@ std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files, 
     }
     if (by_start.empty())
         throw core::MissingError(
-            fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
+            fmt::format("{} does not contain {}.*.txt; run the packing again", folder.string(), name));
     std::vector<Snapshot> all;
     for (auto const& [start, file] : by_start) {
         std::erase_if(all, [first = start](Snapshot const& one) { return one.step >= first; });
         for (Snapshot& one : SnapshotParser(*file).parse()) {
             if (!all.empty() && one.bins.size() != all.front().bins.size())
                 throw core::InputError(
-                    fmt::format("{} holds snapshots of different size", file->path.string()));
+                    fmt::format("{} contains snapshots of different size", file->path.string()));
             all.push_back(std::move(one));
         }
     }
@@ -224,7 +225,7 @@ Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts con
     });
     double const drive = std::ranges::max(facts.trough_vx);
     bool const conveyed = std::abs(facts.conveying_speed) > 0.01 * drive;
-    profiles.velocity_gradient = conveyed ? difference / facts.conveying_speed : nothing;
+    profiles.velocity_gradient = conveyed ? difference / facts.conveying_speed : not_a_number;
     return profiles;
 }
 
@@ -235,8 +236,8 @@ Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const
         if (phases[phase].empty()) continue;
         for (Bin const& bin : phases[phase].back()->bins) {
             surface.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
-            surface.x.push_back(bin.place);
-            surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : nothing);
+            surface.x.push_back(bin.position);
+            surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : not_a_number);
         }
     }
     surface.wiggle_amplitude = std::sqrt(2 * mean_over_phases(phases, surface_variance));
