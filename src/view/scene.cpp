@@ -20,7 +20,7 @@ void replace_all(std::string& text, std::string_view from, std::string const& to
     }
 }
 
-/// The text as a Python string literal.
+/// Converts the text to a Python string literal.
 std::string python_literal(std::string_view text) {
     std::string literal = "\"";
     for (char const c : text) {
@@ -34,7 +34,8 @@ std::string python_literal(std::string_view text) {
 
 std::filesystem::path write_scene(FrameSource const& source, std::filesystem::path const& target) {
     std::string script(scene_template);
-    // The trough's own largest speed sets the colours, so that they mean the same in every frame and case.
+    // The colour scale is set by the largest speed of the trough, so that colours are comparable between
+    // frames and cases.
     double speed = scenario::largest_speed({source.drive.along, {}}, source.angular_frequency);
     if (!(speed > 0.0)) speed = largest_speed(source.drive, source.angular_frequency);
     std::pair<std::string_view, std::string> const values[] = {

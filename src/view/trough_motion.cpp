@@ -45,7 +45,7 @@ std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path
             position.z = cursor.number<double>();
             cursor.end_line();
             if (!positions.empty() && position.step <= positions.back().step) {
-                line.refuse("has a step that is not after the one before");
+                line.refuse("has a step that is not larger than the previous one");
             }
             positions.push_back(position);
         }
