@@ -14,11 +14,11 @@
 namespace vibrotrough::engine {
 namespace {
 
-/// Raise it when probe_verdicts changes: certificates of another number are made again.
+/// Version of probe_verdicts. Increase it with every change there, so that certificates are made again.
 constexpr int judgement = 1;
 
 constexpr double diameter = 0.003;
-constexpr double side = 0.1;  // m, of the square floor under impacts and inclines
+constexpr double side = 0.1;  // m, side of the square floor of the impact and incline decks
 constexpr double grain_friction = 0.5;
 
 using Values = deck::TemplateValues;
@@ -33,7 +33,7 @@ std::string repeated(double value, std::size_t times) {
     return list;
 }
 
-/// A symmetric matrix that differs from `among` in its last row and column: contacts with the floor.
+/// A symmetric matrix of `among`, except for the last row and column, which hold the contacts with the floor.
 std::string pair_matrix(double among, std::vector<double> const& with_floor) {
     std::size_t const n = with_floor.size();
     std::string list;
@@ -95,7 +95,8 @@ ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, 
     values["steps"] = std::to_string(std::lround(duration / time_step));
     std::vector<Values> grains;
     for (std::size_t i = 0; i < list.size(); ++i) {
-        // Off the mesh's nodes and edges, 3 diameters apart: no grain meets another.
+        // Away from the nodes and edges of the mesh, and 3 diameters apart so that grains do not touch each
+        // other.
         double const x = 0.0071 + 0.009 * static_cast<double>(i % 10),
                      y = 0.0053 + 0.009 * static_cast<double>(i / 10);
         grains.push_back({{"id", std::to_string(i + 1)},
@@ -111,7 +112,7 @@ ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, 
              {"trough.stl", deck::flat_trough_stl(side, side, side / 5)}}};
 }
 
-/// The values and lists that the campaigns' own templates `trough` and `drive` want.
+/// The values and lists for the templates `trough` and `drive`, which are those of campaigns.
 void add_campaign_values(Values& values, std::map<std::string, std::vector<Values>>& lists,
                          MovingTrough const& motion) {
     scenario::Trough trough{};
@@ -151,13 +152,13 @@ ContactMaterial probe_material(double restitution, double friction) {
 }
 
 std::vector<Impact> const& fine_impacts() {
-    // Straight; so flat that the contact slides all the time; so steep that it grips.
+    // Normal impacts; impacts so oblique that the contact slides throughout; impacts so steep that it grips.
     static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1e-5});
     return list;
 }
 
 std::vector<Impact> const& coarse_impacts() {
-    // The start decides where in a step the contact begins.
+    // The initial gap determines where in a step the contact begins.
     static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1.0e-5, 1.3e-5, 1.6e-5, 2.3e-5});
     return list;
 }
@@ -209,8 +210,8 @@ ProbeDeck contact_deck() {
     std::vector<Values> grains;
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 7; ++column) {
-            // Seven to the length and four to the width are not the mesh's numbers: the moving mesh passes
-            // under the grains with its edges, diagonals and seams at the periodic faces.
+            // Seven grains along and four across do not match the divisions of the mesh, so that its edges,
+            // its diagonals and its seams at the periodic faces pass under the grains as it moves.
             grains.push_back({{"type", "1"},
                               {"x", text(0.00017 + 0.0051 * column + 0.0003 * row)},
                               {"y", text(0.00013 + 0.0045 * row)},
@@ -221,7 +222,7 @@ ProbeDeck contact_deck() {
 }
 
 ProbeDeck drive_deck() {
-    // One grain, out of the trough's way: without any, the engine does not run.
+    // One grain outside the reach of the trough: the engine does not run without any grain.
     return motion_deck("drive", flying_trough(),
                        {{{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}}});
 }
@@ -242,7 +243,7 @@ ProbeDeck speed_deck(int steps) {
     values["top"] = "0.2";
     values["spacing"] = text(diameter);
     values["layer_top"] = text(14 * diameter - 1e-6);
-    values["jitter"] = text(0.1 * diameter);  // so that columns of grains do not stand
+    values["jitter"] = text(0.1 * diameter);  // so that columns of grains collapse
     values["lift"] = text(0.51 * diameter);
     values["fall_speed"] = "-0.1";
     values["steps"] = std::to_string(steps);

@@ -34,15 +34,16 @@ TEST_F(OutcomeTest, CompletedNeedsExitCodeAndEndMarker) {
     EXPECT_EQ(examine("", {0, 0}, Stage::settling).outcome, Outcome::outputs_incomplete);
 }
 
-// A mesh read from a checkpoint lies on the box faces up to rounding (1e-16 m) and the engine warns.
+// A mesh read from a checkpoint lies on the faces of the box only up to rounding (1e-16 m), and the engine
+// warns about it.
 TEST_F(OutcomeTest, AMeshFromACheckpointMayTouchTheBoxFaces) {
     std::string const warning = "WARNING: Not all nodes of fix mesh inside simulation box, elements\n";
     EXPECT_EQ(examine("VIBROTROUGH BEGIN cycle 50\n" + warning + whole).outcome, Outcome::completed);
     EXPECT_EQ(examine("VIBROTROUGH BEGIN cycle 0\n" + warning + whole).outcome, Outcome::mesh_left_domain);
 }
 
-// The engine answers SIGTERM with exit code 0 and skips the rest of the deck; a full disk gives exit code 0
-// too.
+// After SIGTERM the engine skips the rest of the deck and ends with exit code 0; the exit code is also 0 when
+// the disk is full.
 TEST_F(OutcomeTest, ExitCodeZeroProvesNothing) {
     EXPECT_EQ(examine("").outcome, Outcome::outputs_incomplete);
     EXPECT_EQ(examine(settled).outcome, Outcome::outputs_incomplete);
@@ -66,14 +67,14 @@ TEST_F(OutcomeTest, FailuresHaveNames) {
     RunReport const restless = examine("VIBROTROUGH FAILED not-settled: kinetic energy\n");
     EXPECT_EQ(restless.outcome, Outcome::not_settled);
     EXPECT_EQ(restless.message, "kinetic energy");
-    // A line cut short, found by fuzzing.
+    // A truncated line, found by fuzzing.
     EXPECT_EQ(examine("VIBROTROUGH FAILED\n").outcome, Outcome::engine_error);
     EXPECT_EQ(examine("VIBROTROUGH FAILED  ").outcome, Outcome::engine_error);
     EXPECT_EQ(examine("WARNING: Not all nodes of fix mesh inside simulation box, elements will be deleted\n" +
                       whole)
                   .outcome,
               Outcome::mesh_left_domain);
-    // What the deck echoes of itself is no outcome.
+    // The echo of the deck in the output must not be taken for an outcome.
     EXPECT_EQ(examine(whole + "print \"VIBROTROUGH FAILED insertion-incomplete\"\n").outcome,
               Outcome::completed);
 }
