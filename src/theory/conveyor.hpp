@@ -35,8 +35,8 @@ struct Conveyor {
                              ///< mu (1 + e) times the approach velocity
     double slowest_rebound = 1e-6;  ///< rebounds slower than this count as contact, in omega r sin(beta)
     /// Friction coefficient used instead of mu for the impulse of a landing (Eqs. 17, 18), >= 0. This
-    /// parameter is not in the paper; validation/why_theory_fails tells what it can and cannot explain about
-    /// layers.
+    /// parameter is not in the paper; validation/why_theory_fails describes what it can and cannot explain
+    /// about layers.
     std::optional<double> landing_friction;
     double air_drag = 0;  ///< kappa >= 0: the drag force is m omega kappa times the velocity of the mass; the
                           ///< air is at rest

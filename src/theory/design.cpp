@@ -99,7 +99,7 @@ void check(DesignLimits const& l) {
 
 /// When |tan(alpha)| is close to mu, the speed depends on the last digit of the friction coefficient, and
 /// beyond mu it is unbounded.
-DesignLimits away_from_running_away(DesignLimits limits) {
+DesignLimits with_friction_margin(DesignLimits limits) {
     double const steepest = std::atan(max_friction_used * limits.friction);
     limits.inclination.low = std::max(limits.inclination.low, -steepest);
     limits.inclination.high = std::min(limits.inclination.high, steepest);
@@ -160,9 +160,9 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
 
 }  // namespace
 
-Design fastest_design(DesignLimits const& asked) {
-    check(asked);
-    DesignLimits const limits = away_from_running_away(asked);
+Design fastest_design(DesignLimits const& requested) {
+    check(requested);
+    DesignLimits const limits = with_friction_margin(requested);
     Search search(limits);
     nlopt::srand(1);
     Variables start = search.low();

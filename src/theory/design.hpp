@@ -46,6 +46,6 @@ struct Design {
 /// A limit is called active when the optimum lies within 0.1 % of it.
 ///
 /// @throws std::invalid_argument when a limit is out of range
-Design fastest_design(DesignLimits const& limits);
+Design fastest_design(DesignLimits const& requested);
 
 }  // namespace vibrotrough::theory

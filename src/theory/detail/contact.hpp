@@ -53,7 +53,8 @@ class Slide {
         double const p = position(t);
         return p < length_ ? 0 : two_pi - p;
     }
-    /// The time when the speed reaches zero (Eq. 11), at the latest `limit`; `stopped` tells whether it did.
+    /// The time when the speed reaches zero (Eq. 11), at the latest `limit`; `stopped` is set to whether it
+    /// did.
     /// @param begins  whether the slide starts at begin(): rounding could put the instant just before it
     /// @param hint    a guess of the duration, or `unknown`; it changes the cost but not the result
     Instant stop(double w0, Instant from, Instant limit, bool begins, double hint, bool& stopped) const;
