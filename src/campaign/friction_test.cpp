@@ -39,7 +39,8 @@ Pen read_pen(PlannedCase const& planned, store::PackingRecord const& packing, in
     int const first = std::max(packing.estimate.discarded, 1);
     int const last = packing.estimate.discarded + packing.estimate.measured;
     double const r = planned.scenario.trough.amplitude;
-    Pen pen{measure::relative_displacement_ranges(series, first, last), measure::creep_per_cycle(series, first, last) / r};
+    Pen pen{measure::relative_displacement_ranges(series, first, last),
+            measure::creep_per_cycle(series, first, last) / r};
     for (double& line : pen.lines) line /= r;
     return pen;
 }

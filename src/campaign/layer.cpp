@@ -63,7 +63,7 @@ measure::PhaseSeries packing_phases(scenario::Scenario const& s, deck::Deck cons
     auto series = measure::parse_phases(file, deck.time.steps_per_cycle);
     if (!is_clump(s.grains) && s.layer.block != scenario::Block::plate) return series;
     return measure::with_integrated_positions(std::move(series),
-                                           1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
+                                              1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
 
 void measure_layer(store::PackingRecord& record, scenario::Scenario const& s, deck::Deck const& deck,
