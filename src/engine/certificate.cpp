@@ -77,7 +77,7 @@ std::string EngineIdentity::key() const {
 }
 
 bool ProbeResult::passed() const {
-    double const excess = measured - expected;  // a comparison with NaN is false
+    double const excess = measured - expected;  // comparisons with NaN are false
     return problem.empty() && (comparison == Comparison::near ? std::abs(excess) : excess) <= tolerance;
 }
 

@@ -7,16 +7,17 @@
 
 namespace vibrotrough::engine {
 
-/// What makes one engine binary this one.
+/// The identity of an engine binary.
 struct EngineIdentity {
     std::string program;         ///< path
-    std::string program_sha256;  ///< of the file
-    std::string library;         ///< path of the libliggghts that the program links; empty when it links none
-    std::string library_sha256;  ///< empty when there is none
-    std::string version;         ///< as it names itself
-    std::string probes_sha256;   ///< of the probes' decks: other probes need another certificate
+    std::string program_sha256;  ///< of the program's file
+    std::string library;  ///< path of the libliggghts that the program links; empty if it does not link one
+    std::string library_sha256;  ///< empty if `library` is empty
+    std::string version;         ///< as the engine reports it
+    /// Of the probe decks: after a change of the probes a new certificate is needed.
+    std::string probes_sha256;
 
-    /// SHA-256 over all but the paths: the certificate's name.
+    /// SHA-256 over all members except the paths; it is the name of the certificate.
     std::string key() const;
 };
 
@@ -25,7 +26,7 @@ enum class Comparison {
     at_most,  ///< measured <= expected + tolerance
 };
 
-/// One question to the engine, and its answer.
+/// One question to the engine, with the expected and the measured value.
 struct ProbeResult {
     std::string name;      ///< e.g. "restitution-0.5"
     std::string question;  ///< one sentence
@@ -33,7 +34,7 @@ struct ProbeResult {
     std::string unit;      ///< "1" for pure numbers
     Comparison comparison;
     double expected;
-    double measured;  ///< NaN when the engine gave no answer; `problem` says why
+    double measured;  ///< NaN if the probe could not be evaluated; `problem` says why
     double tolerance;
     std::string tolerance_reason;
     std::string problem;
@@ -41,22 +42,23 @@ struct ProbeResult {
     bool passed() const;
 };
 
-/// What the probes found out about one engine binary.
+/// The results of all probes for one engine binary.
 struct Certificate {
     EngineIdentity engine;
-    std::string program_version, git_commit, host;  ///< that probed
+    std::string program_version, git_commit, host;  ///< of the program that ran the probes, and its machine
     std::string probed;                             ///< ISO 8601, UTC
-    double grain_steps_per_cpu_second = 0;          ///< of a packed layer; 0 when a probe failed
+    double grain_steps_per_cpu_second = 0;          ///< for a packed layer; 0 if a probe failed
     int speed_grains = 0;                           ///< number of grains in that layer
     std::vector<ProbeResult> probes;
 
-    bool passed() const;  ///< all probes passed, and there are some
+    bool passed() const;  ///< whether there are probes and all of them passed
 };
 
-/// The certificate as JSON text, with the SHA-256 of its own content as the last member.
+/// The certificate as JSON text. Its last member is the SHA-256 of the rest of its content.
 std::string to_json(Certificate const& certificate);
 
-/// Nothing when the text is no certificate, is damaged or was changed by hand.
+/// Reads a certificate. Returns std::nullopt if the text is not a certificate, is damaged or was changed by
+/// hand.
 std::optional<Certificate> parse_certificate(std::string_view json);
 
 }  // namespace vibrotrough::engine

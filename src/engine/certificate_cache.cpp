@@ -16,7 +16,7 @@ namespace bp = boost::process;
 namespace fs = std::filesystem;
 
 /// The libliggghts that the dynamic linker would load for the program; empty for a script or a program that
-/// links none.
+/// does not link one.
 std::string linked_library(fs::path const& program) {
     auto const ldd = bp::search_path("ldd");
     if (ldd.empty()) return {};
@@ -59,7 +59,7 @@ EngineIdentity identify(Engine const& engine) {
 }
 
 std::optional<fs::path> certificate_folder() {
-    // A relative XDG_CACHE_HOME is to be ignored (XDG base directory specification).
+    // The XDG base directory specification says that a relative XDG_CACHE_HOME must be ignored.
     char const* const cache = std::getenv("XDG_CACHE_HOME");
     if (cache != nullptr && fs::path(cache).is_absolute()) return fs::path(cache) / "vibrotrough" / "engines";
     char const* const home = std::getenv("HOME");
@@ -76,13 +76,13 @@ std::optional<Certificate> find_certificate(EngineIdentity const& identity) {
         if (certificate && certificate->passed() && certificate->engine.key() == identity.key())
             return certificate;
     } catch (core::MissingError const&) {
-        // unreadable is as good as none
+        // treat an unreadable certificate like a missing one
     }
     return {};
 }
 
 std::string keep_certificate(Certificate const& certificate) {
-    if (!certificate.passed()) return "it did not pass";
+    if (!certificate.passed()) return "not all probes passed";
     auto const file = certificate_file(certificate.engine);
     if (!file) return "neither XDG_CACHE_HOME nor HOME is set";
     try {

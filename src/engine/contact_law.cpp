@@ -33,8 +33,8 @@ ImpactResult integrate_impact(ContactMaterial const& m, double normal_speed, dou
     double const logarithm = std::log(m.restitution);
     double const damping =
         2 * std::sqrt(5.0 / 6) * std::abs(logarithm) / std::hypot(logarithm, std::numbers::pi);
-    // Johnson, Contact Mechanics (1985), 11.4: duration of an elastic impact. The semi-implicit step is of
-    // first order: with 20000 steps the speeds are known to 1e-4.
+    // Johnson, Contact Mechanics (1985), 11.4: duration of an elastic impact. The semi-implicit integration
+    // is of first order; with 20000 steps the speeds are accurate to 1e-4.
     double const duration = 2.87 * std::pow(mass * mass / (m.radius * modulus * modulus * normal_speed), 0.2);
     double const step = duration / 20000;
     double overlap = 0, inward = normal_speed, along = tangential_speed, spin = 0, spring = 0;

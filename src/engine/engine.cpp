@@ -25,17 +25,17 @@ namespace bp = boost::process;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// In the child, before the engine starts: leave the terminal's process group, and die with the driver. The
-/// child borrows the driver's memory (vfork), so nothing here may write to it.
+/// Runs in the child before the engine starts: leaves the process group of the terminal and asks to be killed
+/// when the driver dies. The child shares the driver's memory (vfork) and must not write to it.
 void prepare_child(pid_t driver) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != driver) ::_exit(1);  // the driver died in between
+    if (::getppid() != driver) ::_exit(1);  // the driver has died in the meantime
 }
 
-/// One MPI rank needs no daemon: without this variable the engine starts one and takes 0.15 s longer, or 5 s
-/// where the machine's own name does not resolve. (Set by env, because Boost 1.74's own environment class
-/// reads beyond its strings.)
+/// One MPI rank does not need a daemon. Without this variable the engine starts one and takes 0.15 s longer,
+/// or 5 s if the name of the machine cannot be resolved. (Set with env, because the environment class of
+/// Boost 1.74 reads beyond its strings.)
 constexpr char const* no_daemon = "OMPI_MCA_ess_singleton_isolated=1";
 
 /// The setting that gives an engine a folder of its own for what Open MPI keeps while it runs. By default all
@@ -47,22 +47,21 @@ std::string session_setting(core::TemporaryFolder const& session) {
 
 constexpr char const* session_name = "vibrotrough-engine";
 
-fs::path search_program(std::optional<fs::path> const& asked) {
-    if (asked) {
+fs::path search_program(std::optional<fs::path> const& requested) {
+    if (requested) {
         std::error_code failure;
-        fs::path const program = fs::absolute(*asked, failure);
+        fs::path const program = fs::absolute(*requested, failure);
         if (!fs::is_regular_file(program, failure)) {
             throw core::MissingError(fmt::format(
-                "--liggghts: there is no file {}; give the path of a liggghts program", asked->string()));
+                "--liggghts: there is no file {}; give the path of a LIGGGHTS program", requested->string()));
         }
         return program;
     }
     auto const found = bp::search_path("liggghts");
     if (found.empty()) {
         throw core::MissingError(
-            "no liggghts on the PATH; install it (apt-get install --no-install-recommends liggghts) or name "
-            "one with "
-            "--liggghts PATH");
+            "no liggghts on the PATH; install it (apt-get install --no-install-recommends liggghts) or give "
+            "its path with --liggghts PATH");
     }
     return found.string();
 }
@@ -87,10 +86,11 @@ std::string ask_version(fs::path const& program) {
         if (!version.empty()) return version;
     } catch (bp::process_error const& error) {
         throw core::MissingError(
-            fmt::format("{} does not start ({})", program.string(), error.code().message()));
+            fmt::format("{} cannot be started ({})", program.string(), error.code().message()));
     }
-    throw core::MissingError(fmt::format(
-        "{} does not say that it is LIGGGHTS; name another with --liggghts PATH", program.string()));
+    throw core::MissingError(
+        fmt::format("{} does not identify itself as LIGGGHTS; give another program with --liggghts PATH",
+                    program.string()));
 }
 
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
@@ -100,7 +100,7 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
             throw core::MissingError(
-                "no mpirun on the PATH for more than one rank; install openmpi-bin, or write "
+                "more than one MPI rank needs mpirun, which is not on the PATH; install openmpi-bin, or set "
                 "ranks = 1 under [run]");
         }
         // mpirun would bind every run to the first cores; as root it wants to be told twice.
@@ -128,8 +128,8 @@ ExitStatus decode(int native) {
 
 }  // namespace
 
-Engine find_engine(std::optional<fs::path> const& asked) {
-    fs::path const program = search_program(asked);
+Engine find_engine(std::optional<fs::path> const& requested) {
+    fs::path const program = search_program(requested);
     return {program, ask_version(program)};
 }
 
@@ -151,10 +151,10 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                              std::function<void(ExitStatus)> on_exit, Launch const& launch)
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
-    // The state is kept by whoever waits for the exit; a destroyed EngineProcess has no handler any more. The
-    // handler is posted, because Boost 1.74 walks its list of children while it calls and must not find a new
-    // one.
-    // The number that Boost gives may be an exit code or a signal; only the process knows which.
+    // The exit handler owns the state; a destroyed EngineProcess no longer has a handler. The handler is
+    // posted, because Boost 1.74 iterates over its list of children while it calls handlers and must not find
+    // a new child there. The number that Boost passes may be an exit code or a signal; only the process
+    // status tells which.
     auto const ended = [state = state_, &context](int, std::error_code const&) {
         state->ended = true;
         state->patience.cancel();
@@ -163,7 +163,8 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                 std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
         });
     };
-    // Boost opens the file without cutting it: the end of an earlier, interrupted run's output would follow.
+    // Boost opens the file without truncating it, so that the end of the output of an earlier, interrupted
+    // run would remain.
     std::error_code ignored;
     fs::remove(folder / output_file, ignored);
     try {

@@ -11,41 +11,42 @@
 
 namespace vibrotrough::engine {
 
-/// A LIGGGHTS that answered when asked for its version.
+/// A LIGGGHTS program that has reported its version.
 struct Engine {
     std::filesystem::path program;
-    std::string version;  ///< as it names itself, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32
-                          ///< by buildd"
-    int ranks = 1;        ///< MPI processes of every run
-    std::string certificate = {};  ///< JSON of the binary's Certificate; empty when it was not probed
+    std::string version;           ///< as reported by the program, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled
+                                   ///< 2022-01-26-19:42:32 by buildd"
+    int ranks = 1;                 ///< number of MPI processes of each run
+    std::string certificate = {};  ///< JSON of the binary's Certificate; empty if it was not probed
 };
 
-/// Finds the engine: `asked` when given, else `liggghts` on the PATH, and asks it for its version.
-/// @throws MissingError when there is none, it does not start, or it is no LIGGGHTS
-Engine find_engine(std::optional<std::filesystem::path> const& asked);
+/// Finds the engine, which is `requested` if given and otherwise `liggghts` on the PATH, and reads its
+/// version.
+/// @throws MissingError when there is no such program, it cannot be started, or it is not LIGGGHTS
+Engine find_engine(std::optional<std::filesystem::path> const& requested);
 
 /// How a process ended.
 struct ExitStatus {
-    int code;    ///< exit code; 0 when it was killed by a signal
-    int signal;  ///< 0 when it exited by itself
+    int code;    ///< exit code; 0 if it was killed by a signal
+    int signal;  ///< 0 if it exited by itself
 };
 
 /// The file in the run's folder that receives what the engine prints.
 constexpr char const* output_file = "engine.out";
 
-/// What the engine is started on.
+/// The deck and the arguments with which the engine is started.
 struct Launch {
     std::string input = "in.liggghts";   ///< the deck, in the run's folder
     std::vector<std::string> arguments;  ///< after the deck, e.g. {"-var", "done", "50"}
 };
 
-/// A running engine on one deck folder. It dies with the driver (also when that is killed) and does not
-/// share the terminal's Ctrl-C. Destroying the object kills the engine.
+/// An engine that runs in one deck folder. It dies with the driver (also when the driver is killed) and does
+/// not receive Ctrl-C from the terminal. Destroying the object kills the engine.
 class EngineProcess {
   public:
-    /// Starts `liggghts -in <input>` in `folder`, under mpirun when it has several ranks. `on_exit` is called
-    /// once, from `context`, by the thread
-    /// that runs it; that thread must be the one that constructs this object and must outlive the engine.
+    /// Starts `liggghts -in <input>` in `folder`, with mpirun if it has several ranks. `on_exit` is called
+    /// once, from `context`, by the thread that runs it. That thread must be the one that constructs this
+    /// object, and it must outlive the engine.
     /// @throws MissingError when the process cannot be started
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,
                   std::function<void(ExitStatus)> on_exit, Launch const& launch = {});
@@ -53,8 +54,8 @@ class EngineProcess {
     EngineProcess(EngineProcess const&) = delete;
     EngineProcess& operator=(EngineProcess const&) = delete;
 
-    /// Asks the engine to end (SIGTERM) and kills it when it has not after five seconds. LIGGGHTS answers the
-    /// signal with exit code 0, so whoever calls this must remember that the run was cut.
+    /// Sends SIGTERM to the engine, and kills it if it has not ended after five seconds. LIGGGHTS ends with
+    /// exit code 0 after SIGTERM, so the caller must remember that the run was stopped early.
     void terminate();
 
   private:

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An engine that needs longer than this for one of these decks hangs.
+/// An engine that needs longer than this for one of the decks is considered to hang.
 constexpr std::chrono::seconds patience{120};
 
 /// Runs decks side by side and remembers what became of each.
@@ -33,7 +33,7 @@ class DeckRunner {
   public:
     DeckRunner(Engine const& engine, fs::path const& folder) : engine_(engine), folder_(folder) {}
 
-    /// False when it was interrupted.
+    /// Returns false if it was interrupted.
     bool run(std::vector<ProbeDeck> const& decks) {
         context_.restart();
         boost::asio::signal_set signals(context_, SIGINT, SIGTERM, SIGHUP);
@@ -77,7 +77,7 @@ class DeckRunner {
     std::map<std::string, std::string> problems_;
 };
 
-/// CPU time of all children that have ended, s.
+/// CPU time of all child processes that have ended, s.
 double cpu_time_of_children() {
     rusage usage{};
     ::getrusage(RUSAGE_CHILDREN, &usage);
@@ -98,10 +98,10 @@ int grains_at_end(fs::path const& transcript) {
     return grains;
 }
 
-/// Runs the layer for few and for many steps, alone: the difference is free of the engine's start. False when
-/// interrupted; the speed stays unknown when the engine fails.
+/// Runs the layer for few and for many steps, one after the other, so that the difference does not include
+/// the start of the engine. Returns false if interrupted; the speed stays unknown if the engine fails.
 bool measure_speed(DeckRunner& runner, fs::path const& folder, Certificate& certificate) {
-    constexpr int few = 2000, many = 6000;  // 2000 steps: the columns have fallen into a layer
+    constexpr int few = 2000, many = 6000;  // after 2000 steps the columns have collapsed into a layer
     double const start = cpu_time_of_children();
     ProbeDeck const small = speed_deck(few), large = speed_deck(many);
     if (!runner.run({small})) return false;

@@ -7,10 +7,11 @@
 
 namespace vibrotrough::engine {
 
-/// Asks the engine the questions of `probe_verdicts` by running small decks in a temporary folder, all at a
-/// time, and then, if it passed, measures its speed, alone. Takes a few seconds. An engine that breaks on a
-/// deck fails that deck's probes. SIGINT and SIGTERM end the engines: nothing is returned.
-/// @throws MissingError when the disk refuses or the engine cannot be started
+/// Runs the small decks of `probe_decks` at the same time in a temporary folder and compares the results with
+/// the values of `probe_verdicts`. If all probes pass, it then measures the speed of the engine. Takes a few
+/// seconds. If the engine fails on a deck, all probes of that deck fail. SIGINT and SIGTERM end the engines,
+/// and std::nullopt is returned.
+/// @throws MissingError when a file cannot be written or the engine cannot be started
 std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity const& identity);
 
 }  // namespace vibrotrough::engine

@@ -14,11 +14,11 @@
 namespace vibrotrough::engine {
 namespace {
 
-/// Raise it when probe_verdicts changes: certificates of another number are made again.
+/// Version of probe_verdicts. Increase it with every change there, so that certificates are made again.
 constexpr int judgement = 1;
 
 constexpr double diameter = 0.003;
-constexpr double side = 0.1;  // m, of the square floor under impacts and inclines
+constexpr double side = 0.1;  // m, side of the square floor of the impact and incline decks
 constexpr double grain_friction = 0.5;
 
 using core::TemplateData;
@@ -33,7 +33,7 @@ std::string repeated(double value, std::size_t times) {
     return list;
 }
 
-/// A symmetric matrix that differs from `among` in its last row and column: contacts with the floor.
+/// A symmetric matrix of `among`, except for the last row and column, which hold the contacts with the floor.
 std::string pair_matrix(double among, std::vector<double> const& with_floor) {
     std::size_t const n = with_floor.size();
     std::string list;
@@ -101,7 +101,8 @@ ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, 
     values.set("steps", std::to_string(std::lround(duration / time_step)));
     std::vector<TemplateData> grains;
     for (std::size_t i = 0; i < list.size(); ++i) {
-        // Off the mesh's nodes and edges, 3 diameters apart: no grain meets another.
+        // Away from the nodes and edges of the mesh, and 3 diameters apart so that grains do not touch each
+        // other.
         double const x = 0.0071 + 0.009 * static_cast<double>(i % 10),
                      y = 0.0053 + 0.009 * static_cast<double>(i / 10);
         grains.push_back(data_of({{"id", std::to_string(i + 1)},
@@ -159,13 +160,13 @@ ContactMaterial probe_material(double restitution, double friction) {
 }
 
 std::vector<Impact> const& fine_impacts() {
-    // Straight; so flat that the contact slides all the time; so steep that it grips.
+    // Normal impacts; impacts so oblique that the contact slides throughout; impacts so steep that it grips.
     static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1e-5});
     return list;
 }
 
 std::vector<Impact> const& coarse_impacts() {
-    // The start decides where in a step the contact begins.
+    // The initial gap determines where in a step the contact begins.
     static auto const list = impacts({{0.5, 0}, {0.25, 0.5}, {0.25, 0.1}}, {1.0e-5, 1.3e-5, 1.6e-5, 2.3e-5});
     return list;
 }
@@ -230,7 +231,7 @@ ProbeDeck contact_deck() {
 }
 
 ProbeDeck drive_deck() {
-    // One grain, out of the trough's way: without any, the engine does not run.
+    // One grain outside the reach of the trough: the engine does not run without any grain.
     return motion_deck("drive", flying_trough(),
                        {data_of({{"type", "1"}, {"x", "0.01"}, {"y", "0.01"}, {"z", "0.03"}})});
 }

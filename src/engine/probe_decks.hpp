@@ -7,32 +7,35 @@
 #include <string>
 #include <vector>
 
-/// The decks of `probe_engine`: what is asked of the engine. `probe_verdicts` knows what should come out.
+/// The decks with which `probe_engine` tests an engine. `probe_verdicts` holds the expected results.
 namespace vibrotrough::engine {
 
-/// A folder for the engine.
+/// A deck folder.
 struct ProbeDeck {
-    std::string name;                          ///< of the folder
-    std::map<std::string, std::string> files;  ///< name and content
+    std::string name;                          ///< name of the folder
+    std::map<std::string, std::string> files;  ///< file names and contents
 };
 
-/// Nominal restitution of grain types 1 to 5 of an impact deck.
+/// Nominal restitution coefficients of grain types 1 to 5 of an impact deck.
 constexpr std::array<double, 5> probed_restitutions{0.1, 0.3, 0.5, 0.7, 0.9};
 constexpr double impact_friction = 0.23;
 
-/// Grain number (from 1) is its place in this list; type t has probed_restitutions[t - 1].
+/// One impact. The number of the grain (from 1) is its position in the list of impacts; type t has
+/// probed_restitutions[t - 1].
 struct Impact {
     int type;
     double normal_speed;      ///< m/s
     double tangential_speed;  ///< m/s
-    double gap;               ///< m, between grain and floor at the start
+    double gap;               ///< m, initial distance between grain and floor
 };
 
-std::vector<Impact> const& fine_impacts();  ///< at a step that hides nothing of the law: 1/1000 of a contact
-std::vector<Impact> const& coarse_impacts();  ///< at 20 % of the Rayleigh time, the decks' longest step
+std::vector<Impact> const&
+fine_impacts();  ///< with a time step of 1/1000 of a contact, which resolves the contact law
+std::vector<Impact> const&
+coarse_impacts();  ///< with 20 % of the Rayleigh time, the longest time step of campaign decks
 
-/// The material of all probes: grains of 3 mm as in the facts that the contact options were chosen by.
-/// Friction and restitution are the given ones.
+/// The material of all probes: grains of 3 mm, as in the tests by which the contact options were chosen, with
+/// the given friction and restitution.
 ContactMaterial probe_material(double restitution, double friction);
 
 struct Incline {
@@ -44,19 +47,18 @@ struct Incline {
     int sample_steps = 200;
 };
 
-/// A trough that moves along the direction of vibration from step 0 on, and grains that are held where they
-/// are.
+/// A trough that vibrates from step 0 on, under grains that are held in place.
 struct MovingTrough {
     double amplitude_x, amplitude_z;  ///< m
     double period = 0.05;             ///< s
-    int steps = 500;                  ///< per period: the fewest that a deck uses
+    int steps = 500;                  ///< per period: the smallest number that a campaign deck uses
     int grains;
 };
 
-MovingTrough sliding_trough();  ///< along itself, under grains that touch it
-MovingTrough flying_trough();   ///< as in a campaign, out of the grain's way
+MovingTrough sliding_trough();  ///< moves in its own plane, under grains that touch it
+MovingTrough flying_trough();   ///< moves as in a campaign, without touching the grain
 
-/// Overlap at which one contact carries a grain's weight at this inclination, m.
+/// The overlap at which one contact carries the weight of a grain at this inclination, m.
 double resting_overlap(double inclination);
 
 ProbeDeck fine_impact_deck();
@@ -68,7 +70,7 @@ ProbeDeck drive_deck();
 /// A layer of about a thousand grains on a moving trough.
 ProbeDeck speed_deck(int steps);
 
-/// SHA-256 of all the decks (and of how they are judged, by a number that is raised with it).
+/// SHA-256 of all decks and of the version number of the verdicts.
 std::string digest_of_probes();
 
 }  // namespace vibrotrough::engine

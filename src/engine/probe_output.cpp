@@ -16,7 +16,8 @@ namespace vibrotrough::engine {
 namespace {
 
 core::InputError unreadable(std::filesystem::path const& path) {
-    return core::InputError(fmt::format("{} is missing or cut; is the disk full?", path.filename().string()));
+    return core::InputError(
+        fmt::format("{} is missing or incomplete; is the disk full?", path.filename().string()));
 }
 
 }  // namespace
@@ -69,7 +70,8 @@ std::string problem_of_run(std::filesystem::path const& folder, ExitStatus statu
                            strsignal(status.signal));
     if (status.code != 0)
         return fmt::format("the engine ended with exit code {} and no message", status.code);
-    if (!ended) return "the engine ended with exit code 0 but without its end marker; is the disk full?";
+    if (!ended)
+        return "the engine ended with exit code 0 but without writing its end marker; is the disk full?";
     return {};
 }
 

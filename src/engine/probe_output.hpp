@@ -8,15 +8,15 @@
 
 namespace vibrotrough::engine {
 
-/// What a probe's deck dumps of one grain.
+/// What a probe deck dumps for one grain.
 struct GrainSample {
     double x, z;    ///< m
     double vx, vz;  ///< m/s
     double spin;    ///< rad/s, about y
 };
 
-/// The dumped samples, one vector of grains (sorted by number) per time.
-/// @throws InputError when the file is missing, cut, or holds another number of grains
+/// Reads the dumped samples: for each time a vector of grains, sorted by their numbers.
+/// @throws InputError when the file is missing, incomplete, or holds a different number of grains
 std::vector<std::vector<GrainSample>> read_samples(std::filesystem::path const& path, std::size_t grains);
 
 /// One line of trough.csv.
@@ -24,10 +24,10 @@ struct TroughSample {
     double step, x, z, force_z, grains;
 };
 
-/// @throws InputError when the file is missing or cut
+/// @throws InputError when the file is missing or incomplete
 std::vector<TroughSample> read_trough_samples(std::filesystem::path const& path);
 
-/// Why the run in this folder counts for nothing, in one line; empty when it ended well.
+/// Why the run in this folder cannot be evaluated, in one line; empty if it ended normally.
 std::string problem_of_run(std::filesystem::path const& folder, ExitStatus status);
 
 }  // namespace vibrotrough::engine

@@ -31,7 +31,7 @@ ProbeResult at_most(std::string name, double expected, double tolerance, std::st
     return probe;
 }
 
-/// Lets `measure` fill in what was measured, unless the engine did not come through.
+/// Lets `measure` fill in the measured values, unless the engine failed.
 template <typename Measure>
 std::vector<ProbeResult> answer(std::vector<ProbeResult> probes, std::string problem, Measure&& measure) {
     try {
@@ -43,7 +43,7 @@ std::vector<ProbeResult> answer(std::vector<ProbeResult> probes, std::string pro
     return probes;
 }
 
-/// What an impact did, from the velocities before and after it.
+/// The result of an impact, from the velocities before and after it.
 struct ImpactMeasures {
     double restitution;    ///< normal speed after / before
     double coulomb_ratio;  ///< tangential impulse / (friction * normal impulse)
@@ -77,7 +77,7 @@ double largest(std::vector<ImpactMeasures> const& all, double ImpactMeasures::*m
     return (*std::ranges::max_element(all, {}, member)).*member;
 }
 
-/// Largest deviation from the law of those impacts for which `chosen` holds.
+/// The largest deviation from the contact law among the impacts for which `chosen` is true.
 template <typename Chosen>
 double worst(std::vector<Impact> const& impacts, std::vector<ImpactMeasures> const& all,
              double ImpactMeasures::*member, Chosen&& chosen) {
@@ -96,18 +96,20 @@ bool is_oblique(Impact const& impact) {
 ProbeResult energy_probe(std::string name) {
     ProbeResult probe = at_most(std::move(name), 1, 0, "1");
     probe.question =
-        "Does any impact gain energy (largest ratio of kinetic energy, rotation included, after to before)?";
+        "Does any impact gain energy? Largest ratio of the kinetic energies after and before the impact, "
+        "including rotation.";
     probe.source = "conservation of energy";
-    probe.tolerance_reason = "none: a contact only takes energy away";
+    probe.tolerance_reason = "none: a contact can only dissipate energy";
     return probe;
 }
 
 ProbeResult coulomb_probe(std::string name, double tolerance, std::string reason) {
     ProbeResult probe = at_most(std::move(name), 1, tolerance, "1");
     probe.question =
-        "Is friction Coulomb's: does the tangential impulse stay within mu times the normal one (largest "
-        "ratio)?";
-    probe.source = "Coulomb; without the decks' contact options it is 2.4 at nominal restitution 0.05";
+        "Does friction obey Coulomb's law? Largest ratio of the tangential impulse to mu times the normal "
+        "impulse.";
+    probe.source =
+        "Coulomb; without the contact options of the decks the ratio is 2.4 at nominal restitution 0.05";
     probe.tolerance_reason = std::move(reason);
     return probe;
 }
@@ -115,10 +117,11 @@ ProbeResult coulomb_probe(std::string name, double tolerance, std::string reason
 ProbeResult impulse_probe(std::string name, std::string const& kind) {
     ProbeResult probe = at_most(std::move(name), 0, 0.003, "1");
     probe.question = fmt::format(
-        "Oblique impacts that {}: largest deviation of tangential impulse / (mu normal impulse) from the law",
+        "Oblique impacts that {}: largest deviation of tangential impulse / (mu normal impulse) from the "
+        "contact law",
         kind);
     probe.source = law_source;
-    probe.tolerance_reason = "engine and law were seen to agree to 5e-4 at 1/1000 of a contact per step";
+    probe.tolerance_reason = "engine and contact law agreed to 5e-4 with time steps of 1/1000 of a contact";
     return probe;
 }
 
@@ -138,14 +141,16 @@ std::vector<ProbeResult> judge_fine_impacts(fs::path const& folder, std::string 
     for (std::size_t i = 0; i < probed_restitutions.size(); ++i) {
         ProbeResult probe = near_to(fmt::format("restitution-{}", probed_restitutions[i]),
                                     by_law(impacts[i]).restitution, 0.003, "1");
-        probe.question = fmt::format("Normal impact at nominal restitution {}: which is realised?",
-                                     probed_restitutions[i]);
+        probe.question =
+            fmt::format("Normal impact at nominal restitution {}: what is the realised restitution?",
+                        probed_restitutions[i]);
         probe.source = law_source;
-        probe.tolerance_reason = "engine and law were seen to agree to 5e-4 at 1/1000 of a contact per step";
+        probe.tolerance_reason =
+            "engine and contact law agreed to 5e-4 with time steps of 1/1000 of a contact";
         probes.push_back(probe);
     }
-    probes.push_back(coulomb_probe("coulomb", 1e-6, "the cap holds in every step, up to rounding"));
-    probes.push_back(impulse_probe("sliding-impulse", "slide all the time"));
+    probes.push_back(coulomb_probe("coulomb", 1e-6, "the limit holds in every step, up to rounding"));
+    probes.push_back(impulse_probe("sliding-impulse", "slide throughout"));
     probes.push_back(impulse_probe("gripping-impulse", "grip"));
     probes.push_back(energy_probe("energy"));
     return answer(std::move(probes), problem, [&](std::vector<ProbeResult>& list) {
@@ -162,14 +167,15 @@ std::vector<ProbeResult> judge_coarse_impacts(fs::path const& folder, std::strin
     auto const& impacts = coarse_impacts();
     ProbeResult restitution = at_most("restitution-at-longest-step", 0, 0.03, "1");
     restitution.question =
-        "At 20 % of the Rayleigh time, the decks' longest step: how far is the realised restitution from the "
-        "law?";
+        "At 20 % of the Rayleigh time, the longest time step of the decks: how far is the realised "
+        "restitution from the contact law?";
     restitution.source = law_source;
     restitution.tolerance_reason =
-        "0.021 was seen at nominal 0.1: where in a step the contact begins and ends is left to chance";
+        "0.021 was found at nominal restitution 0.1, because the contact begins and ends at any time within "
+        "a step";
     std::vector<ProbeResult> probes{
         restitution,
-        coulomb_probe("coulomb-at-longest-step", 1e-6, "the cap holds in every step, up to rounding"),
+        coulomb_probe("coulomb-at-longest-step", 1e-6, "the limit holds in every step, up to rounding"),
         energy_probe("energy-at-longest-step")};
     return answer(std::move(probes), problem, [&](std::vector<ProbeResult>& list) {
         auto const all = measured_impacts(folder, impacts);
@@ -182,7 +188,7 @@ std::vector<ProbeResult> judge_coarse_impacts(fs::path const& folder, std::strin
 
 namespace {
 
-/// Slope of a grain's velocity over the second half of the time: the spring of the contact is loaded by then.
+/// The slope of a grain's velocity over the second half of the run, when the spring of the contact is loaded.
 double acceleration(std::vector<std::vector<GrainSample>> const& times, std::size_t grain, double interval) {
     double n = 0, t_sum = 0, v_sum = 0, tt = 0, tv = 0;
     for (std::size_t i = times.size() / 2; i < times.size(); ++i) {
@@ -205,22 +211,23 @@ std::vector<ProbeResult> incline_probes() {
     double const spring = sphere_mass(material) * scenario::gravity * sine / stiffness;
     ProbeResult sticking = at_most("sticking", 2 * spring, 0.05 * 2 * spring, "m");
     sticking.question =
-        "A grain that cannot rotate, on an incline below its friction angle: how far does it get in 0.1 s?";
+        "A grain that cannot rotate, on an incline below its friction angle: how far does it move in 0.1 s?";
     sticking.source =
-        "the contact's spring, k = 8 G* sqrt(R d), undamped, swings to 2 m g sin(a) / k; sliding would be 6 "
-        "mm";
-    sticking.tolerance_reason = "5 %: the normal overlap swings a little as well";
+        "the undamped spring of the contact, k = 8 G* sqrt(R d), oscillates up to 2 m g sin(a) / k; a "
+        "sliding grain would move 6 mm";
+    sticking.tolerance_reason = "5 %: the normal overlap oscillates a little as well";
     double const sliding_expected = scenario::gravity * (sine - incline.sliding_friction * cosine);
     ProbeResult sliding = near_to("sliding", sliding_expected, 1e-3 * sliding_expected, "m/s2");
-    sliding.question = "The same grain above its friction angle: its acceleration?";
+    sliding.question = "The same grain above its friction angle: what is its acceleration?";
     sliding.source = "g (sin(a) - mu cos(a))";
-    sliding.tolerance_reason = "0.1 %; 1e-9 was seen";
+    sliding.tolerance_reason = "0.1 %; 1e-9 was found";
     double const rolling_expected = 5.0 / 7 * scenario::gravity * sine;
     ProbeResult rolling = near_to("rolling", rolling_expected, 2e-3 * rolling_expected, "m/s2");
-    rolling.question = "A free sphere where friction suffices to roll: its acceleration?";
+    rolling.question = "A sphere that can rotate, with enough friction to roll: what is its acceleration?";
     rolling.source = "5/7 g sin(a), a rolling sphere";
     rolling.tolerance_reason =
-        "0.2 %: overlap shortens the lever by 0.04 %, the undamped spring swings; 0.04 % was seen";
+        "0.2 %: the overlap shortens the lever arm by 0.04 %, and the undamped spring oscillates; 0.04 % was "
+        "found";
     return {sticking, sliding, rolling};
 }
 
@@ -243,25 +250,27 @@ std::vector<ProbeResult> judge_contact(fs::path const& folder, std::string const
     MovingTrough const motion = sliding_trough();
     ProbeResult least = near_to("weight-least", 1, 1e-6, "1");
     least.question = fmt::format(
-        "{} grains at the overlap that carries their weight, the trough moving under them over a cycle: "
-        "least force / (m g)?",
+        "{} grains at the overlap that carries their weight, with the trough moving under them for a cycle: "
+        "what is the smallest force / (m g)?",
         motion.grains);
-    least.source = "each grain meets the trough exactly once, also over edges, diagonals and periodic faces";
-    least.tolerance_reason = "a contact more or less is 0.036; the force is Hertz's up to rounding";
+    least.source =
+        "each grain has exactly one contact with the trough, also at edges, diagonals and periodic faces";
+    least.tolerance_reason =
+        "one contact more or less changes it by 0.036; the force follows Hertz's law up to rounding";
     ProbeResult most = least;
     most.name = "weight-most";
-    most.question = "The same: largest force / (m g)?";
+    most.question = "The same deck: what is the largest force / (m g)?";
     return answer({least, most}, problem, [&](std::vector<ProbeResult>& list) {
         ContactMaterial const material = probe_material(0.5, 0.5);
         auto const samples = read_trough_samples(folder / "trough.csv");
         double const weight = motion.grains * sphere_mass(material) * scenario::gravity;
         auto const [low, high] = std::ranges::minmax_element(samples, {}, &TroughSample::force_z);
-        list[0].measured = -high->force_z / weight;  // grains press downwards
+        list[0].measured = -high->force_z / weight;  // the grains press downwards
         list[1].measured = -low->force_z / weight;
         for (TroughSample const& sample : samples) {
             if (sample.grains != motion.grains)
                 throw core::InputError(
-                    fmt::format("{:g} of {} grains are there", sample.grains, motion.grains));
+                    fmt::format("{:g} grains instead of {}", sample.grains, motion.grains));
         }
     });
 }
@@ -269,14 +278,16 @@ std::vector<ProbeResult> judge_contact(fs::path const& folder, std::string const
 std::vector<ProbeResult> judge_drive(fs::path const& folder, std::string const& problem) {
     MovingTrough const motion = flying_trough();
     ProbeResult drive = at_most("drive", 0, 1e-6, "1");
-    drive.question = "The trough's motion over a cycle: largest deviation from A sin(omega t) / amplitude?";
-    drive.source = "the deck asks for velocities (X(t) - X(t - dt)) / dt: their sum is X(t)";
-    drive.tolerance_reason = "rounding; 1e-14 was seen";
+    drive.question =
+        "The motion of the trough over a cycle: what is the largest deviation from A sin(omega t), divided "
+        "by the amplitude?";
+    drive.source = "the deck sets the velocities (X(t) - X(t - dt)) / dt, whose sum is X(t)";
+    drive.tolerance_reason = "rounding; 1e-14 was found";
     return answer({drive}, problem, [&](std::vector<ProbeResult>& list) {
         double const amplitude = std::hypot(motion.amplitude_x, motion.amplitude_z);
         auto const samples = read_trough_samples(folder / "trough.csv");
         if (samples.back().step != motion.steps)
-            throw core::InputError("trough.csv does not hold the whole cycle");
+            throw core::InputError("trough.csv does not contain the whole cycle");
         double largest_deviation = 0;
         for (TroughSample const& sample : samples) {
             double const displacement = std::sin(2 * std::numbers::pi * sample.step / motion.steps);

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-/// What the engine should have answered to the decks of `probe_decks`, and what it did.
+/// Compares the engine's results for the decks of `probe_decks` with the expected values.
 namespace vibrotrough::engine {
 
-/// Each reads what the engine wrote into the deck's folder. When `problem` is not empty the engine did not
-/// come through the deck: all the deck's probes then fail with it, and nothing is read.
+/// Each function reads what the engine wrote into the folder of the deck. If `problem` is not empty, the
+/// engine failed on the deck: nothing is read, and all probes of the deck fail with this problem.
 std::vector<ProbeResult> judge_fine_impacts(std::filesystem::path const& folder, std::string const& problem);
 std::vector<ProbeResult> judge_coarse_impacts(std::filesystem::path const& folder,
                                               std::string const& problem);

@@ -63,8 +63,8 @@ measure::PhaseSeries packing_phases(prepare::PreparedCase const& prepared, core:
     scenario::Scenario const& s = prepared.scenario;
     auto series = measure::parse_phases(file, prepared.time.steps_per_cycle);
     if (!is_clump(s.grains) && s.layer.block != scenario::Block::plate) return series;
-    return measure::with_integrated_places(std::move(series),
-                                           1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
+    return measure::with_integrated_positions(std::move(series),
+                                              1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
 
 void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& prepared,

@@ -18,10 +18,10 @@ void append(CycleSeries& series, std::span<double const> row) {
     series.x.push_back(row[2]);
     series.z.push_back(row[3]);
     series.vz.push_back(row[4]);
-    if (series.x.size() == 1) return;  // the line of the start has no cycle before it
+    if (series.x.size() == 1) return;  // the first line is the start; it does not follow a cycle
     series.mean_velocity.push_back(row[5]);
     series.tangential_force.push_back(row[6]);
-    series.normal_force.push_back(-row[7]);  // the engine counts the force on the trough upwards
+    series.normal_force.push_back(-row[7]);  // in the file the force on the trough is positive upwards
     series.flight_fraction.push_back(row[8]);
 }
 

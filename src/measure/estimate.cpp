@@ -19,7 +19,7 @@ Values as_array(std::span<double const> values) {
     return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-/// Two-sided quantile of Student's t for possibly fractional degrees of freedom.
+/// The two-sided quantile of Student's t, also for fractional degrees of freedom.
 double student_quantile(double confidence, double degrees_of_freedom) {
     boost::math::students_t const distribution(degrees_of_freedom);
     return boost::math::quantile(distribution, 0.5 + confidence / 2);
@@ -30,10 +30,10 @@ double sample_deviation(Values const& values) {
     return std::sqrt((values - values.mean()).square().sum() / static_cast<double>(values.size() - 1));
 }
 
-/// Half-width of the interval of the mean of `values` whose statistical inefficiency is g.
+/// The half-width of the confidence interval of the mean of `values` with the statistical inefficiency g.
 double mean_half_width(Values const& values, double g, double confidence) {
     double const independent = static_cast<double>(values.size()) / g;
-    // Fewer than two independent values say nothing.
+    // Fewer than two independent values do not allow an interval.
     if (!(independent >= 2)) return std::numeric_limits<double>::infinity();
     return student_quantile(confidence, independent - 1) * sample_deviation(values) / std::sqrt(independent);
 }
@@ -48,9 +48,10 @@ bool drifts(std::span<double const> kept, double g, Precision const& wanted) {
     return difference > tolerated && difference > wanted.half_width;
 }
 
-/// MSER's answer is the middle of the run, and the second quarter still differs from the second half by more
-/// than what was asked: the start-up is not over.
-bool starts_up(std::span<double const> values, PackingEstimate const& estimate, Precision const& wanted) {
+/// Whether the start-up is not over: the result of MSER is the middle of the run, and the mean of the second
+/// quarter still differs from that of the second half by more than the required half-width.
+bool still_starting_up(std::span<double const> values, PackingEstimate const& estimate,
+                       Precision const& wanted) {
     std::size_t const n = values.size();
     if (2 * static_cast<std::size_t>(estimate.discarded) + 1 < n) return false;
     if (n < 4) return true;
@@ -58,8 +59,9 @@ bool starts_up(std::span<double const> values, PackingEstimate const& estimate, 
     return std::abs(before - estimate.mean) > wanted.half_width;
 }
 
-/// 20, 30, 40, 55, 75, 100, 130 ...: the more often one looks, the more often luck ends a run.
-std::size_t next_look(std::size_t cycles) {
+/// 20, 30, 40, 55, 75, 100, 130 ...: the more often the precision is checked, the more often a run ends by
+/// chance.
+std::size_t next_check(std::size_t cycles) {
     return (cycles * 13 + 49) / 50 * 5;
 }
 
@@ -83,9 +85,9 @@ std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, doubl
 }
 
 int startup_length(std::span<double const> values) {
-    // Sums from the end: those of the first d values removed are there for every d at once.
+    // Sums from the end give the sums without the first d values for every d.
     int const n = static_cast<int>(values.size());
-    double const origin = n > 0 ? values.back() : 0;  // numbers near 0 keep their digits in the squares
+    double const origin = n > 0 ? values.back() : 0;  // the squares of small numbers are more accurate
     double sum = 0, squares = 0, least = std::numeric_limits<double>::infinity();
     int best = 0;
     for (int d = n - 1; d >= 0; --d) {
@@ -95,7 +97,7 @@ int startup_length(std::span<double const> values) {
         double const size = n - d;
         double const error = std::max(0.0, squares - sum * sum / size) / (size * size);
         if (2 * d > n || error > least) continue;
-        least = error;  // of equal errors the smallest cut wins
+        least = error;  // of equal errors, take the shortest start-up
         best = d;
     }
     return best;
@@ -111,7 +113,8 @@ double statistical_inefficiency(std::span<double const> values) {
     auto const correlation = [&](Eigen::Index lag) {
         return (centred.head(n - lag) * centred.tail(n - lag)).sum() / static_cast<double>(n) / variance;
     };
-    // Pair sums rho_2m + rho_2m+1 of a reversible series are positive; the first that is not is noise.
+    // The pair sums rho_2m + rho_2m+1 of a reversible series are positive; the first one that is not is
+    // noise.
     double sum = 0;
     for (Eigen::Index m = 0; 2 * m + 1 < n / 2; ++m) {
         double const pair = correlation(2 * m) + correlation(2 * m + 1);
@@ -138,7 +141,7 @@ PackingEstimate estimate_packing(std::span<double const> values, Precision const
     if (kept.empty()) return estimate;
     estimate.mean = as_array(kept).mean();
     estimate.half_width = mean_half_width(as_array(kept), g, wanted.confidence);
-    if (starts_up(values, estimate, wanted) || drifts(kept, g, wanted)) return estimate;
+    if (still_starting_up(values, estimate, wanted) || drifts(kept, g, wanted)) return estimate;
     bool const enough = estimate.measured >= fewest_cycles && estimate.measured >= fewest_independent * g;
     estimate.verdict =
         enough && estimate.half_width <= wanted.half_width ? Verdict::precise : Verdict::not_precise;
@@ -146,7 +149,7 @@ PackingEstimate estimate_packing(std::span<double const> values, Precision const
 }
 
 std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted) {
-    for (std::size_t used = 20; used <= values.size(); used = next_look(used)) {
+    for (std::size_t used = 20; used <= values.size(); used = next_check(used)) {
         if (estimate_packing(values.first(used), wanted).verdict == Verdict::precise)
             return static_cast<int>(used);
     }
@@ -159,7 +162,7 @@ SequentialEstimate estimate_sequentially(std::span<double const> values, Precisi
 }
 
 CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence) {
-    if (packings.empty()) throw std::invalid_argument("no packing to combine");
+    if (packings.empty()) throw std::invalid_argument("there are no packings to combine");
     std::vector<double> means;
     double widest = 0;
     for (PackingEstimate const& packing : packings) {

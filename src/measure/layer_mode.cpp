@@ -9,7 +9,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// Indices wrap around: a period has no beginning.
+/// Indices wrap around because the curves are periodic.
 std::size_t wrapped(int i, std::size_t size) {
     int const n = static_cast<int>(size);
     return static_cast<std::size_t>(((i % n) + n) % n);
@@ -22,7 +22,7 @@ char letter_at(ModeCurves const& curves, int i) {
     if (flies(here)) return 'F';
     double const v = curves.slip[here];
     std::size_t const before = wrapped(i - 1, n), after = wrapped(i + 1, n);
-    // The change of slip on the side of contact: a landing is a jump.
+    // The change of slip on the side that is in contact, because the slip jumps at a landing.
     double change = 0;
     int sides = 0;
     if (!flies(before)) change += std::abs(v - curves.slip[before]), ++sides;
@@ -46,7 +46,7 @@ std::vector<Run> runs_of(std::vector<char> const& letters) {
             runs.push_back({letters[i], static_cast<int>(i), 1});
         }
     }
-    // The last run may go on in the first one.
+    // The last run may continue in the first one.
     if (runs.size() > 1 && runs.front().letter == runs.back().letter) {
         runs.back().length += runs.front().length;
         runs.erase(runs.begin());
@@ -60,15 +60,15 @@ bool between_flights(std::vector<Run> const& runs, std::size_t i) {
            runs[wrapped(k + 1, runs.size())].letter == 'F';
 }
 
-/// Stray grains that land before the layer does not end its flight: a contact between two flights that
-/// carries too little counts as flight.
+/// Stray grains that land before the layer do not end its flight: a contact between two flights with too
+/// small an impulse counts as flight.
 void forget_stray_grains(ModeCurves const& curves, std::vector<Run>& runs, std::vector<char>& letters) {
-    // Slide and rest of one contact belong together.
+    // The slides and rests of one contact belong together.
     std::vector<char> contact = letters;
     for (char& letter : contact) letter = letter == 'F' ? 'F' : 'C';
     for (Run const& run : runs_of(contact)) {
         if (run.letter == 'F' || run.length == static_cast<int>(letters.size())) continue;
-        double impulse = 0;  // in cycles of weight
+        double impulse = 0;  // in units of weight times period
         for (int i = 0; i < run.length; ++i)
             impulse += curves.normal_force[wrapped(run.first + i, letters.size())] * curves.step / two_pi;
         if (impulse >= stray_impulse) continue;
@@ -77,8 +77,8 @@ void forget_stray_grains(ModeCurves const& curves, std::vector<Run>& runs, std::
     runs = runs_of(letters);
 }
 
-/// Gives the shortest run that is too short to its longer neighbour in contact; nothing to do: false. A
-/// contact between two flights is kept however short it is: there the layer lands.
+/// Merges the shortest run that is too short with its longer neighbour in contact; returns false if there is
+/// none. A contact between two flights is kept even if it is short, because it is a landing.
 bool absorb_shortest(std::vector<Run>& runs, std::vector<char>& letters) {
     std::size_t const n = runs.size();
     if (n < 2) return false;
@@ -99,7 +99,7 @@ bool absorb_shortest(std::vector<Run>& runs, std::vector<char>& letters) {
     return true;
 }
 
-/// Where the period begins: the longest flight, else the first slide after phase 0.
+/// The run with which the period begins: the longest flight, otherwise the first slide after phase 0.
 std::size_t start_of(std::vector<Run> const& runs) {
     auto const slides = [](Run const& run) { return run.letter == 'P' || run.letter == 'N'; };
     std::size_t start = runs.size();
@@ -126,7 +126,7 @@ std::vector<ModePhase> mode_phases(ModeCurves const& curves) {
     for (std::size_t k = 0; k < runs.size(); ++k) {
         std::size_t const i = (start + k) % runs.size();
         Run const& run = runs[i];
-        // Lands and is thrown again at once: two flights with nothing between them.
+        // The layer lands and is thrown again at once: two flights with no contact between them.
         if (run.length < shortest_phase && between_flights(runs, i)) continue;
         std::string letter(1, run.letter);
         bool const landed = k > 0 && phases.back().letter == "F";

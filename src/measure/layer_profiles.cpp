@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
 
-/// All numbers of a line; nothing when there is something else in it.
+/// All numbers in a line; std::nullopt if the line contains anything else.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
     std::vector<double> numbers;
     char const* at = line.data();
@@ -35,7 +35,8 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
     }
 }
 
-/// Step, number of bins, and then a line per bin: its number, middle, grains, density and means.
+/// Reads a snapshot: step and number of bins, and then a line per bin with its number, middle, grains,
+/// density and means.
 class SnapshotParser {
   public:
     explicit SnapshotParser(core::TextFile const& file) : file_(file) {}
@@ -78,11 +79,11 @@ class SnapshotParser {
 
     core::TextFile const& file_;
     int line_number_ = 0;
-    int left_ = 0;  ///< bins of the last snapshot that are still to come
+    int left_ = 0;  ///< number of bins of the current snapshot that have not been read yet
     std::vector<Snapshot> snapshots_;
 };
 
-/// The step at which the run of NAME.STEP.txt started.
+/// The step at which the run that wrote NAME.STEP.txt started.
 std::optional<long> start_of(fs::path const& path, std::string_view name) {
     std::string const file = path.filename().string();
     if (!file.starts_with(std::string(name) + ".") || !file.ends_with(".txt")) return {};
@@ -92,7 +93,7 @@ std::optional<long> start_of(fs::path const& path, std::string_view name) {
     return failure == std::errc() && end == step.data() + step.size() ? std::optional(number) : std::nullopt;
 }
 
-/// Snapshots of the cycles that count, by phase.
+/// The snapshots of the evaluated cycles, sorted by phase.
 std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& snapshots,
                                                    ProfileFacts const& facts) {
     std::vector<std::vector<Snapshot const*>> phases(static_cast<std::size_t>(facts.phases));
@@ -104,7 +105,7 @@ std::vector<std::vector<Snapshot const*>> by_phase(std::vector<Snapshot> const& 
     return phases;
 }
 
-/// Mean v_x of the grains between two fractions of the layer's number, counted from below.
+/// The mean v_x of the grains between two fractions of the number of grains, counted from the bottom.
 double mean_between(Snapshot const& one, double from, double to) {
     double grains = 0;
     for (Bin const& bin : one.bins) grains += bin.grains;
@@ -117,7 +118,7 @@ double mean_between(Snapshot const& one, double from, double to) {
     return sum / ((to - from) * grains);
 }
 
-/// Mean over the phases of the means over their snapshots; no value without a snapshot.
+/// The mean over the phases of the mean over the snapshots of each phase.
 template <class Value>
 std::optional<double> mean_over_phases(std::vector<std::vector<Snapshot const*>> const& phases,
                                        Value const& value) {
@@ -134,7 +135,7 @@ std::optional<double> mean_over_phases(std::vector<std::vector<Snapshot const*>>
     return sum / seen;
 }
 
-/// First and last bin in which there ever was a grain, as a half-open range.
+/// The first and last bin that ever contained a grain, as a half-open range.
 std::pair<std::size_t, std::size_t> occupied(std::vector<std::vector<Snapshot const*>> const& phases) {
     std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
     for (auto const& snapshots : phases) {
@@ -160,13 +161,13 @@ void add_bin(Profiles& profiles, std::vector<Snapshot const*> const& snapshots, 
         vz += b.grains * b.means[1];
     }
     profiles.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
-    profiles.height.push_back(snapshots.front()->bins[bin].place - facts.trough_z[phase]);
+    profiles.height.push_back(snapshots.front()->bins[bin].position - facts.trough_z[phase]);
     profiles.solid_fraction.push_back(density / static_cast<double>(snapshots.size()) / facts.density);
     profiles.velocity_x.push_back(grains > 0 ? vx / grains - facts.trough_vx[phase] : gap);
     profiles.velocity_z.push_back(grains > 0 ? vz / grains - facts.trough_vz[phase] : gap);
 }
 
-/// Variance of the surface's height along the trough.
+/// The variance of the height of the surface along the trough.
 double surface_variance(Snapshot const& one) {
     double sum = 0, squares = 0, columns = 0;
     for (Bin const& bin : one.bins) {
@@ -199,14 +200,14 @@ std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files, 
     }
     if (by_start.empty())
         throw core::MissingError(
-            fmt::format("{} holds no {}.*.txt; run the packing again", folder.string(), name));
+            fmt::format("{} does not contain {}.*.txt; run the packing again", folder.string(), name));
     std::vector<Snapshot> all;
     for (auto const& [start, file] : by_start) {
         std::erase_if(all, [first = start](Snapshot const& one) { return one.step >= first; });
         for (Snapshot& one : SnapshotParser(*file).parse()) {
             if (!all.empty() && one.bins.size() != all.front().bins.size())
                 throw core::InputError(
-                    fmt::format("{} holds snapshots of different size", file->path.string()));
+                    fmt::format("{} contains snapshots of different size", file->path.string()));
             all.push_back(std::move(one));
         }
     }

@@ -9,12 +9,12 @@
 
 namespace vibrotrough::measure {
 
-/// What the engine found in one bin at one moment.
+/// The content of one bin at one time, as written by the engine.
 struct Bin {
-    double place;               ///< m, middle of the bin
-    double grains;              ///< with their centres in the bin
-    double density;             ///< kg/m^3, mass of those grains over the bin's volume
-    std::vector<double> means;  ///< over those grains, as the deck asks
+    double position;            ///< m, middle of the bin
+    double grains;              ///< number of grains with their centres in the bin
+    double density;             ///< kg/m^3, mass of these grains divided by the volume of the bin
+    std::vector<double> means;  ///< means over these grains of the quantities that the deck selects
 };
 
 struct Snapshot {
@@ -22,31 +22,31 @@ struct Snapshot {
     std::vector<Bin> bins;
 };
 
-/// Reads the snapshots of a packing: `NAME.STEP.txt`, one file for each time the engine was started, STEP
-/// where it started. What a later run did again replaces what the earlier one had written. A last snapshot
-/// that is not whole is left out: the engine may be writing it.
+/// Reads the snapshots of a packing from `NAME.STEP.txt`, one file for each start of the engine, with STEP
+/// the first step. Snapshots that a later run repeated replace those of the earlier run. An incomplete last
+/// snapshot is left out, because the engine may still be writing it.
 /// @param name  "profiles" or "surface"
 /// @throws InputError naming file and line when a line is damaged
-/// @throws MissingError when there is no such file
+/// @throws MissingError if there is no such file
 std::vector<Snapshot> read_snapshots(std::filesystem::path const& folder, std::string_view name);
 
-/// The same of files that were read before; those with other names are passed over.
-/// @param folder  for messages
+/// The same for files that have already been read; files with other names are ignored.
+/// @param folder  named in error messages
 std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files,
                                       std::filesystem::path const& folder, std::string_view name);
 
-/// What is needed beside the snapshots.
+/// The data needed in addition to the snapshots.
 struct ProfileFacts {
-    double density;  ///< kg/m^3, of the grains' material
+    double density;  ///< kg/m^3, of the material of the grains
     int steps_per_cycle;
-    int discarded, used;  ///< cycles: those after `discarded`, up to `used`, count
+    int discarded, used;  ///< cycles after number `discarded` up to number `used` are evaluated
     int phases;           ///< snapshots per cycle, evenly spaced
-    std::vector<double> trough_z, trough_vx, trough_vz;  ///< of the trough at each of these phases, m, m/s
+    std::vector<double> trough_z, trough_vx, trough_vz;  ///< m and m/s, of the trough at each of these phases
     double conveying_speed;                              ///< m/s
 };
 
-/// Profiles normal to the trough, row by row: phases in order, and in each the bins upwards. Phase 0 is
-/// first.
+/// Profiles normal to the trough as rows: the phases in order from phase 0, and for each phase the bins from
+/// the bottom upwards.
 struct Profiles {
     std::vector<double> phase;   ///< rad
     std::vector<double> height;  ///< m, middle of the bin above the trough
@@ -60,7 +60,7 @@ struct Profiles {
 
 Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
 
-/// The layer's surface along the trough, row by row: phases in order, and in each the columns.
+/// The surface of the layer along the trough as rows: the phases in order, and for each phase the columns.
 struct Surface {
     std::vector<double> phase;   ///< rad
     std::vector<double> x;       ///< m, middle of the column

@@ -13,7 +13,7 @@ PhaseSeries read_phases(std::filesystem::path const& path, int steps_per_cycle) 
 
 PhaseSeries parse_phases(core::TextFile const& file, int steps_per_cycle) {
     if (steps_per_cycle % PhaseSeries::per_cycle != 0)
-        throw std::invalid_argument("steps per cycle are no multiple of the lines per cycle");
+        throw std::invalid_argument("the steps per cycle are not a multiple of the lines per cycle");
     int const distance = steps_per_cycle / PhaseSeries::per_cycle;
     TableFormat const format{
         "phases",
@@ -29,7 +29,7 @@ PhaseSeries parse_phases(core::TextFile const& file, int steps_per_cycle) {
         series.trough_x.push_back(row[5]);
         series.trough_z.push_back(row[6]);
         series.tangential_force.push_back(row[7]);
-        series.normal_force.push_back(-row[8]);  // the engine counts the force on the trough upwards
+        series.normal_force.push_back(-row[8]);  // in the file the force on the trough is positive upwards
         series.floor_force.push_back(-row[9]);
         series.touching.push_back(row[10]);
         series.touching_vx.push_back(row[11]);
@@ -37,13 +37,13 @@ PhaseSeries parse_phases(core::TextFile const& file, int steps_per_cycle) {
         series.clearance.push_back(row[13]);
         series.energy_translation.push_back(row[14]);
         series.energy_rotation.push_back(row[15]);
-        // The largest of no contacts is the engine's most negative number.
+        // Without contacts the engine writes its most negative number as the maximum.
         series.overlap.push_back(std::max(row[16], 0.0));
     });
     return series;
 }
 
-PhaseSeries with_integrated_places(PhaseSeries series, double interval) {
+PhaseSeries with_integrated_positions(PhaseSeries series, double interval) {
     for (std::size_t i = 1; i < series.lines(); ++i)
         series.x[i] = series.x[i - 1] + (series.vx[i - 1] + series.vx[i]) / 2 * interval;
     return series;

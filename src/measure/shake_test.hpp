@@ -6,14 +6,14 @@
 
 namespace vibrotrough::measure {
 
-/// What a pen on the layer draws on the trough in each of the cycles first + 1 ... last: the largest less the
-/// smallest displacement of the centre of mass against the trough, m. The pen's line begins at the end of the
-/// cycle before, so that `first` must be 1 or more. Between its lines the pen follows the parabola through
-/// three of them.
-std::vector<double> pen_lines(PhaseSeries const& series, int first, int last);
+/// The range (largest minus smallest value) of the displacement of the centre of mass relative to the trough
+/// in each of the cycles first + 1 ... last, m. It corresponds to the length of the line that a pen fixed to
+/// the layer would draw on the trough. Each cycle includes the last line of the previous one, so that `first`
+/// must be at least 1. Turning points between lines are found with the parabola through three lines.
+std::vector<double> relative_displacement_ranges(PhaseSeries const& series, int first, int last);
 
-/// How far the layer gets away from the trough in a cycle, mean over these cycles, m: a layer that creeps
-/// draws longer lines than it slides.
+/// The mean drift of the layer relative to the trough per cycle over these cycles, m. With drift, the range
+/// of the displacement is larger than the length of a slide.
 double creep_per_cycle(PhaseSeries const& series, int first, int last);
 
 }  // namespace vibrotrough::measure

@@ -12,8 +12,8 @@
 namespace vibrotrough::theory {
 namespace {
 
-/// The wrong point that comes first, whatever thread meets it first.
-class FirstMistake {
+/// Keeps the error of the first invalid point in input order, no matter which thread finds it first.
+class FirstError {
   public:
     void note(std::size_t index, std::string const& message) {
         std::lock_guard const lock(mutex_);
@@ -35,9 +35,9 @@ class FirstMistake {
 
 }  // namespace
 
-BatchAnswer solve_batch(std::vector<Inputs> const& inputs, int jobs) {
-    BatchAnswer answer{std::vector<MapPoint>(inputs.size()), 0};
-    FirstMistake mistake;
+BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs) {
+    BatchResult answer{std::vector<MapPoint>(inputs.size()), 0};
+    FirstError first_error;
     tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();
     arena.execute([&] {
@@ -47,12 +47,12 @@ BatchAnswer solve_batch(std::vector<Inputs> const& inputs, int jobs) {
                 try {
                     answer.points[i] = solve_inputs(inputs[i], solver);
                 } catch (std::invalid_argument const& error) {
-                    mistake.note(i, error.what());
+                    first_error.note(i, error.what());
                 }
             }
         });
     });
-    mistake.raise();
+    first_error.raise();
     auto const count = static_cast<double>(inputs.empty() ? 1 : inputs.size());
     answer.cpu_seconds_per_solution = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count;
     return answer;

@@ -6,14 +6,15 @@
 
 namespace vibrotrough::theory {
 
-struct BatchAnswer {
+/// The solutions of a batch.
+struct BatchResult {
     std::vector<MapPoint> points;  ///< in the order of the inputs
     double cpu_seconds_per_solution;
 };
 
-/// Solves many unrelated points, each as solve_inputs() does, on `jobs` threads (0: all cores).
-/// @throws std::invalid_argument naming the first point (from 1) whose inputs are not complete or out of
-/// range; PhaseError when a point cannot be solved
-BatchAnswer solve_batch(std::vector<Inputs> const& inputs, int jobs);
+/// Solves many independent points, each with solve_inputs(), on `jobs` threads (0: all cores).
+/// @throws std::invalid_argument naming the first point (counted from 1) whose inputs are incomplete or out
+/// of range; PhaseError when a point cannot be solved
+BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs);
 
 }  // namespace vibrotrough::theory

@@ -21,13 +21,14 @@ using detail::WalkState;
 using Keep = Walk::Keep;
 
 constexpr int longest_period = 64;  // cycles
-constexpr int settling = 500;       // cycles before a mean without a period is taken
-constexpr int batches = 20;         // of that mean
+constexpr int settling = 500;       // cycles skipped before averaging a motion without a period
+constexpr int batches = 20;         // number of batch means for its confidence interval
 constexpr int cycles_per_batch = 125;
-constexpr int plain_repeats = 60;      // of a period, before Newton takes over
-constexpr double closing = 1e-6;       // rad: how well an orbit that closes within state_match closes in time
-constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, between two periods
-constexpr double state_match = 1e-11;  // of gap, its rate and slip velocity, in their units
+constexpr int plain_repeats = 60;  // periods followed directly before Newton's method takes over
+constexpr double closing = 1e-6;   // rad: tolerance in time for an orbit that recurs within state_match
+constexpr double repeat_match =
+    1e-9;  // tolerance of displacement and impact energy per cycle, period to period
+constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
 
 void check_ranges(Conveyor const& c) {
     using detail::require_range;
@@ -58,8 +59,8 @@ void check_ranges(Conveyor const& c) {
                   c.height_over_width, "[0, 1000]");
 }
 
-/// The inputs as text that reproduces them.
-std::string described(Conveyor const& c) {
+/// The inputs as text from which they can be reproduced.
+std::string inputs_text(Conveyor const& c) {
     auto const number = [](char const* name, double value) {
         return std::string(" ") + name + "=" + detail::number_text(value);
     };
@@ -71,7 +72,7 @@ std::string described(Conveyor const& c) {
         }
         return text;
     };
-    return detail::described(c.point) + number("static_friction", c.static_friction) +
+    return detail::inputs_text(c.point) + number("static_friction", c.static_friction) +
            number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
            (c.landing_friction ? number("landing_friction", *c.landing_friction) : "") +
            number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
@@ -106,15 +107,16 @@ double mismatch(WalkState const& a, WalkState const& b) {
     return std::max(normal_mismatch(a, b), std::abs(a.v - b.v));
 }
 
-/// After how many of the earlier `starts` (the last of them one step ago) the state is back; 0 when it is
-/// not.
+/// The number of steps after which the state recurs, found by comparison with the earlier `starts` (the last
+/// of which is one step old); 0 when it does not recur.
 template <class Mismatch>
 int steps_to_return(WalkState const& now, std::vector<WalkState> const& starts, int most,
                     Mismatch const& differ) {
     auto const off = [&](int n) { return differ(now, starts[starts.size() - static_cast<std::size_t>(n)]); };
     for (int n = 1; n <= std::min(most, static_cast<int>(starts.size())); ++n) {
         if (!(off(n) < state_match)) continue;
-        for (int shorter = 1; shorter < n; ++shorter) {  // an alternating approach closes in on 2 before 1
+        for (int shorter = 1; shorter < n;
+             ++shorter) {  // an alternating approach meets the tolerance for 2 steps before it does for 1
             if (n % shorter == 0 && off(shorter) < 1e3 * state_match) return shorter;
         }
         return n;
@@ -151,10 +153,11 @@ class Solver {
 
 bool Solver::gravity_wins() const {
     auto const friction = effective_friction(model_->conveyor());
-    return model_->drag() == 0 && std::abs(model_->conveyor().point.tan_inclination) > friction.standing;
+    return model_->drag() == 0 &&
+           std::abs(model_->conveyor().point.tan_inclination) > friction.static_friction;
 }
 
-/// Cycles after which the normal motion returns; 0 when it does not. The state is left there.
+/// The number of cycles after which the normal motion recurs; 0 when it does not. Leaves `state_` there.
 int Solver::find_normal_period() {
     std::vector<WalkState> starts;
     for (int cycle = 0; cycle < settling + batches * cycles_per_batch; ++cycle) {
@@ -167,7 +170,8 @@ int Solver::find_normal_period() {
     return 0;
 }
 
-/// Makes the motion along the trough periodic, given a normal motion that is. @return its period, 0 if none
+/// Makes the motion along the trough periodic when the normal motion already is. @return its period in
+/// cycles, 0 if none was found
 int Solver::settle_along(int cycles) {
     bool const one_friction = model_->conveyor().static_friction <= model_->conveyor().point.friction;
     bool const by_rule = model_->conveyor().flight_start != FlightStart::actual_velocity;
@@ -203,8 +207,8 @@ int Solver::settle_along(int cycles) {
     return cycles;
 }
 
-/// Where the list of phases begins: at a take-off from contact, else at any flight, else at the positive
-/// slide, else at the negative one, else at the beginning.
+/// The piece with which the list of phases starts: a take-off from contact, otherwise any flight, otherwise
+/// the positive slide, otherwise the negative slide, otherwise the first piece.
 std::size_t first_piece(std::vector<Piece> const& pieces) {
     auto const find = [&](auto const& wanted) {
         for (std::size_t i = 1; i < pieces.size(); ++i) {
@@ -225,12 +229,12 @@ std::size_t first_piece(std::vector<Piece> const& pieces) {
     return i;
 }
 
-/// Rebounds can amplify rounding from one period to the next until the two differ: then "periodic" has no
-/// meaning.
+/// Rebounds can amplify rounding errors from one period to the next until the two differ. The motion is then
+/// not accepted as periodic.
 bool Solver::repeats(Passage const& two_periods, int cycles) const {
     WalkState s = state_;
     double const length = two_pi * cycles, once = pass(s, cycles, Keep::nothing).displacement;
-    double impacts = 0;  // energy of the first period's minus that of the second's
+    double impacts = 0;  // energy of the impacts of the first period minus that of the second
     for (Impact const& impact : two_periods.impacts) {
         double const energy = impact.approach * impact.approach;
         impacts += impact.t < state_.t + length ? energy : -energy;
@@ -240,7 +244,7 @@ bool Solver::repeats(Passage const& two_periods, int cycles) const {
 }
 
 ConveyorMotion Solver::periodic(int cycles) {
-    // Two periods from the section; the list of phases begins at an event within the first.
+    // Follow two periods; the list of phases starts at an event within the first.
     WalkState s = state_;
     Passage scout = pass(s, 2 * cycles, Keep::pieces);
     if (!repeats(scout, cycles)) return averaged();
@@ -332,7 +336,7 @@ ConveyorMotion solve(Conveyor const& conveyor) {
     try {
         return Solver(conveyor).solve();
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + described(conveyor) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }
 }
 

@@ -9,65 +9,69 @@
 
 namespace vibrotrough::theory {
 
-/// A part of the trough's acceleration beside -sin t (Eq. 22): - amplitude sin(order t + phase), in units of
-/// the fundamental's acceleration in its direction.
+/// A harmonic of the trough's acceleration that is added to the fundamental -sin t (Eq. 22): -amplitude
+/// sin(order t + phase), in units of the acceleration amplitude of the fundamental in the same direction.
 struct Harmonic {
     int order;         ///< 1 to 1000
-    double amplitude;  ///< of acceleration
+    double amplitude;  ///< of the acceleration, as a fraction of the fundamental's
     double phase = 0;  ///< rad
 };
 
-/// How a flight begins that interrupts an N' slide.
+/// The velocity with which a flight starts when it interrupts an N' slide (a backward slide after a landing).
 enum class FlightStart {
-    actual_velocity,       ///< with the velocity the mass has: the physics
-    trough_velocity_rule,  ///< V_F = cos(delta_F): not physics; reproduces the e > 0 columns of Table 1 only
+    actual_velocity,       ///< the mass keeps the velocity it has (this is the physics)
+    trough_velocity_rule,  ///< V_F = cos(delta_F): not physical; only reproduces the columns e > 0 of Table 1
 };
 
-/// Everything that the point-mass theory of this room knows. The defaults are Sloot & Kruyt's plastic point
-/// mass.
+/// All parameters of the general point-mass model. The defaults describe Sloot & Kruyt's point mass with
+/// perfectly plastic landing.
 ///
-/// Not for a layer with inner motion, a trough that reacts to the load, or Zeno motions slower than
-/// `slowest_rebound`.
+/// Not covered: a layer with internal motion, a trough whose motion depends on the load, and infinite
+/// sequences of ever smaller rebounds (Zeno behaviour) below `slowest_rebound`.
 struct Conveyor {
-    PointMass point;                ///< `friction` is the kinetic coefficient mu
-    double static_friction = 0;     ///< mu_s >= mu (Nedderman & Harding); 0: the same as kinetic
-    double restitution = 0;         ///< e in [0, 1), normal (Eq. 23): friction impulse with mu (1 + e)
-    double slowest_rebound = 1e-6;  ///< slower rebounds are contact, in omega r sin(beta)
-    /// Instead of mu in the impulse of a landing (Eqs. 17, 18), >= 0. Not in the paper; what it explains of
-    /// layers and what it does not is in validation/why_theory_fails.
+    PointMass point;             ///< its `friction` is the kinetic friction coefficient mu
+    double static_friction = 0;  ///< mu_s >= mu (Nedderman & Harding); 0: equal to the kinetic one
+    double restitution = 0;  ///< normal restitution coefficient e in [0, 1) (Eq. 23); the friction impulse is
+                             ///< mu (1 + e) times the approach velocity
+    double slowest_rebound = 1e-6;  ///< rebounds slower than this count as contact, in omega r sin(beta)
+    /// Friction coefficient used instead of mu for the impulse of a landing (Eqs. 17, 18), >= 0. This
+    /// parameter is not in the paper; validation/why_theory_fails describes what it can and cannot explain
+    /// about layers.
     std::optional<double> landing_friction;
-    double air_drag = 0;     ///< kappa >= 0: drag force = m omega kappa times velocity, air at rest
+    double air_drag = 0;  ///< kappa >= 0: the drag force is m omega kappa times the velocity of the mass; the
+                          ///< air is at rest
     double along_ratio = 1;  ///< elliptical drive: X = along_ratio sin(t + along_phase), Y = sin t
     double along_phase = 0;  ///< rad
-    std::vector<Harmonic> along, normal;  ///< further parts of the acceleration of X and of Y
-    double wall_friction = 0;             ///< of the layer on the two side walls, >= 0
-    double wall_pressure_ratio = 0.5;     ///< Janssen's k: horizontal over vertical stress, in [0, 1]
-    double height_over_width = 0;         ///< of the layer, >= 0
+    std::vector<Harmonic> along, normal;  ///< harmonics of the acceleration of X and of Y
+    double wall_friction = 0;  ///< friction coefficient between the layer and the two side walls, >= 0
+    double wall_pressure_ratio = 0.5;  ///< Janssen's ratio k of horizontal to vertical stress, in [0, 1]
+    double height_over_width = 0;      ///< H / W of the layer, >= 0
     FlightStart flight_start = FlightStart::actual_velocity;
 };
 
-/// Friction coefficients that stand for floor and walls together.
+/// Friction coefficients that account for the floor and the side walls together.
 struct EffectiveFriction {
-    double kinetic, standing, landing;
+    double kinetic_friction, static_friction, landing_friction;
 };
 
-/// Side walls by Janssen's stress ratio: the walls carry the horizontal stress k sigma_v, sigma_v = N(t) z /
-/// H at depth z. While the layer slips along the trough, wall friction points along the trough, so none of it
-/// carries weight and Janssen's saturation does not occur: two walls give k wall_friction H / W times the
-/// normal force, and this adds to mu. Holds in contact and in impacts; in flight the layer is loose and free.
+/// Includes the friction of the side walls by means of Janssen's stress ratio. The walls carry the horizontal
+/// stress k sigma_v, with sigma_v = N(t) z / H at depth z. While the layer slips along the trough, the wall
+/// friction acts along the trough, so that it does not support any weight and Janssen's saturation does not
+/// occur. Two walls therefore contribute k wall_friction H / W times the normal force, which is added to mu.
+/// This holds in contact and during impacts; in flight the walls have no effect.
 EffectiveFriction effective_friction(Conveyor const& conveyor);
 
-/// An impact at the end of a flight; velocities relative to the trough, along in omega r cos(beta), normal in
-/// omega r sin(beta).
+/// An impact at the end of a flight. Velocities are relative to the trough: along it in omega r cos(beta),
+/// normal to it in omega r sin(beta).
 struct Impact {
     double t;                  ///< rad
-    double approach, rebound;  ///< normal, both >= 0
+    double approach, rebound;  ///< normal velocities before and after, both >= 0
     double along_before, along_after;
 };
 
-class ConveyorModel;  // the analytic phases; see conveyor_model.hpp
+class ConveyorModel;  // the analytic solution of each phase; see detail/conveyor_model.hpp
 
-/// A phase with all that is needed to evaluate it at any time within.
+/// A phase with all that is needed to evaluate the motion at any time within it.
 struct Piece {
     PhaseKind kind;
     double start, end;      ///< rad
@@ -77,26 +81,28 @@ struct Piece {
 };
 
 struct ConveyorMotion {
-    Motion motion;                ///< as solve(): eta, mode, phases, period
-    double half_width = 0;        ///< of eta at 95 % confidence when there is no period; 0 when periodic
-    int cycles_followed = 0;      ///< cycles that the mean is over, without a period
-    std::vector<Piece> pieces;    ///< of one period (of the cycles that were followed last, without a period)
-    std::vector<Impact> impacts;  ///< in the same time
+    Motion motion;          ///< as for a PointMass: eta, mode, phases, period
+    double half_width = 0;  ///< of the 95 % confidence interval of eta if no period was found; 0 if periodic
+    int cycles_followed = 0;      ///< number of cycles averaged over if no period was found
+    std::vector<Piece> pieces;    ///< of one period, or of the last cycles followed if no period was found
+    std::vector<Impact> impacts;  ///< in the same time span as `pieces`
     std::shared_ptr<ConveyorModel const> model;
 };
 
-/// The long run of the motion that starts at rest. Analytic within each phase; the ends of phases are found
-/// by steps that are certified to pass no zero, so no short phase is overlooked.
+/// The long-term motion that develops from a start at rest. The solution is analytic within each phase. The
+/// ends of phases are found in steps that provably do not skip a zero, so that short phases are not
+/// overlooked.
 ///
-/// The normal motion is repeated until its state at the start of a cycle returns after 1 to 64 cycles; then
-/// the motion along the trough is the fixed point of a map of one velocity. Two periods in a row must agree
-/// to 1e-9, because long chains of rebounds amplify rounding. When nothing returns within 3000 cycles, the
-/// mean over them is given with a half-width from 20 batches (Student's t).
+/// The normal motion is followed until its state at the start of a cycle recurs after 1 to 64 cycles; the
+/// motion along the trough is then the fixed point of a map of one velocity. Two successive periods must
+/// agree to 1e-9, because long chains of rebounds amplify rounding errors. If the state does not recur within
+/// 3000 cycles, the mean of eta is given with the half-width of its confidence interval from 20 batches
+/// (Student's t).
 ///
-/// With static above kinetic friction more than one motion can be periodic: the one reached from rest is
-/// given.
+/// If static friction exceeds kinetic friction, several periodic motions can exist: the one reached from rest
+/// is given.
 ///
-/// @throws std::invalid_argument when an input is out of its range
+/// @throws std::invalid_argument when an input is out of range
 /// @throws PhaseError when a phase cannot be solved
 ConveyorMotion solve(Conveyor const& conveyor);
 

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double near_limit = 1e-3;
-constexpr double most_friction_used = 0.95;  // of mu, by the slope
+constexpr double max_friction_used = 0.95;  // largest |tan(alpha)| / mu
 constexpr int global_evaluations = 60000, local_evaluations = 4000;
 
-/// Variables of the search: logarithms of frequency and amplitude, vibration angle, inclination.
+/// The search variables: logarithms of frequency and amplitude, vibration angle, inclination.
 using Variables = std::vector<double>;
 
 class Search {
@@ -45,13 +45,13 @@ class Search {
         d.mode = to_string(e.mode);
         return d;
     }
-    /// log(K / K_max) and log(Gamma / Gamma_max): not above zero.
+    /// log(K / K_max) and log(Gamma / Gamma_max), which must not be positive.
     double over_machine_number(Variables const& x) const {
-        return 2 * (std::log(2 * pi) + x[0]) + x[1] - std::log(limits_.gravity * limits_.most_machine_number);
+        return 2 * (std::log(2 * pi) + x[0]) + x[1] - std::log(limits_.gravity * limits_.max_machine_number);
     }
     double over_throw_number(Variables const& x) const {
         return 2 * (std::log(2 * pi) + x[0]) + x[1] + std::log(std::sin(x[2]) / std::cos(x[3])) -
-               std::log(limits_.gravity * limits_.most_throw_number);
+               std::log(limits_.gravity * limits_.max_throw_number);
     }
     Variables low() const {
         return {std::log(limits_.frequency.low), std::log(limits_.amplitude.low), limits_.vibration_angle.low,
@@ -69,7 +69,7 @@ class Search {
 
 double speed(Variables const& x, Variables&, void* data) {
     double const v = static_cast<Search*>(data)->at(x).conveying_speed;
-    return std::isfinite(v) ? v : -1e6;  // it runs away: no machine
+    return std::isfinite(v) ? v : -1e6;  // the mass runs away: not a usable machine
 }
 double machine_excess(Variables const& x, Variables&, void* data) {
     return static_cast<Search*>(data)->over_machine_number(x);
@@ -88,19 +88,19 @@ void check(DesignLimits const& l) {
     range(l.inclination, -pi / 2 + 1e-6, pi / 2 - 1e-6, "inclination",
           "from low to high within (-pi/2, pi/2)");
     detail::require_range(l.friction > 0 && l.friction <= 1e3, "friction", l.friction, "(0, 1000]");
-    detail::require_range(l.most_machine_number > 0 && l.most_machine_number <= 1e4, "most_machine_number",
-                          l.most_machine_number, "(0, 1e4]");
-    detail::require_range(l.most_throw_number > 0 && l.most_throw_number <= 1e4, "most_throw_number",
-                          l.most_throw_number, "(0, 1e4]");
+    detail::require_range(l.max_machine_number > 0 && l.max_machine_number <= 1e4, "max_machine_number",
+                          l.max_machine_number, "(0, 1e4]");
+    detail::require_range(l.max_throw_number > 0 && l.max_throw_number <= 1e4, "max_throw_number",
+                          l.max_throw_number, "(0, 1e4]");
     bool const layer = l.bulk_density > 0 && l.layer_height > 0 && l.layer_width > 0;
-    detail::require_range(l.least_mass_flow == 0 || (l.least_mass_flow > 0 && layer), "least_mass_flow",
-                          l.least_mass_flow, "[0, inf), with bulk density, layer height and width given");
+    detail::require_range(l.min_mass_flow == 0 || (l.min_mass_flow > 0 && layer), "min_mass_flow",
+                          l.min_mass_flow, "[0, inf), with bulk density, layer height and width given");
 }
 
-/// Where |tan(alpha)| comes near mu the speed depends on the last digit of the friction, and beyond it has no
-/// bound.
-DesignLimits away_from_running_away(DesignLimits limits) {
-    double const steepest = std::atan(most_friction_used * limits.friction);
+/// When |tan(alpha)| is close to mu, the speed depends on the last digit of the friction coefficient, and
+/// beyond mu it is unbounded.
+DesignLimits with_friction_margin(DesignLimits limits) {
+    double const steepest = std::atan(max_friction_used * limits.friction);
     limits.inclination.low = std::max(limits.inclination.low, -steepest);
     limits.inclination.high = std::min(limits.inclination.high, steepest);
     detail::require_range(limits.inclination.low <= limits.inclination.high, "inclination",
@@ -122,7 +122,7 @@ Variables optimised(Search& search, nlopt::algorithm algorithm, Variables start,
     try {
         optimiser.optimize(start, value);
     } catch (nlopt::roundoff_limited const&) {
-        return start;  // as good as rounding allows
+        return start;  // the result is as good as rounding allows
     }
     return start;
 }
@@ -138,42 +138,42 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
     auto const in_degrees = [&](Range const& r) { return Range{r.low * degrees, r.high * degrees}; };
     auto const check_range = [&](char const* name, double value, Range const& r, char const* unit) {
         double const slack = near_limit * std::max({std::abs(r.low), std::abs(r.high), r.high - r.low});
-        if (r.high - r.low < 1e-12) return;  // fixed, not a limit
+        if (r.high - r.low < 1e-12) return;  // a fixed value, not a limit
         if (value > r.high - slack) active.push_back(std::string(name) + " <= " + text(r.high) + unit);
         if (value < r.low + slack) active.push_back(std::string(name) + " >= " + text(r.low) + unit);
     };
-    if (d.machine_number > l.most_machine_number * (1 - near_limit)) {
-        active.push_back("machine_number <= " + text(l.most_machine_number));
+    if (d.machine_number > l.max_machine_number * (1 - near_limit)) {
+        active.push_back("machine_number <= " + text(l.max_machine_number));
     }
-    if (d.throw_number > l.most_throw_number * (1 - near_limit)) {
-        active.push_back("throw_number <= " + text(l.most_throw_number));
+    if (d.throw_number > l.max_throw_number * (1 - near_limit)) {
+        active.push_back("throw_number <= " + text(l.max_throw_number));
     }
     check_range("frequency", d.frequency, l.frequency, " Hz");
     check_range("amplitude", d.amplitude, l.amplitude, " m");
     check_range("vibration_angle", d.vibration_angle * degrees, in_degrees(l.vibration_angle), " deg");
     check_range("inclination", d.inclination * degrees, in_degrees(l.inclination), " deg");
-    if (l.least_mass_flow > 0 && d.mass_flow < l.least_mass_flow * (1 + near_limit)) {
-        active.push_back("mass_flow >= " + text(l.least_mass_flow) + " kg/s");
+    if (l.min_mass_flow > 0 && d.mass_flow < l.min_mass_flow * (1 + near_limit)) {
+        active.push_back("mass_flow >= " + text(l.min_mass_flow) + " kg/s");
     }
     return active;
 }
 
 }  // namespace
 
-Design fastest_design(DesignLimits const& asked) {
-    check(asked);
-    DesignLimits const limits = away_from_running_away(asked);
+Design fastest_design(DesignLimits const& requested) {
+    check(requested);
+    DesignLimits const limits = with_friction_margin(requested);
     Search search(limits);
     nlopt::srand(1);
     Variables start = search.low();
     Variables const high = search.high();
     for (std::size_t i = 2; i < start.size(); ++i) start[i] = (start[i] + high[i]) / 2;
     if (search.over_machine_number(start) > 0 || search.over_throw_number(start) > 0) {
-        start[2] = search.low()[2];  // the gentlest machine that the ranges allow
+        start[2] = search.low()[2];  // the least vigorous machine that the ranges allow
         bool const none = search.over_machine_number(start) > 0 || search.over_throw_number(start) > 0;
         if (none)
             throw std::invalid_argument(
-                "even the lowest frequency and amplitude exceed the machine or throw number");
+                "even the lowest frequency and amplitude exceed the largest machine number or throw number");
     }
     Variables const rough = optimised(search, nlopt::GN_ISRES, start, global_evaluations, 1e-9);
     Variables const fine = optimised(search, nlopt::LN_COBYLA, rough, local_evaluations, 1e-10);
@@ -181,7 +181,7 @@ Design fastest_design(DesignLimits const& asked) {
                         search.at(fine).conveying_speed >= search.at(rough).conveying_speed;
     Design design = search.at(better ? fine : rough);
     design.feasible = std::isfinite(design.conveying_speed) && design.conveying_speed > 0 &&
-                      design.mass_flow >= limits.least_mass_flow * (1 - 1e-9);
+                      design.mass_flow >= limits.min_mass_flow * (1 - 1e-9);
     design.active_limits = active_limits(limits, design);
     return design;
 }

@@ -12,16 +12,17 @@ struct Range {
     double low, high;
 };
 
-/// Within what a machine may be chosen.
+/// The limits within which a machine may be chosen.
 struct DesignLimits {
-    double friction;                        ///< mu, given
+    double friction;                        ///< mu, a given value
     Range frequency{5, 60};                 ///< Hz
     Range amplitude{0.0005, 0.015};         ///< m
     Range vibration_angle{0.0873, 1.0472};  ///< rad, within (0, pi/2)
     Range inclination{0, 0};                ///< rad, within (-pi/2, pi/2)
-    double most_machine_number = 5;         ///< K: what the structure bears
-    double most_throw_number = 3.29;        ///< Gamma: beyond a flight of one cycle landings get irregular
-    double least_mass_flow = 0;             ///< kg/s, 0: none; needs a layer
+    double max_machine_number = 5;          ///< K: what the structure can bear
+    double max_throw_number =
+        3.29;                  ///< Gamma: landings become irregular when a flight lasts more than one cycle
+    double min_mass_flow = 0;  ///< kg/s, 0: no requirement; needs a layer
     double gravity = 9.81;
     double bulk_density = 0, layer_height = 0, layer_width = 0;
 };
@@ -32,20 +33,21 @@ struct Design {
     double conveying_speed;  ///< m/s
     double mass_flow;        ///< kg/s; 0 without a layer
     std::string mode;
-    bool feasible;  ///< all limits are kept; when not, the flow asked for is not reached
-    std::vector<std::string> active_limits;  ///< that hold the speed back: "machine_number <= 5" and the like
+    bool feasible;  ///< whether all limits are met; if not, the required mass flow cannot be reached
+    /// The limits that restrict the speed, e.g. "machine_number <= 5".
+    std::vector<std::string> active_limits;
 };
 
-/// The fastest conveying of the plastic point mass within limits: NLopt's ISRES over frequency, amplitude,
-/// vibration angle and inclination, with the machine number and throw number as constraints, polished by
-/// COBYLA.
+/// Finds the machine with the highest conveying speed of the plastic point mass within the limits: a global
+/// search by NLopt's ISRES over frequency, amplitude, vibration angle and inclination, with machine number
+/// and throw number as constraints, refined by COBYLA.
 ///
-/// The search is global but random with a fixed seed: another machine within 0.1 % of the speed may exist.
-/// The inclination is kept within |tan(alpha)| <= 0.95 mu, beyond which the mass all but runs away.
+/// The search is random with a fixed seed. Other machines with a speed within 0.1 % of the optimum may exist.
+/// The inclination is kept within |tan(alpha)| <= 0.95 mu; beyond this the mass is close to running away.
 /// A limit is called active when the optimum lies within 0.1 % of it.
 ///
-/// @throws std::invalid_argument when a limit has no sense
-Design fastest_design(DesignLimits const& asked);
+/// @throws std::invalid_argument when a limit is out of range
+Design fastest_design(DesignLimits const& requested);
 
 /// How eta answers to each input of a design. @param friction  mu, as in its limits
 std::vector<Sensitivity> sensitivities_at(Design const& design, double friction);

@@ -19,10 +19,10 @@ using detail::two_pi;
 constexpr int bits = 3, longest_mode = 21;
 constexpr double shortest_phase = 1e-12;  // rad, as in solve()
 
-// Newton's last step is not repeated but added to first order; its square is the error.
+// The last Newton step is added to first order instead of being evaluated again; the error is its square.
 constexpr double velocity_tolerance = 3e-6;
 
-/// Adds up one period: displacement, its derivative by the starting velocity, and the mode.
+/// Adds up one period: the displacement, its derivative with respect to the starting velocity, and the mode.
 struct Tally {
     double displacement = 0, derivative = 0;
     ModeCode mode = 0;
@@ -31,13 +31,13 @@ struct Tally {
     void operator()(PhaseKind kind, Instant from, Instant to, double moved, double slope) {
         double const h = to.t - from.t;
         displacement += moved;
-        derivative += slope * h;  // stops move in time, but the speed is zero there
-        if (h > shortest_phase) mode = with_phase(mode, kind, length++);
+        derivative += slope * h;  // the time of a stop changes too, but the speed is zero there
+        if (h > shortest_phase) mode = append_phase(mode, kind, length++);
     }
 };
 
-/// Without flight the period may be cut within a slide. Its first piece then belongs to its last, and the
-/// mode starts with the positive slide, or the negative one where there is none.
+/// Without a flight the period may start within a slide. Its first piece then continues its last one, and the
+/// mode starts with the positive slide, or with the negative one if there is no positive slide.
 ModeCode joined(ModeCode mode, int length) {
     if (length < 2) return mode;
     mode >>= bits;
@@ -54,7 +54,7 @@ ModeCode joined(ModeCode mode, int length) {
 
 }  // namespace
 
-ModeCode with_phase(ModeCode code, PhaseKind kind, int length) {
+ModeCode append_phase(ModeCode code, PhaseKind kind, int length) {
     if (length >= longest_mode) return code | (ModeCode{7} << (bits * (longest_mode - 1)));
     return code | ((static_cast<ModeCode>(kind) + 1) << (bits * length));
 }
@@ -69,13 +69,13 @@ std::string to_string(ModeCode code) {
 }
 
 struct EfficiencySolver::Memory {
-    double throw_number = 0;  // of `normal`
+    double throw_number = 0;  // that `normal` belongs to
     detail::NormalMotion normal;
     detail::Hints hints;
-    double v = 0, v_before = 0;  // at the start of the period, of the last two points
+    double v = 0, v_before = 0;  // velocity at the start of the period for the last two points
     ModeCode mode = 0, mode_before = 0;
 
-    /// A first guess: straight on from the last two points when they moved alike.
+    /// A first guess: linear extrapolation from the last two points if they changed by similar amounts.
     double guess(bool flies) const {
         bool const flew = mode != 0 && static_cast<int>(mode & 7) == static_cast<int>(PhaseKind::flight) + 1;
         if (flew != flies) return 0;
@@ -85,7 +85,7 @@ struct EfficiencySolver::Memory {
     Efficiency without_period(PointMass const& input);
 };
 
-// What does not repeat is rare: leave it to solve().
+// Motions without a period are rare: leave them to solve().
 Efficiency EfficiencySolver::Memory::without_period(PointMass const& input) {
     Motion const motion = solve(input);
     return {motion.velocity_efficiency, 0, motion.period_cycles, motion.outcome};
@@ -104,7 +104,7 @@ Efficiency EfficiencySolver::Memory::solve_periodic(PointMass const& input) {
     if (!flies) {
         throw_number = 0;
         if (!detail::start_at_slide(law, normal)) {
-            return {0, with_phase(0, PhaseKind::rest, 0), 1, Outcome::periodic};
+            return {0, append_phase(0, PhaseKind::rest, 0), 1, Outcome::periodic};
         }
     }
     Tally tally;
@@ -114,7 +114,8 @@ Efficiency EfficiencySolver::Memory::solve_periodic(PointMass const& input) {
     };
     auto start = detail::fixed_point(period, guess(flies), velocity_tolerance);
     if (!flies && start.v != 0 && std::abs(start.v + start.error) <= velocity_tolerance) {
-        start = detail::fixed_point(period, 0, velocity_tolerance);  // a rest before the slide makes it exact
+        start =
+            detail::fixed_point(period, 0, velocity_tolerance);  // exact if there is a rest before the slide
     }
     v_before = v;
     v = start.v + start.error;
@@ -134,7 +135,7 @@ Efficiency EfficiencySolver::operator()(PointMass const& input) {
     try {
         return memory_->solve_periodic(input);
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + detail::described(input) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }
 }
 

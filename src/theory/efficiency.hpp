@@ -8,16 +8,16 @@
 
 namespace vibrotrough::theory {
 
-/// The phases of a mode in order, three bits each: what a map stores for a mode. 0 is no mode.
+/// The phases of a mode in order, three bits per phase, as stored in a map. 0 means that there is no mode.
 using ModeCode = std::uint64_t;
 
-/// "FPN" and the like; "" for 0. A mode of more than 21 phases ends with "..".
+/// The letters of the mode, e.g. "FPN"; "" for 0. A mode of more than 21 phases is cut and ends with "..".
 std::string to_string(ModeCode code);
 
-/// Appends a phase to a code of `length` phases.
-ModeCode with_phase(ModeCode code, PhaseKind kind, int length);
+/// Appends a phase to the code of a mode that has `length` phases so far.
+ModeCode append_phase(ModeCode code, PhaseKind kind, int length);
 
-/// What is asked of very many points.
+/// The result for one point of many.
 struct Efficiency {
     double velocity_efficiency;  ///< eta, as in Motion; error below 1e-9
     ModeCode mode;
@@ -25,11 +25,11 @@ struct Efficiency {
     Outcome outcome;
 };
 
-/// Solves many plastic point masses (see solve()) in a row, fast: it keeps what neighbouring points share,
-/// the flight of the last throw number and the last periodic motion as first guess. Guesses change the cost
-/// and never the answer beyond the stated error: every root is still bracketed.
+/// Solves many plastic point masses (see solve()) one after another, fast. It reuses what neighbouring points
+/// share: the flight of the last throw number, and the last periodic motion as a first guess. The guesses
+/// change the cost but not the result beyond the stated error, because every root is still bracketed.
 ///
-/// One solver serves one thread. Cheapest when the throw number changes slowest.
+/// Use one solver per thread. It is fastest when the throw number is the outermost loop.
 class EfficiencySolver {
   public:
     EfficiencySolver();

@@ -12,7 +12,8 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double tan_beta = 1e-12;  // stands for zero: the slides change by this much
+constexpr double tan_beta =
+    1e-12;  // used instead of zero: the slides change by a relative amount of this size
 
 PointMass point(ShakeTest const& test, double friction) {
     // Gamma = K sin(beta) / cos(alpha)
@@ -31,11 +32,11 @@ double displacement_at(ShakeTest const& test, double friction) {
     return shake(test, friction).max_relative_displacement;
 }
 
-/// mu for a displacement; the ends of the possible range for what lies beyond.
+/// mu for a displacement, limited to the ends of the possible range.
 double friction_at(ShakeTest const& test, double displacement) {
     double const slope = std::abs(test.tan_inclination);
     double const lowest = slope * (1 + 1e-6) + 1e-7;
-    // With mu above K / cos(alpha) + |tan(alpha)| nothing slips.
+    // With mu above K / cos(alpha) + |tan(alpha)| there is no slip.
     double const highest = test.machine_number * std::hypot(1, test.tan_inclination) + slope;
     auto const miss = [&](double mu) { return displacement_at(test, mu) - displacement; };
     if (lowest >= highest || displacement <= 0) return highest;
@@ -53,7 +54,8 @@ double friction_at(ShakeTest const& test, double displacement) {
 ShakeMotion shake(ShakeTest const& test, double friction) {
     check(test);
     Motion const motion = solve(point(test, friction));
-    if (!motion.converged) throw std::invalid_argument("the shake test needs a friction above |tan(alpha)|");
+    if (!motion.converged)
+        throw std::invalid_argument("the shake test needs a friction coefficient larger than |tan(alpha)|");
     double largest = 0;
     for (Phase const& phase : motion.phases)
         largest = std::max(largest, std::abs(phase.relative_displacement));

@@ -3,25 +3,26 @@
 #include <string>
 #include <vector>
 
-// Friction from a horizontal shake test (Sloot & Kruyt 1996, Section 6 and Fig. 8): a box of grains slides on
-// a plate that is shaken horizontally, beta = 0; the largest displacement of the box against the plate tells
-// mu.
+// The friction coefficient from a horizontal shake test (Sloot & Kruyt 1996, Section 6 and Fig. 8): a box of
+// grains slides on a plate that is shaken horizontally (beta = 0), and mu follows from the largest
+// displacement of the box relative to the plate.
 namespace vibrotrough::theory {
 
-/// A shake test: beta = 0, so the throw number is zero and only K acts.
+/// A shake test. As beta = 0, the throw number is zero and the machine number K describes the drive.
 struct ShakeTest {
     double machine_number;       ///< K = omega^2 r / g, in [1e-3, 1e4]
-    double tan_inclination = 0;  ///< of the plate along the shaking
+    double tan_inclination = 0;  ///< tan(alpha) of the plate in the direction of shaking
 };
 
 struct ShakeMotion {
-    double max_relative_displacement;  ///< largest way of one slide against the plate, in amplitudes r; in
-                                       ///< [0, 2)
+    double max_relative_displacement;  ///< largest displacement relative to the plate in one slide, in
+                                       ///< amplitudes r; in [0, 2)
     std::string mode;
 };
 
-/// The forward curve of Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver elsewhere). mu > |tan(alpha)|.
-/// Falls with mu from 2 (mu = 0: the box stands still in space) to 0 at mu = K.
+/// The displacement as a function of friction, as in Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver
+/// elsewhere), for mu > |tan(alpha)|. It decreases with mu from 2 (at mu = 0 the box does not move in space)
+/// to 0 at mu = K.
 ShakeMotion shake(ShakeTest const& test, double friction);
 
 /// The mass rests within the cycle, so that static friction acts on the result: the mode is not PN.
@@ -38,16 +39,16 @@ std::vector<ShakePoint> shake_curve(ShakeTest const& test, double from, double t
 
 struct FrictionEstimate {
     double friction;
-    double low, high;  ///< for the displacement plus and minus its uncertainty
-    std::string
-        mode;  ///< at `friction`: outside PN the mass rests between slides and static friction matters
+    double low, high;  ///< for the displacement plus and minus its uncertainty, respectively
+    std::string mode;  ///< at `friction`; in modes other than PN the mass rests between slides and static
+                       ///< friction matters
 };
 
-/// mu from the measured displacement X with its uncertainty, by a bracketed root of the forward curve, which
-/// is monotone.
+/// The friction coefficient from the measured displacement X and its uncertainty, as a bracketed root of
+/// shake(), which is monotone in mu.
 /// @param displacement  X in amplitudes, in (0, 2)
-/// @param uncertainty   of X, >= 0; the interval of mu is where X - uncertainty and X + uncertainty are
-/// @throws std::invalid_argument when no mu gives this displacement
+/// @param uncertainty   of X, >= 0; the interval of mu is that of X - uncertainty to X + uncertainty
+/// @throws std::invalid_argument when no friction coefficient gives this displacement
 FrictionEstimate friction_from_shake(ShakeTest const& test, double displacement, double uncertainty);
 
 }  // namespace vibrotrough::theory

@@ -10,7 +10,7 @@
 
 namespace vibrotrough::theory {
 
-/// What describes a motion, one number each: the axes of maps and the columns of batches.
+/// The inputs that describe a motion, one number each. They are the axes of maps and the columns of batches.
 enum class Input : std::size_t {
     throw_number,
     machine_number,
@@ -31,26 +31,26 @@ enum class Input : std::size_t {
 };
 inline constexpr std::size_t input_count = 16;
 
-/// The name in text: that of the enumerator.
+/// The name of an input in text, equal to the enumerator.
 std::string_view name_of(Input input);
 std::optional<Input> input_named(std::string_view name);
 
-/// The numbers given for a motion; those that are not given have their default.
+/// The inputs given for a motion; inputs that are not given have their default values.
 ///
-/// Exactly one of throw_number and machine_number, one of the two vibration angles, at most one of the two
-/// inclinations, and friction must be given. A vibration angle of zero, which only a machine number allows,
-/// is taken as tan(beta) = 1e-12: eta is known to that.
+/// Required are: exactly one of throw_number and machine_number, exactly one of the two vibration angles, at
+/// most one of the two inclinations, and friction. A vibration angle of zero is possible only with a machine
+/// number; it is replaced by tan(beta) = 1e-12, which limits the accuracy of eta to about that value.
 class Inputs {
   public:
     void set(Input input, double value) { value_[static_cast<std::size_t>(input)] = value; }
     void clear(Input input) { value_[static_cast<std::size_t>(input)].reset(); }
     std::optional<double> get(Input input) const { return value_[static_cast<std::size_t>(input)]; }
 
-    /// What is missing or doubly given, in plain words; nothing when the set is complete.
+    /// A sentence that says what is missing or given twice; std::nullopt when the set is complete.
     std::optional<std::string> incomplete() const;
-    /// Only Sloot & Kruyt's plastic point mass is described: the fast solver may be used.
+    /// Whether the inputs describe Sloot & Kruyt's plastic point mass, so that the fast solver can be used.
     bool plastic() const;
-    /// @throws std::invalid_argument when the set is not complete
+    /// @throws std::invalid_argument when the set is incomplete
     PointMass point() const;
     Conveyor conveyor() const;
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Eq. 10 without an initial speed, over a slide from d to e.
+/// Eq. 10 for a slide from omega t = d to e that starts from rest.
 double slide_displacement(double factor, double sine, double d, double e) {
     double const h = e - d;
     return factor * (std::sin(d) - std::sin(e) + std::cos(d) * h - h * h * sine / 2);
@@ -28,14 +28,15 @@ double slide_displacement(double factor, double sine, double d, double e) {
 double throw_number_of_flight(double n) {
     detail::require_range(n >= 0 && n <= 1000, "flight_number", n, "[0, 1000]");
     double const d = 2 * pi * n;
-    if (d < 1e-3) return std::hypot(d / 4, 1);  // d/4 (1 + O(d^2)): its square is below rounding of 1
+    if (d < 1e-3)
+        return std::hypot(d / 4, 1);  // d/4 (1 + O(d^2)): its square is below the rounding error of 1
     return std::hypot((std::cos(d) + d * d / 2 - 1) / (d - std::sin(d)), 1);
 }
 
 Optimum best_throw_number(double tan_vibration_angle, double tan_inclination, double friction) {
     if (std::abs(tan_inclination) >= friction) {
         throw std::invalid_argument(
-            "|tan_inclination| >= friction: the mass runs away, no throw number is best");
+            "|tan_inclination| >= friction: the mass runs away, so there is no best throw number");
     }
     EfficiencySolver solver;
     auto const loss = [&](double gamma) {
@@ -47,14 +48,14 @@ Optimum best_throw_number(double tan_vibration_angle, double tan_inclination, do
         double const gamma = lowest + i * step, value = loss(gamma);
         if (value < least) best = gamma, least = value;
     }
-    // A kink at the optimum is narrower than a parabola: Brent falls back on golden sections there.
+    // At a kink the maximum is narrower than a parabola: Brent's method then falls back on golden sections.
     auto const found = boost::math::tools::brent_find_minima(loss, std::max(best - step, lowest),
                                                              std::min(best + step, highest), 40);
     return -found.second > -least ? Optimum{found.first, -found.second} : Optimum{best, -least};
 }
 
 double best_throw_number_small_angle() {
-    // f(d) = tan d - D / (D^2/2 - 1) on (0, pi/2): from below zero to above.
+    // f(d) = tan d - D / (D^2/2 - 1) on (0, pi/2) changes from negative to positive.
     auto const f = [](double d) {
         double const flight = 2 * pi - d;
         return std::sin(d) * (flight * flight / 2 - 1) - std::cos(d) * flight;

@@ -16,17 +16,18 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr int bisections = 30;         // of an edge of the grid: 1e-9 of it
-constexpr int bisections_beyond = 12;  // where a point costs a thousand times more: 2e-4 of it
+constexpr int bisections = 30;          // of an edge of the grid: to 1e-9 of its length
+constexpr int bisections_general = 12;  // for models that cost a thousand times more: to 2e-4 of it
 
 ModeCode mode_code(Motion const& motion) {
     ModeCode code = 0;
     int length = 0;
-    for (Phase const& phase : motion.phases) code = with_phase(code, phase.kind, length++);
+    for (Phase const& phase : motion.phases) code = append_phase(code, phase.kind, length++);
     return code;
 }
 
-/// A chain of rebounds is one flight in a map: its number of rebounds changes from point to point.
+/// A chain of rebounds counts as one flight in a map, because the number of rebounds changes from point to
+/// point.
 ModeCode with_chains_joined(ModeCode code) {
     ModeCode joined = 0, last = 0;
     int length = 0;
@@ -39,7 +40,7 @@ ModeCode with_chains_joined(ModeCode code) {
     return joined;
 }
 
-/// A map under construction: its points and how to solve one.
+/// A map under construction: its points, and how to solve one of them.
 class Grid {
   public:
     Grid(Inputs fixed, Map& map) : fixed_(std::move(fixed)), map_(map) {}
@@ -73,7 +74,7 @@ class Grid {
     Map& map_;
 };
 
-/// Where the mode changes on the edge between two nodes.
+/// A point on the edge between two nodes where the mode changes.
 std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, EfficiencySolver& solver) const {
     ModeCode const a = at(i0, j0).mode, b = at(i1, j1).mode;
     if (a == b) return std::nullopt;
@@ -83,7 +84,7 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Eff
     ModeCode beyond = b;
     bool const plastic =
         fixed_.plastic() && map_.x.input < Input::static_friction && map_.y.input < Input::static_friction;
-    for (int n = 0; n < (plastic ? bisections : bisections_beyond); ++n) {
+    for (int n = 0; n < (plastic ? bisections : bisections_general); ++n) {
         double const middle = (lo + hi) / 2;
         ModeCode const mode = solve(x0 + middle * dx, y0 + middle * dy, solver).mode;
         if (mode == a) {
@@ -100,7 +101,8 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Eff
 void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const {
     for (int i = 0; i + 1 < map_.x.count; ++i) {
         ModeCode const corner = at(i, j).mode;
-        bool periodic = true;  // modes of long periods or of none change everywhere: no lines there
+        bool periodic =
+            true;  // modes with long periods or none change everywhere: do not draw boundaries there
         for (MapPoint const* p : {&at(i, j), &at(i + 1, j), &at(i, j + 1), &at(i + 1, j + 1)}) {
             periodic = periodic && p->period_cycles >= 1 && p->period_cycles <= 2;
         }
@@ -119,7 +121,7 @@ void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<Bounda
                 {points[0].x, points[0].y, points[1].x, points[1].y, points[0].mode_a, points[0].mode_b});
             continue;
         }
-        double x = 0, y = 0;  // several modes meet in this cell: join the crossings at their middle
+        double x = 0, y = 0;  // several modes meet in this cell: connect the crossings to their mean point
         for (Crossing const& p : points) {
             x += p.x / static_cast<double>(points.size());
             y += p.y / static_cast<double>(points.size());
@@ -149,19 +151,22 @@ MapPoint solve_inputs(Inputs const& inputs, EfficiencySolver& solver) {
 }
 
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options) {
-    if (x.input == y.input) throw std::invalid_argument("both axes are " + std::string(name_of(x.input)));
+    if (x.input == y.input)
+        throw std::invalid_argument("both axes of the map are " + std::string(name_of(x.input)));
     for (MapAxis const* axis : {&x, &y}) {
         bool const good =
             axis->count >= 1 && axis->count <= 20000 && std::isfinite(axis->from) && std::isfinite(axis->to);
-        if (!good) throw std::invalid_argument("an axis needs 1 to 20000 values between finite ends");
+        if (!good)
+            throw std::invalid_argument("a map axis needs 1 to 20000 values between two finite numbers");
         if (fixed.get(axis->input)) {
-            throw std::invalid_argument(std::string(name_of(axis->input)) + " is both an axis and fixed");
+            throw std::invalid_argument(std::string(name_of(axis->input)) +
+                                        " is given both as an axis and as a fixed value");
         }
     }
     Map map{x, y, {}, {}, 0};
     map.points.resize(static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count));
     Grid const grid(fixed, map);
-    // The solver is fastest when the throw number, and with it the flight, changes slowest.
+    // The solver is fastest when the throw number, which determines the flight, is the outermost loop.
     bool const along_y = x.input == Input::throw_number;
     tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();

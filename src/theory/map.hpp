@@ -8,7 +8,7 @@
 
 namespace vibrotrough::theory {
 
-/// One axis of a map: `count` values of an input at equal steps from `from` to `to`.
+/// One axis of a map: `count` equally spaced values of an input between `from` and `to`, both included.
 struct MapAxis {
     Input input;
     double from, to;
@@ -18,14 +18,14 @@ struct MapAxis {
 
 struct MapPoint {
     double velocity_efficiency;
-    double half_width;  ///< 0 when periodic
+    double half_width;  ///< of the confidence interval of eta; 0 when periodic
     ModeCode mode;
     int period_cycles;
     Outcome outcome;
 };
 
-/// A piece of the line between two modes, within one cell of the map; its ends are roots, known to 1e-9 of a
-/// cell.
+/// A segment of the boundary between two modes within one cell of the map; its end points are roots, known to
+/// 1e-9 of a cell.
 struct BoundaryPiece {
     double x0, y0, x1, y1;
     ModeCode mode_a, mode_b;
@@ -34,24 +34,26 @@ struct BoundaryPiece {
 struct Map {
     MapAxis x, y;
     std::vector<MapPoint> points;           ///< points[j * x.count + i]
-    std::vector<BoundaryPiece> boundaries;  ///< where modes meet; empty unless asked for
-    double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, boundaries apart
+    std::vector<BoundaryPiece> boundaries;  ///< boundaries between modes; empty unless requested
+    double cpu_seconds_per_solution;  ///< CPU time of all threads divided by the number of points, without
+                                      ///< the boundaries
 };
 
 struct MapOptions {
     int jobs = 0;            ///< threads; 0: all cores
-    bool boundaries = true;  ///< locate the lines between modes
+    bool boundaries = true;  ///< whether to locate the boundaries between modes
 };
 
-/// Velocity efficiency and mode over a grid of two inputs, the others fixed (Figs 2-5 of the paper).
+/// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).
 ///
-/// The plastic point mass goes through EfficiencySolver, anything else through solve(Conveyor), which costs a
-/// hundred to a thousand times more. The line between two modes is located by bisection along every edge of
-/// the grid whose ends differ in mode, to 1e-9 of the edge (2e-4 beyond the plastic point mass), where the
-/// period is one or two cycles. A chain of rebounds counts as one flight in a map.
+/// The plastic point mass is solved by EfficiencySolver and everything else by solve(Conveyor), which is a
+/// hundred to a thousand times slower. The boundary between two modes is located by bisection along every
+/// edge of the grid whose end points differ in mode, to 1e-9 of the edge (2e-4 for models other than the
+/// plastic point mass), if the period is one or two cycles. A chain of rebounds counts as one flight in a
+/// map.
 ///
-/// @throws std::invalid_argument when the inputs are not complete, an axis names what is given twice, or a
-/// value is out of its range; PhaseError when a point cannot be solved
+/// @throws std::invalid_argument when the inputs are incomplete, an axis is also given as a fixed input, or a
+/// value is out of range; PhaseError when a point cannot be solved
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options);
 
 /// How many different modes the points of a map have.

@@ -19,7 +19,7 @@ using detail::Law;
 using detail::NormalMotion;
 using detail::two_pi;
 
-constexpr double shortest_phase = 1e-12;  // rad; shorter ones are rounding, not motion
+constexpr double shortest_phase = 1e-12;  // rad; shorter phases are rounding errors, not motion
 
 Motion resting_motion() {
     return {.velocity_efficiency = 0,
@@ -69,7 +69,7 @@ void describe(Motion& motion, double length) {
     motion.velocity_efficiency = displacement / length;
 }
 
-/// No period was found: the mean over the second half of what was followed.
+/// The result when no period was found: the mean over the second half of the flights followed.
 Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
     double const middle = (normal.start.t + normal.end.t) / 2;
     double displacement = 0, time = 0;
@@ -89,8 +89,8 @@ Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
             .outcome = Outcome::unsettled};
 }
 
-/// Without flight: moves the start of the period from within a slide to where the positive slide starts, or
-/// the negative one where there is none.
+/// Without a flight: moves the start of the period from within a slide to the start of the positive slide, or
+/// of the negative slide if there is no positive one.
 void start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
     for (auto const first : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
         for (Phase const& phase : motion.phases) {
@@ -148,7 +148,7 @@ std::string to_string(PhaseKind kind) {
         case PhaseKind::negative_slide_after_landing:
             return "N'";
     }
-    throw std::invalid_argument("no such phase");
+    throw std::invalid_argument("this is not a phase");
 }
 
 std::string to_string(Outcome outcome) {
@@ -156,13 +156,13 @@ std::string to_string(Outcome outcome) {
         case Outcome::periodic:
             return "the motion is periodic";
         case Outcome::runs_away:
-            return "the mass runs away downhill: |tan(alpha)| is larger than mu, no steady speed exists";
+            return "the mass runs away downhill: |tan(alpha)| is larger than mu, so there is no steady speed";
         case Outcome::indifferent:
-            return "without friction on a level trough nothing drives the mass: it keeps the speed it has";
+            return "without friction on a level trough no force drives the mass: it keeps its initial speed";
         case Outcome::unsettled:
-            return "no period was found: the efficiency is a mean over the cycles that were followed";
+            return "no period was found: the efficiency is a mean over the simulated cycles";
     }
-    throw std::invalid_argument("no such outcome");
+    throw std::invalid_argument("this is not an outcome");
 }
 
 double machine_number(PointMass const& input) {
@@ -175,7 +175,7 @@ Motion solve(PointMass const& input) {
     try {
         return solve_checked(input);
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + detail::described(input) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
-/// A piece with its velocities.
+/// A piece of a motion with its velocities as functions of time.
 class PieceMotion {
   public:
     PieceMotion(ConveyorModel const& model, Piece const& piece)
@@ -60,7 +60,8 @@ class PieceMotion {
     DrivenVelocity x_, y_;
 };
 
-/// The integral over a piece, by Gauss's rule on stretches of at most a quarter of the fastest harmonic.
+/// The integral over a piece by Gauss quadrature on intervals of at most a quarter period of the highest
+/// harmonic.
 double integral(Piece const& piece, double stretch, std::function<double(double)> const& f) {
     int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / stretch)));
     double sum = 0;
@@ -74,7 +75,7 @@ double integral(Piece const& piece, double stretch, std::function<double(double)
 
 void require_pieces(ConveyorMotion const& motion) {
     if (motion.pieces.empty()) {
-        throw std::invalid_argument("this motion has no cycle to look at: " +
+        throw std::invalid_argument("this motion does not have a cycle that can be evaluated: " +
                                     to_string(motion.motion.outcome));
     }
 }
@@ -90,7 +91,7 @@ double shortest_stretch(Conveyor const& conveyor) {
     return two_pi / 4 / order;
 }
 
-/// cos^2 and sin^2 of the vibration angle: energies add up with them.
+/// cos^2 and sin^2 of the vibration angle: the weights of the two directions in the energy.
 struct Weights {
     double along, normal;
 };

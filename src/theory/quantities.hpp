@@ -6,24 +6,26 @@
 
 namespace vibrotrough::theory {
 
-/// What a motion is at one time. Lengths along in r cos(beta), normal in r sin(beta), time in 1/omega.
+/// The state of a motion at one time. Lengths are in r cos(beta) along the trough and in r sin(beta) normal
+/// to it, time is in 1/omega.
 struct TraceSample {
     double t;  ///< rad
     PhaseKind kind;
     double trough_vx, trough_vy, mass_vx, mass_vy;
     double trough_ax, trough_ay;
-    double displacement;  ///< of the mass against the trough since the start of the trace
+    double displacement;  ///< of the mass relative to the trough since the start of the trace
     double gap;           ///< 0 in contact
-    double normal_force;  ///< of the trough on the mass, per mass, in omega^2 r sin(beta); without impacts
-    double tangential_force;  ///< likewise along, in omega^2 r cos(beta)
+    double normal_force;  ///< of the trough on the mass, per unit mass, in omega^2 r sin(beta); impacts not
+                          ///< included
+    double tangential_force;  ///< the same along the trough, in omega^2 r cos(beta)
 };
 
-/// Samples of the pieces of a motion at `count` >= 2 equal steps over them, both ends included.
+/// Samples a motion at `count` >= 2 equally spaced times over its pieces, both ends included.
 /// @throws std::invalid_argument when the motion has no pieces
 std::vector<TraceSample> trace(ConveyorMotion const& motion, int count);
 
-/// The motion at any time t (rad, finite), repeated before and after the pieces; the displacement grows from
-/// period to period.
+/// The motion at any time t (rad, finite). The pieces are repeated before and after their time span; the
+/// displacement grows from period to period.
 /// @throws std::invalid_argument when the motion has no pieces
 TraceSample sample(ConveyorMotion const& motion, double t);
 
@@ -39,41 +41,42 @@ std::vector<TraceColumn> const& trace_columns();
 
 /// Energies per unit mass and cycle in (omega r)^2; `beta` weighs the two directions.
 struct EnergyBalance {
-    double trough_work;    ///< by normal force, friction and impacts on the mass
-    double friction_loss;  ///< in slides
-    double impact_loss;    ///< of the relative motion, normal and along
-    double drag_loss;      ///< to the air
-    double lift;           ///< into height; negative when conveyed downhill
-    /// Zero for a periodic motion: its error is that of the quadrature, 1e-12.
-    double defect() const { return trough_work - friction_loss - impact_loss - drag_loss - lift; }
+    double trough_work;    ///< work of the trough on the mass by normal force, friction and impacts
+    double friction_loss;  ///< during slides
+    double impact_loss;    ///< kinetic energy of the relative motion lost in impacts, normal and tangential
+    double drag_loss;      ///< by air drag
+    double lift;           ///< gain of potential energy; negative when conveyed downhill
+    /// The energy that is not accounted for: zero for a periodic motion up to the quadrature error of 1e-12.
+    double residual() const { return trough_work - friction_loss - impact_loss - drag_loss - lift; }
 };
 
 EnergyBalance energy_balance(ConveyorMotion const& motion);
 
-/// The machine behind the dimensionless numbers.
+/// The machine to which the dimensionless numbers belong.
 struct Machine {
     double amplitude;         ///< r, m, in the direction of vibration
     double gravity = 9.81;    ///< m/s^2
-    double bulk_density = 0;  ///< kg/m^3; 0: no layer
+    double bulk_density = 0;  ///< kg/m^3; 0: mass flow is not computed
     double layer_height = 0;  ///< m
     double layer_width = 0;   ///< m
 };
 
-/// What an engineer asks, in SI units.
+/// The quantities that an engineer needs, in SI units.
 struct EngineerQuantities {
-    double frequency;            ///< Hz
-    double angular_frequency;    ///< rad/s
-    double conveying_speed;      ///< m/s, eta omega r cos(beta)
-    double mass_flow;            ///< kg/s, bulk density * height * width * speed; 0 without a layer
-    double impact_speed;         ///< m/s, largest speed of the mass against the trough at an impact: damage
-    double normal_impact_speed;  ///< m/s, its normal part
+    double frequency;          ///< Hz
+    double angular_frequency;  ///< rad/s
+    double conveying_speed;    ///< m/s, eta omega r cos(beta)
+    double mass_flow;          ///< kg/s, bulk density * height * width * speed; 0 without a layer
+    /// m/s, largest speed of the mass relative to the trough at an impact (grain damage).
+    double impact_speed;
+    double normal_impact_speed;  ///< m/s, largest normal component of that speed
     double impacts_per_cycle;
-    double friction_energy;                                 ///< J/kg per cycle: wear
+    double friction_energy;                                 ///< J/kg per cycle (wear)
     double impact_energy;                                   ///< J/kg per cycle
     double trough_work;                                     ///< J/kg per cycle
     double mean_power;                                      ///< W/kg
     double largest_normal_force, largest_tangential_force;  ///< N/kg, between impacts
-    double largest_impulse;                                 ///< N s/kg, normal, of one impact
+    double largest_impulse;                                 ///< N s/kg, normal impulse of one impact
 };
 
 /// omega from Gamma and r: omega^2 = Gamma g cos(alpha) / (r sin(beta)).

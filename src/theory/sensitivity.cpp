@@ -15,13 +15,13 @@ double efficiency(Inputs const& inputs) {
     EfficiencySolver solver;
     MapPoint const point = solve_inputs(inputs, solver);
     if (point.outcome != Outcome::periodic) {
-        throw std::invalid_argument("no sensitivity: " + to_string(point.outcome));
+        throw std::invalid_argument("sensitivities cannot be computed: " + to_string(point.outcome));
     }
     return point.velocity_efficiency;
 }
 
-/// An input that may not be negative is changed to one side at zero.
-bool at_its_end(Input input, double value) {
+/// Whether an input that cannot be negative is zero, so that it can only be increased.
+bool at_lower_limit(Input input, double value) {
     return value == 0 && input != Input::inclination_deg && input != Input::tan_inclination &&
            input != Input::along_phase_deg;
 }
@@ -36,7 +36,7 @@ std::vector<Sensitivity> sensitivities(Inputs const& inputs) {
         auto const value = inputs.get(input);
         if (!value) continue;
         double const step = *value == 0 ? relative_step : std::abs(*value) * relative_step;
-        double const low = at_its_end(input, *value) ? *value : *value - step, high = *value + step;
+        double const low = at_lower_limit(input, *value) ? *value : *value - step, high = *value + step;
         Inputs changed = inputs;
         changed.set(input, low);
         double const below = efficiency(changed);

@@ -6,17 +6,18 @@
 
 namespace vibrotrough::theory {
 
-/// How eta answers to one input.
+/// How eta changes with one input.
 struct Sensitivity {
     Input input;
-    double value;       ///< of the input
-    double derivative;  ///< d eta / d input; the mean of both sides at a mode change
+    double value;       ///< of the input, in its unit
+    double derivative;  ///< d eta / d input; at a change of mode the mean of both sides
     double elasticity;  ///< (input / eta) d eta / d input; 0 when eta is 0
 };
 
-/// Derivatives of eta by every input that is given, by central differences of relative step 1e-5 (1e-5 where
-/// the input is zero); their error is about 1e-9 plus 1e-10 of the third derivative.
-/// @throws std::invalid_argument when the inputs are not complete or the motion does not settle
+/// Derivatives of eta with respect to every given input, by central differences with a relative step of 1e-5
+/// (an absolute step of 1e-5 if the input is zero). Their error is about 1e-9 plus 1e-10 times the third
+/// derivative.
+/// @throws std::invalid_argument when the inputs are incomplete or the motion is not periodic
 std::vector<Sensitivity> sensitivities(Inputs const& inputs);
 
 }  // namespace vibrotrough::theory

@@ -15,7 +15,8 @@
 namespace vibrotrough::view {
 namespace {
 
-/// Reads the file into `text`, which keeps its memory: core's read_file would make a new one for every frame.
+/// Reads the file into `text` and reuses its memory, which read_file of core would allocate anew for every
+/// frame.
 void read_into(std::filesystem::path const& path, std::string& text) {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file)
@@ -32,7 +33,7 @@ void read_into(std::filesystem::path const& path, std::string& text) {
     text.resize(used);
 }
 
-/// What a column of the dump is for.
+/// The meaning of a column of the dump.
 enum class Column { id, x, y, z, vx, vy, vz, radius, other };
 constexpr std::array<std::string_view, 8> column_names{"id", "x", "y", "z", "vx", "vy", "vz", "radius"};
 
@@ -50,7 +51,8 @@ std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
     }
     for (std::size_t which = 0; which < column_names.size(); ++which) {
         if (seen[which] != 1)
-            cursor.refuse(fmt::format("follows columns without exactly one '{}'", column_names[which]));
+            cursor.refuse(fmt::format("comes after a list of columns that does not contain exactly one '{}'",
+                                      column_names[which]));
     }
     return found;
 }
@@ -107,9 +109,10 @@ void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
     TextCursor const before = cursor;
     std::string_view constexpr item = "ITEM: ATOMS ";
     std::string_view const header = cursor.line();
-    if (!header.starts_with(item)) before.refuse("should be 'ITEM: ATOMS' and the names of columns");
+    if (!header.starts_with(item)) before.refuse("should be 'ITEM: ATOMS' and the names of the columns");
     std::vector<Column> const order = columns(header.substr(item.size()), before);
-    // A value takes at least two characters: do not reserve memory for grains that cannot be there.
+    // A value takes at least two characters: do not allocate memory for more grains than the file can
+    // contain.
     if (grains > text_size / (2 * order.size())) throw TextEnds{};
 
     frame.id.resize(grains);

@@ -8,13 +8,14 @@
 
 namespace vibrotrough::view {
 
-/// All grains at one step, in the order of the dump. The engine writes six digits, so floats lose nothing.
+/// All grains at one step, in the order of the dump. The engine writes six digits, for which single precision
+/// is sufficient.
 struct GrainFrame {
     long step = 0;
-    std::array<double, 6> box{};  ///< m, low and high of x, y and z
+    std::array<double, 6> box{};  ///< m, lower and upper bounds of x, y and z
     std::vector<int> id;
     std::vector<float> position;  ///< m, x y z of each grain
-    std::vector<float> velocity;  ///< m/s, x y z of each grain, in the frame of the ground
+    std::vector<float> velocity;  ///< m/s, x y z of each grain, relative to the ground
     std::vector<float> radius;    ///< m
 
     std::size_t grains() const { return id.size(); }
@@ -22,15 +23,15 @@ struct GrainFrame {
 
 enum class DumpState {
     complete,
-    unfinished,  ///< the file ends early: the engine is writing it or was stopped
+    unfinished,  ///< the file is incomplete: the engine is still writing it or was stopped
 };
 
-/// Reads LIGGGHTS dumps (`dump custom` with at least id x y z vx vy vz radius, in any order), keeping its
-/// memory from one to the next.
+/// Reads LIGGGHTS dumps (`dump custom` with at least id x y z vx vy vz radius, in any order) and reuses its
+/// memory from one file to the next.
 class DumpReader {
   public:
-    /// @throws InputError naming file and line when the text is no dump, a column is missing or a value is no
-    /// number
+    /// @throws InputError naming file and line when the text is not a dump, a column is missing or a value is
+    /// not a number
     /// @throws MissingError when the file cannot be read
     DumpState read(std::filesystem::path const& path, GrainFrame& frame);
 

@@ -1,4 +1,4 @@
-# Writes a header that holds the scene's template and its starter as raw string literals.
+# Writes a header with the template of the scene and its start script as raw string literals.
 file(READ ${SCENE} scene)
 file(READ ${STARTER} starter)
 file(WRITE ${OUTPUT} "#pragma once

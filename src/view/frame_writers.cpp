@@ -26,7 +26,7 @@ void set_number(vtkPolyData& data, char const* name, double number) {
     data.GetFieldData()->AddArray(value);
 }
 
-/// A VTK array that shows the values without owning them.
+/// A VTK array that refers to the values without owning them.
 template <typename Array, typename Value>
 vtkSmartPointer<Array> view_of(std::vector<Value>& values, char const* name, int components) {
     auto array = vtkSmartPointer<Array>::New();
@@ -36,7 +36,7 @@ vtkSmartPointer<Array> view_of(std::vector<Value>& values, char const* name, int
     return array;
 }
 
-/// One vertex cell per grain: points without cells are not shown by ParaView.
+/// One vertex cell per grain, because ParaView does not show points without cells.
 void set_vertices(vtkPolyData& data, std::size_t grains) {
     if (data.GetNumberOfVerts() == static_cast<vtkIdType>(grains)) return;
     vtkNew<vtkTypeInt32Array> offsets;
@@ -51,7 +51,8 @@ void set_vertices(vtkPolyData& data, std::size_t grains) {
 }  // namespace
 
 void set_time(vtkPolyData& data, FrameSource const& source, double time) {
-    // Frames lie on whole steps: what rounding leaves of a cycle belongs to the next one.
+    // Frames are at whole steps: if rounding puts a frame just before the end of a cycle, it belongs to the
+    // next cycle.
     double const turns = source.angular_frequency * time / (2.0 * std::numbers::pi);
     double const cycle = std::floor(turns + 1e-9);
     set_number(data, "TimeValue", time);

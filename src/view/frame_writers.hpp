@@ -9,19 +9,19 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-/// The objects of a frame as .vtp files.
+/// Writers for the objects of a frame as .vtp files.
 namespace vibrotrough::view {
 
 /// Adds TimeValue (s), cycle (t / T, whole cycles) and vibration_phase (deg, 0 to 360) as field data.
 void set_time(vtkPolyData& data, FrameSource const& source, double time);
 
-/// Writes the grains of one frame after another, keeping its memory.
+/// Writes the grains of one frame after another and reuses its memory.
 class GrainWriter {
   public:
     explicit GrainWriter(FrameSource const& source) : source_(source) {}
     void write(std::filesystem::path const& path, GrainFrame& frame, double time);
 
-    /// Of the frame written last: m/s, x y z of each grain, relative to the trough.
+    /// Velocities of the grains in the last frame written: m/s, x y z of each grain, relative to the trough.
     std::vector<float> const& relative_velocity() const { return relative_; }
 
   private:
@@ -30,13 +30,13 @@ class GrainWriter {
     vtkNew<vtkPolyData> data_;
 };
 
-/// Writes the trough, moved, of one frame after another.
+/// Writes the displaced trough of one frame after another.
 class TroughWriter {
   public:
     explicit TroughWriter(FrameSource const& source);
     void write(std::filesystem::path const& path, TroughPosition const& position, double time);
 
-    /// m, low and high of x, y and z at rest.
+    /// m, lower and upper bounds of x, y and z at rest.
     std::array<double, 6> bounds() const;
 
   private:
@@ -45,8 +45,8 @@ class TroughWriter {
     vtkNew<vtkPolyData> moved_;
 };
 
-/// Writes the layer's profile over height of one frame: a point per slab and a line along them; `surface` is
-/// the height of the trough's surface, m.
+/// Writes the profile over the height of the layer for one frame: a point per slab, joined by a line;
+/// `surface` is the height of the trough's surface, m.
 void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,
                    std::vector<float> const& relative_velocity, double surface, double time);
 

@@ -42,7 +42,7 @@ std::optional<long> step_of(std::string const& name) {
     return failure == std::errc{} && after == stop ? std::optional(step) : std::nullopt;
 }
 
-/// All dumps of the folder by step.
+/// All dumps in the folder, sorted by step.
 std::vector<Dump> find_dumps(fs::path const& folder) {
     std::error_code failure;
     fs::directory_iterator const files(folder, failure);
@@ -60,21 +60,21 @@ std::vector<Dump> find_dumps(fs::path const& folder) {
     return dumps;
 }
 
-/// Where the trough is at every dump. Only the last dump may lack a row, or the last row a dump: the engine
-/// may be writing it.
+/// The position of the trough at every dump. Only the last dump may lack a row, or the last row a dump,
+/// because the engine may still be writing them.
 std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& table) {
     std::vector<TroughPosition> positions = read_trough_motion(table);
     std::size_t const frames = std::min(dumps.size(), positions.size());
     for (std::size_t i = 0; i < frames; ++i) {
         if (dumps[i].step != positions[i].step) {
             throw core::InputError(
-                fmt::format("{} and the dumps beside it do not fit (frame {} is step {} there and {} "
-                            "here); run the case again",
+                fmt::format("{} does not match the dumps in its folder (frame {} is at step {} in the table "
+                            "and at step {} in the dumps); run the case again",
                             table.string(), i + 1, positions[i].step, dumps[i].step));
         }
     }
     if (dumps.size() > frames + 1 || positions.size() > frames + 1) {
-        throw core::InputError(fmt::format("{} has {} rows for {} dumps beside it; run the case again",
+        throw core::InputError(fmt::format("{} has {} rows, but its folder has {} dumps; run the case again",
                                            table.string(), positions.size(), dumps.size()));
     }
     dumps.resize(frames);
@@ -82,22 +82,23 @@ std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& tabl
     return positions;
 }
 
-/// The engine moves the trough step by step, off by some A pi / n for n steps per cycle at most (0.6 % of A
-/// at n = 500). More than this share of the drive's excursion means another drive.
+/// The engine moves the trough step by step with an error of at most about A pi / n for n steps per cycle
+/// (0.6 % of A at n = 500). A deviation larger than this fraction of the drive's excursion means that the
+/// frames belong to another drive.
 constexpr double motion_tolerance = 0.05;
 
 void check_motion(FrameSource const& source, TroughPosition const& position) {
     TroughState const trough = trough_state(source, static_cast<double>(position.step) * source.time_step);
     double const miss = std::hypot(position.x - trough.x, position.z - trough.z);
     if (miss > motion_tolerance * largest_excursion(source.drive)) {
-        throw core::InputError(fmt::format(
-            "{}: at step {} the trough is {:.3g} m from where the drive puts it (the frames belong to "
-            "another drive); run the case again",
-            (source.folder / "frames.csv").string(), position.step, miss));
+        throw core::InputError(
+            fmt::format("{}: at step {} the trough is {:.3g} m away from its position according to the drive "
+                        "(the frames belong to another drive); run the case again",
+                        (source.folder / "frames.csv").string(), position.step, miss));
     }
 }
 
-/// Writes all objects of one frame after another, and their collections.
+/// Writes all objects of one frame after another and their collections.
 class FrameExport {
   public:
     FrameExport(FrameSource const& source, fs::path const& target)
@@ -166,15 +167,14 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
     for (std::size_t i = 0; i < dumps.size(); ++i) {
         if (reader.read(dumps[i].path, frame) == DumpState::unfinished) {
             if (i + 1 == dumps.size()) break;
-            throw core::InputError(
-                fmt::format("{} ends early though later frames are there (the file is damaged); run its "
-                            "case again",
-                            dumps[i].path.string()));
+            throw core::InputError(fmt::format(
+                "{} ends early although there are later frames (the file is damaged); run the case again",
+                dumps[i].path.string()));
         }
         if (frame.step != dumps[i].step) {
-            throw core::InputError(
-                fmt::format("{}:2: holds step {}, which its name contradicts; run its case again",
-                            dumps[i].path.string(), frame.step));
+            throw core::InputError(fmt::format(
+                "{}:2: the frame is at step {}, which contradicts the name of the file; run the case again",
+                dumps[i].path.string(), frame.step));
         }
         frames.write(frame, positions[i]);
         if (auto const now = std::chrono::steady_clock::now(); now - written > std::chrono::seconds(1)) {

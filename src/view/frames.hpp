@@ -10,25 +10,26 @@
 
 namespace vibrotrough::view {
 
-/// The theory's periodic motion on the same drive, with its pieces, and its units of length.
+/// The theory's periodic motion for the same drive, with its pieces and units of length.
 struct TheoryMotion {
     theory::ConveyorMotion motion;
-    double length_x;            ///< m, its unit of length along the trough, r cos(beta)
-    double length_z;            ///< m, its unit normal to it
-    double phase_at_start = 0;  ///< rad, its time (an angle) at the drive's t = 0
+    double length_x;            ///< m, unit of length along the trough, r cos(beta)
+    double length_z;            ///< m, unit of length normal to the trough
+    double phase_at_start = 0;  ///< rad, time of the motion (an angle) at t = 0 of the drive
 };
 
-/// Where one run's frames come from and what they need to be understood.
+/// The frames of one run and the data needed to interpret them.
 struct FrameSource {
     std::filesystem::path folder;  ///< holds frames.<step>.dump and frames.csv (step, trough x, trough z)
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
     double angular_frequency;      ///< omega, rad/s
-    scenario::DriveMotion
-        drive;     ///< X(t) and Z(t); the trough's displacement at t is X(t) - X(0) and Z(t) - Z(0)
+    /// X(t) and Z(t); the displacement of the trough at t is X(t) - X(0) and Z(t) - Z(0).
+    scenario::DriveMotion drive;
     double width;  ///< m, of the layer across the trough
     std::optional<TheoryMotion> point_mass = {};
-    std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
+    std::string caption;  ///< one line shown in the scene, without Greek letters (ParaView cannot show them);
+                          ///< may be empty
 };
 
 struct ExportedFrames {
@@ -36,23 +37,24 @@ struct ExportedFrames {
     std::filesystem::path grains;      ///< grains.pvd
     std::filesystem::path trough;      ///< trough.pvd
     std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the
-                                       ///< layer; without entries when it has no periodic motion
+                                       ///< layer; empty if its motion is not periodic
     std::filesystem::path profile;     ///< profile.pvd: velocity and solid fraction over height
-    std::filesystem::path scene;       ///< view_case.py: `paraview --state=<scene>` opens all of it
+    std::filesystem::path scene;       ///< view_case.py: `paraview --state=<scene>` opens everything
 };
 
-/// Turns the engine's dumps into compressed inline .vtp files, one collection (.pvd) for each object, with
-/// true times (s), and a ParaView scene, all under `target`. The collections are renewed while frames are
-/// written, so an export that is stopped opens with the frames it has. One frame at a time is in memory.
+/// Converts the engine's dumps into compressed inline .vtp files with one collection (.pvd) for each object,
+/// with times in s, and a ParaView scene, all in the folder `target`. The collections are updated while
+/// frames are written, so that an interrupted export can be opened with the frames written so far. Only one
+/// frame at a time is in memory.
 ///
-/// A last frame that the engine had not finished writing is left out; no frame at all makes empty
-/// collections.
+/// A last frame that the engine has not finished writing is left out. Without any frame the collections are
+/// empty.
 ///
-/// @param progressed  is told about once a second; may be empty
-/// @throws InputError naming file and line when a dump or frames.csv is damaged, when a frame in between is
-/// missing, or
-///         when the trough is not where the drive puts it
-/// @throws MissingError when a file cannot be read or the disk refuses
+/// @param progressed  called about once a second with the number of frames written and of all frames; may be
+/// empty
+/// @throws InputError naming file and line when a dump or frames.csv is damaged, when a frame other than the
+/// last is missing, or when the position of the trough does not agree with the drive
+/// @throws MissingError when a file cannot be read or written
 ExportedFrames export_frames(FrameSource const& source, std::filesystem::path const& target,
                              std::function<void(int written, int all)> const& progressed = {});
 

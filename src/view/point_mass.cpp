@@ -40,7 +40,8 @@ void add_number(vtkPolyData& data, char const* name, double value) {
     data.GetFieldData()->AddArray(array);
 }
 
-/// The eight corners of a cube on its floor, each with a face's own copy so that edges stay sharp.
+/// The eight corners of a cube that stands on the floor, with a copy for each face so that edges are drawn
+/// sharp.
 constexpr int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                              {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 

@@ -10,19 +10,19 @@
 
 namespace vibrotrough::view {
 
-/// Where the theory's point mass is at one time, SI, in the frame of the ground.
+/// The state of the theory's point mass at one time, in SI units, relative to the ground.
 struct PointMassState {
     theory::PhaseKind phase;
-    double x;    ///< m, displacement along the trough since t = 0, of mass and trough together
-    double gap;  ///< m, above the trough's surface
+    double x;    ///< m, displacement along the trough since t = 0, including the motion of the trough
+    double gap;  ///< m, height above the trough's surface
     std::array<double, 3> velocity;
-    std::array<double, 3> relative_velocity;  ///< against the trough, m/s
+    std::array<double, 3> relative_velocity;  ///< m/s, relative to the trough
 };
 
 /// "rests", "slides forwards", "slides backwards" or "flies".
 std::string_view in_words(theory::PhaseKind phase);
 
-/// Evaluates the periodic motion at omega t, in step with the trough.
+/// Evaluates the periodic motion at omega t, in phase with the trough.
 class PointMassMotion {
   public:
     PointMassMotion(FrameSource const& source, TheoryMotion const& theory);
@@ -37,10 +37,10 @@ class PointMassMotion {
 /// The point mass drawn as a cube beside the trough, wrapped along it like the grains.
 class PointMassBlock {
   public:
-    /// @param trough_bounds  m, low and high of x, y and z of the trough at rest
+    /// @param trough_bounds  m, lower and upper bounds of x, y and z of the trough at rest
     explicit PointMassBlock(std::array<double, 6> const& trough_bounds);
 
-    /// The cube at one frame; `trough_z` is the trough's displacement from rest, m.
+    /// The cube in one frame; `trough_z` is the displacement of the trough from rest, m.
     vtkSmartPointer<vtkPolyData> at(PointMassState const& state, double trough_z) const;
 
   private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_slabs = 400;
 
-/// Volume of a sphere below height u over its centre: pi (r^2 u - u^3 / 3) + 2/3 pi r^3.
+/// The volume of a sphere below height u above its centre: pi (r^2 u - u^3 / 3) + 2/3 pi r^3.
 double volume_below(double u, double r) {
     double const h = std::clamp(u, -r, r);
     return std::numbers::pi * (r * r * h - h * h * h / 3.0 + 2.0 / 3.0 * r * r * r);

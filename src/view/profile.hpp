@@ -6,19 +6,21 @@
 
 namespace vibrotrough::view {
 
-/// The layer in slabs parallel to the trough, from its surface upwards.
+/// The layer divided into slabs parallel to the trough, from the trough's surface upwards.
 struct Profile {
-    std::vector<double> height;          ///< m, middle of each slab above the trough's surface
-    std::vector<double> solid_fraction;  ///< volume of grains over volume of the slab
-    std::vector<double> velocity;        ///< m/s along x; mean over that volume; NaN in an empty slab
+    std::vector<double> height;  ///< m, middle of each slab above the trough's surface
+    /// Volume of the grains in the slab divided by the volume of the slab.
+    std::vector<double> solid_fraction;
+    std::vector<double> velocity;  ///< m/s along x; volume-weighted mean; NaN in an empty slab
 };
 
-/// Slabs of half a mean diameter; thicker when the layer reaches above 400 of them. A grain counts in each
-/// slab with the volume of its slice, and what is pressed into the trough counts in the lowest.
+/// Computes the profile in slabs of half a mean diameter, or thicker if that would need more than 400 slabs.
+/// A grain contributes to each slab the volume of its part in the slab; the parts below the surface of the
+/// trough are added to the lowest slab.
 /// @param surface   m, height of the trough's surface
 /// @param area      m^2, of the trough under the layer
 /// @param velocity  m/s, x y z of each grain
-/// @returns no slab when there is no grain
+/// @returns a profile without slabs if there are no grains
 Profile profile_of(GrainFrame const& frame, std::vector<float> const& velocity, double surface, double area);
 
 }  // namespace vibrotrough::view

@@ -16,7 +16,7 @@ namespace {
 /// The scene's template is a Python program, so that it can be checked as one: its tags are texts.
 constexpr core::TemplateTags tags{"\"@", "@\""};
 
-/// The text as a Python string literal.
+/// Converts the text to a Python string literal.
 std::string python_literal(std::string_view text) {
     std::string literal = "\"";
     for (char const c : text) {

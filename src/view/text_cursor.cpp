@@ -28,7 +28,7 @@ void TextCursor::end_line() {
 void TextCursor::refuse(std::string_view what) const {
     std::size_t constexpr shown = 40;
     char const* const stop = std::find(at_, at_ + std::min<std::ptrdiff_t>(shown, end_ - at_), '\n');
-    throw core::InputError(fmt::format("{}:{}: '{}' {} (the file is damaged); run its case again",
+    throw core::InputError(fmt::format("{}:{}: '{}' {} (the file is damaged); run the case again",
                                        path_->string(), line_,
                                        std::string_view(at_, static_cast<std::size_t>(stop - at_)), what));
 }

@@ -8,31 +8,31 @@
 
 namespace vibrotrough::view {
 
-/// The text ends before what is looked for is complete: a file that is still being written.
+/// Thrown when the text ends before an item is complete, as in a file that is still being written.
 struct TextEnds {};
 
-/// Walks through the engine's numbers and lines without copying them.
+/// Reads the numbers and lines written by the engine without copying them.
 class TextCursor {
   public:
-    /// `path` stands for the text in errors.
+    /// `path` is named in error messages.
     TextCursor(std::string_view text, std::filesystem::path const& path)
         : at_(text.data()), end_(text.data() + text.size()), path_(&path) {}
 
     bool at_end() const { return at_ == end_; }
 
-    /// The rest of the line, without its end. @throws TextEnds when it has none
+    /// Returns the rest of the line without its end. @throws TextEnds if the line end is missing
     std::string_view line();
 
-    /// Reads a number up to the next space or line end. @throws InputError when it is none or not
-    /// finite
-    /// @throws TextEnds when the text stops within it
+    /// Reads a number up to the next space, comma or line end. @throws InputError if it is not a finite
+    /// number
+    /// @throws TextEnds if the text ends within it
     template <typename Number>
     Number number() {
         skip_spaces();
         Number value{};
         auto const [after, failure] = std::from_chars(at_, end_, value);
         if (after == end_) throw TextEnds{};
-        if (failure != std::errc{} || !ends_a_value(*after)) refuse("is no number");
+        if (failure != std::errc{} || !ends_a_value(*after)) refuse("is not a number");
         if constexpr (!std::is_integral_v<Number>) {
             if (!std::isfinite(value)) refuse("is not finite");
         }
@@ -43,7 +43,7 @@ class TextCursor {
     /// Passes over spaces and a line end. @throws InputError when there is more on the line
     void end_line();
 
-    /// @throws InputError "file:line: 'rest of the line' <what>"
+    /// Reports an error at the current position. @throws InputError "file:line: 'rest of the line' <what>"
     [[noreturn]] void refuse(std::string_view what) const;
 
   private:

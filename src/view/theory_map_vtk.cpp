@@ -60,7 +60,7 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     image->GetFieldData()->AddArray(names);
     vtkNew<vtkXMLImageDataWriter> writer;
     writer->SetInputData(image);
-    writer->SetDataModeToBinary();  // never appended: ParaView 5.11 reads it as empty
+    writer->SetDataModeToBinary();  // not appended: ParaView 5.11 reads appended data as an empty scene
     writer->SetCompressorTypeToZLib();
     writer->WriteToOutputStringOn();
     writer->Write();

@@ -6,13 +6,13 @@
 
 namespace vibrotrough::view {
 
-/// Writes a map of the point-mass theory for ParaView: `path` (.vti) with velocity efficiency, mode and
-/// period at the points of the grid, x and y the two inputs; infinite efficiencies as NaN. Inline binary,
-/// under a temporary name.
-/// @throws MissingError when the disk refuses
+/// Writes a map of the point-mass theory for ParaView to `path` (.vti): velocity efficiency, mode and period
+/// at the points of the grid, with the two inputs as x and y. Infinite efficiencies are written as NaN. The
+/// data are inline binary; the file is written under a temporary name and renamed.
+/// @throws MissingError when the file cannot be written
 void write_theory_image(std::filesystem::path const& path, theory::Map const& map);
 
-/// The lines between the modes as a .vtp beside it.
+/// Writes the boundaries between modes as a .vtp file next to it.
 void write_theory_boundaries(std::filesystem::path const& path, theory::Map const& map);
 
 }  // namespace vibrotrough::view

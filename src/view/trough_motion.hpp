@@ -7,24 +7,25 @@
 
 namespace vibrotrough::view {
 
-/// Where the trough is at one frame.
+/// The position of the trough in one frame, as written by the engine.
 struct TroughPosition {
     long step;
     double x;  ///< m, displacement from rest
     double z;  ///< m, displacement from rest
 };
 
-/// Where the trough is meant to be, and how fast.
+/// The position and velocity of the trough according to the drive.
 struct TroughState {
     double x, z;    ///< m, displacement from t = 0
     double vx, vz;  ///< m/s
 };
 
-/// @param time  s, since the drive's start
+/// @param time  s, since the start of the drive
 TroughState trough_state(FrameSource const& source, double time);
 
-/// Reads frames.csv, steps rising. A last line without its end is left out: the engine may be writing it.
-/// @throws InputError naming file and line; MissingError when there is no such file
+/// Reads frames.csv, whose steps must increase. A last line without a line end is left out, because the
+/// engine may still be writing it. @throws InputError naming file and line; MissingError if the file does not
+/// exist
 std::vector<TroughPosition> read_trough_motion(std::filesystem::path const& path);
 
 }  // namespace vibrotrough::view

@@ -18,7 +18,7 @@
 namespace vibrotrough::view {
 namespace {
 
-/// Keeps what a VTK reader or writer says in its first error, which VTK would print.
+/// Stores the first error message of a VTK reader or writer, which VTK would otherwise print.
 class ErrorWatch {
   public:
     explicit ErrorWatch(vtkAlgorithm& watched) {
@@ -26,7 +26,7 @@ class ErrorWatch {
         command_->SetCallback([](vtkObject*, unsigned long, void* kept, void* text) {
             std::string message = text == nullptr ? "" : static_cast<char const*>(text);
             while (!message.empty() && message.back() == '\n') message.pop_back();
-            auto& first = *static_cast<std::string*>(kept);  // what follows are consequences
+            auto& first = *static_cast<std::string*>(kept);  // later messages are consequences
             if (first.empty()) first = message.substr(message.rfind('\n') + 1);
         });
         watched.AddObserver(vtkCommand::ErrorEvent, command_);
@@ -39,7 +39,7 @@ class ErrorWatch {
     vtkNew<vtkCallbackCommand> command_;
 };
 
-/// A frame can be exported again: it is renamed, but not synced to disk as a result is.
+/// The file is renamed but, unlike a result, not synced to disk, because a frame can be exported again.
 void write_frame(std::filesystem::path const& path, std::string const& content) {
     std::filesystem::path const temporary = path.string() + ".part";
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
@@ -59,15 +59,15 @@ void write_frame(std::filesystem::path const& path, std::string const& content) 
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_stl(std::filesystem::path const& path) {
-    core::read_file(path);  // says why when it cannot be read
+    core::read_file(path);  // its error message says why the file cannot be read
     vtkNew<vtkSTLReader> reader;
     ErrorWatch const errors(*reader);
     reader->SetFileName(path.c_str());
     reader->Update();
     if (!errors.message().empty() || reader->GetOutput()->GetNumberOfCells() == 0) {
         throw core::InputError(
-            fmt::format("{} is no STL mesh ({}); run its case again", path.string(),
-                        errors.message().empty() ? "it has no triangle" : errors.message()));
+            fmt::format("{} is not an STL mesh ({}); run the case again", path.string(),
+                        errors.message().empty() ? "it does not contain triangles" : errors.message()));
     }
     return reader->GetOutput();
 }

@@ -113,8 +113,8 @@ class SomethingMissing(EndToEndTest):
     def test_no_engine(self):
         self.refuse_engine("/nonexistent", "there is no file /nonexistent")
         self.refuse_engine(self.folder, "there is no file")
-        self.refuse_engine("/bin/true", "/bin/true does not say that it is LIGGGHTS")
-        self.refuse_engine(self.campaign, "does not say that it is LIGGGHTS")  # not executable either
+        self.refuse_engine("/bin/true", "/bin/true does not identify itself as LIGGGHTS")
+        self.refuse_engine(self.campaign, "does not identify itself as LIGGGHTS")  # not executable either
         nowhere = {"PATH": str(self.folder)}
         done = self.call("run", self.campaign, "--output", self.output, env=nowhere)
         self.assert_one_line_error(done, 3, "no liggghts on the PATH", ENGINE_ADVICE)

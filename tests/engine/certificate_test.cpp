@@ -87,7 +87,7 @@ TEST(EngineIdentity, IsThatOfTheBinaryNotOfItsPath) {
     }
 }
 
-// Debian's program is a stub of 18 kB: the code is in the library that it links.
+// Debian's program is only a stub of 18 kB: the code is in the library that it links.
 TEST(EngineIdentity, NamesTheLinkedLibrary) {
     EngineIdentity const identity = identify(find_engine({}));
     EXPECT_EQ(identity.program_sha256.size(), 64u);

@@ -12,9 +12,9 @@ ContactMaterial material(double restitution, double friction) {
     return {0.0015, 1400, 5e6, 0.35, restitution, friction};
 }
 
-// Dimensionless, x'' = -max(0, x^1.5 + c x^0.25 x'), c = 2 sqrt(5/6) |b| sqrt(1.5): depends on the nominal
-// restitution alone. The numbers are from a Runge-Kutta integration of this equation in another language,
-// with 5000 steps; the program's first-order steps leave 1e-4.
+// In dimensionless form x'' = -max(0, x^1.5 + c x^0.25 x') with c = 2 sqrt(5/6) |b| sqrt(1.5), which depends
+// on the nominal restitution alone. The numbers are from a Runge-Kutta integration of this equation in
+// another language, with 5000 steps; the error of the program's first-order steps is 1e-4.
 TEST(ContactLaw, RestitutionOfANormalImpact) {
     for (auto const& [nominal, realised] :
          {std::pair{0.1, 0.25273}, {0.3, 0.39714}, {0.5, 0.55029}, {0.7, 0.71820}, {0.9, 0.90203}}) {
@@ -22,7 +22,7 @@ TEST(ContactLaw, RestitutionOfANormalImpact) {
     }
 }
 
-// The law has no scale of its own: the same restitution at every speed and size.
+// The contact law does not have a scale of its own: restitution is the same at every speed and size.
 TEST(ContactLaw, RestitutionDoesNotDependOnSpeedOrSize) {
     double const one = integrate_impact(material(0.4, 0.23), 0.5, 0).normal_speed / 0.5;
     ContactMaterial large = material(0.4, 0.23);
@@ -31,14 +31,15 @@ TEST(ContactLaw, RestitutionDoesNotDependOnSpeedOrSize) {
     EXPECT_NEAR(integrate_impact(large, 3, 0).normal_speed / 3, one, 1e-5);
 }
 
-// Without dissipation e = 1; the semi-implicit step keeps energy to 1e-4.
+// Without dissipation e = 1; the semi-implicit integration conserves energy to 1e-4.
 TEST(ContactLaw, ElasticImpactKeepsItsSpeed) {
     EXPECT_NEAR(integrate_impact(material(1, 0), 0.5, 0.3).normal_speed, 0.5, 1e-4);
     EXPECT_EQ(integrate_impact(material(1, 0), 0.5, 0.3).tangential_speed, 0.3);
 }
 
-// Where the contact slides all the time, friction is mu N throughout: m (v_t - v_t') = mu m (v_n + v_n'), and
-// the spin is 5/2 of it over R, less the lever's shortening by half the overlap (below 1 %).
+// If the contact slides throughout, friction is always mu N: m (v_t - v_t') = mu m (v_n + v_n'), and the spin
+// is 5/2 of that velocity change divided by R, reduced (by less than 1 %) because the lever arm is shorter by
+// half the overlap.
 TEST(ContactLaw, SlidingImpactIsCoulombs) {
     auto const after = integrate_impact(material(0.9, 0.05), 0.25, 1);
     double const impulse = 1 - after.tangential_speed;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// These tests run the real LIGGGHTS, on decks without a grain.
+// These tests run the real LIGGGHTS on decks without grains.
 class EngineTest : public testing::Test {
   protected:
     void write_deck(std::string const& text) { std::ofstream(folder / "in.liggghts") << text; }
@@ -47,7 +47,7 @@ TEST_F(EngineTest, IsFoundAndNamesItsVersion) {
 TEST_F(EngineTest, IsRefusedWhenItIsNone) {
     EXPECT_NE(error_for("/nonexistent/liggghts").find("there is no file /nonexistent/liggghts"),
               std::string::npos);
-    EXPECT_NE(error_for("/bin/true").find("does not say that it is LIGGGHTS"), std::string::npos);
+    EXPECT_NE(error_for("/bin/true").find("does not identify itself as LIGGGHTS"), std::string::npos);
     EXPECT_NE(error_for("/").find("there is no file"), std::string::npos);
     std::ofstream(folder / "not_executable") << "x";
     EXPECT_NE(error_for(folder / "not_executable"), "no error");
@@ -78,7 +78,7 @@ TEST_F(EngineTest, AnErrorMessageIsKept) {
     context.run();
 }
 
-// An engine that ends with exit code 7 was not killed by signal 7: Boost gives both as one number.
+// An engine that ends with exit code 7 was not killed by signal 7: Boost reports both as the same number.
 TEST_F(EngineTest, AnExitCodeIsNoSignal) {
     fs::path const script = folder / "script";
     for (auto const& [command, code, signal] : {std::tuple{"exit 0", 0, 0},
@@ -100,7 +100,7 @@ TEST_F(EngineTest, AnExitCodeIsNoSignal) {
     }
 }
 
-// Three engines at a time, and each end starts another: none is forgotten.
+// Three engines run at a time, and each one that ends starts another: every end must be noticed.
 TEST_F(EngineTest, ManyRunSideBySide) {
     Engine const engine = find_engine({});
     std::vector<std::unique_ptr<EngineProcess>> processes;
@@ -126,7 +126,8 @@ TEST_F(EngineTest, EndsWhenAsked) {
     EngineProcess process(context, find_engine({}), folder, [&](ExitStatus) { ended = true; });
     boost::asio::steady_timer timer(context, std::chrono::milliseconds(700));
     timer.async_wait([&](auto const&) { process.terminate(); });
-    context.run_for(std::chrono::seconds(60));  // SIGKILL follows after 5 s; the rest is for a busy machine
+    context.run_for(
+        std::chrono::seconds(60));  // SIGKILL follows after 5 s; the rest is allowed for a busy machine
     EXPECT_TRUE(ended);
 }
 
@@ -138,7 +139,7 @@ TEST_F(EngineTest, DestructionKillsAndCallsNobody) {
     process.reset();
     context.run_for(std::chrono::seconds(60));
     EXPECT_FALSE(called);
-    EXPECT_TRUE(context.stopped()) << "the engine is still waited for";
+    EXPECT_TRUE(context.stopped()) << "the context is still waiting for the engine";
 }
 
 TEST_F(EngineTest, AMissingFolderIsAnError) {

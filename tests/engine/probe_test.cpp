@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// These tests probe the real LIGGGHTS, and scripts that spoil its decks before they start it.
+// These tests probe the real LIGGGHTS, and scripts that alter the decks before they start it.
 class Probe : public testing::Test {
   protected:
     static Certificate certificate_of(Engine const& engine) {
         return probe_engine(engine, identify(engine)).value();
     }
 
-    /// Names of the probes that an engine fails which runs `commands` in the deck's folder first.
+    /// The names of the probes that fail for an engine that first runs `commands` in the folder of the deck.
     std::set<std::string> failed_by(std::string const& commands) {
         Engine const real = find_engine({});
         fs::path const script = folder / "script";
@@ -52,7 +52,7 @@ TEST_F(Probe, TheRealEnginePasses) {
             EXPECT_FALSE(text->empty()) << probe.name;
     }
     EXPECT_TRUE(certificate.passed());
-    // 5 to 6.5 million grain-steps per CPU second were measured on one core; another machine may be ten times
+    // 5 to 6.5 million grain-steps per CPU second were measured on one core. Other machines may be ten times
     // slower or faster.
     EXPECT_GT(certificate.grain_steps_per_cpu_second, 5e5);
     EXPECT_LT(certificate.grain_steps_per_cpu_second, 6e7);
@@ -85,14 +85,14 @@ TEST_F(Probe, WrongFriction) {
     EXPECT_FALSE(failed.contains("restitution-0.1"));
 }
 
-// wiggle sums A omega cos(omega t) dt and is off by 1.3 % at 500 steps per cycle.
+// LIGGGHTS' `wiggle` sums A omega cos(omega t) dt and is wrong by 1.3 % at 500 steps per cycle.
 TEST_F(Probe, WrongMover) {
     EXPECT_EQ(failed_by("case $PWD in */drive) sed -i 's/linear.variable .*/wiggle amplitude 0.0052 0 0.003 "
                         "period 0.05/' in.liggghts;; esac"),
               Names{"drive"});
 }
 
-// A mesh that reaches over the periodic faces meets its own image.
+// A mesh that extends beyond the periodic faces overlaps its own image.
 TEST_F(Probe, ContactsThatCountTwice) {
     Names const failed = failed_by("sed -i 's/vertex 0.036 /vertex 0.045 /' trough.stl");
     EXPECT_TRUE(failed.contains("weight-most"));
@@ -112,7 +112,7 @@ TEST_F(Probe, AnEngineThatLosesItsOutputFails) {
               Names{"drive"});
 }
 
-// The probes are worth nothing if campaigns use other contacts than they do.
+// The probes are meaningful only if campaigns use the same contact options.
 TEST_F(Probe, TheDecksUseWhatIsProbed) {
     scenario::Scenario const scenario = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
     std::string const campaign = deck::make_deck(prepare::prepare_case(scenario), 1).files.at("in.liggghts");

@@ -51,7 +51,8 @@ TEST_F(CyclesFile, IsRead) {
     EXPECT_NEAR(weight_by_momentum(series, 2, 0.5), 9.3, 1e-12);
 }
 
-// The engine is read while it writes: at every moment the whole lines are taken and the rest is left.
+// The file is read while the engine writes it: at any time the complete lines are read and the rest is left
+// out.
 TEST_F(CyclesFile, IsReadAtAnyMoment) {
     for (std::size_t size = 0; size <= whole.size(); ++size) {
         CycleSeries const series = read(whole.substr(0, size));

@@ -40,7 +40,8 @@ TEST(Estimate, VelocityEfficiencyIsDisplacementPerCycle) {
 }
 
 TEST(Estimate, StartupIsCutWhereItEnds) {
-    // A start-up of size 0.6 that decays over 3 cycles is below the noise of 0.02 after 3 ln(30) = 10 cycles.
+    // A start-up of size 0.6 that decays with a constant of 3 cycles is below the noise of 0.02 after 3
+    // ln(30) = 10 cycles.
     for (unsigned seed = 1; seed <= 20; ++seed) {
         int const cut = startup_length(Series{.start = -0.6}.make(60, seed));
         EXPECT_GE(cut, 5) << seed;
@@ -57,31 +58,31 @@ TEST(Estimate, StatisticalInefficiencyOfAKnownProcess) {
     for (double const rho : {0.0, 0.5, 0.8}) {
         double const expected = (1 + rho) / (1 - rho);
         double const found = statistical_inefficiency(Series{.rho = rho}.make(20000, 7));
-        // The estimator's own scatter at n = 20000 is below 10 %; Geyer's cut-off adds a bias of some
+        // The scatter of the estimator at n = 20000 is below 10 %; Geyer's cut-off adds a bias of a few
         // percent.
         EXPECT_NEAR(found, expected, 0.15 * expected) << rho;
     }
     EXPECT_EQ(statistical_inefficiency(std::vector<double>(30, 0.5)), 1);
-    // Short series: without the correction of the bias 20 values of rho = 0.8 show g = 3 instead of 9.
+    // Short series: without the correction of the bias, 20 values with rho = 0.8 give g = 3 instead of 9.
     double mean = 0;
     for (unsigned seed = 1; seed <= 100; ++seed)
         mean += statistical_inefficiency(Series{.rho = 0.8}.make(20, seed)) / 100;
     EXPECT_GT(mean, 4.5);
-    // Cycles that alternate are worth more than independent ones; we do not take the bonus.
+    // Alternating cycles give a more accurate mean than independent ones; this is deliberately not used.
     std::vector<double> alternating;
     for (int i = 0; i < 40; ++i) alternating.push_back(i % 2);
     EXPECT_EQ(statistical_inefficiency(alternating), 1);
 }
 
-// A 95 % interval covers the truth in 95 % of all series. 500 series: the count's own standard deviation is 1
-// %.
+// A 95 % interval contains the true mean in 95 % of all series. For 500 series the standard deviation of this
+// fraction is 1 %.
 TEST(Estimate, IntervalCoversTheTruth) {
     struct Case {
         double rho;
         double at_least;
     };
-    // Independent cycles: 95 % less three standard deviations. Correlated cycles: the inefficiency estimated
-    // from 60 values is low by nature; 85 % is what the method owes there.
+    // Independent cycles: 95 % minus three standard deviations. Correlated cycles: the inefficiency estimated
+    // from 60 values is too low on average; 85 % is required.
     for (Case const& c : {Case{0.0, 0.92}, Case{0.5, 0.88}}) {
         int covered = 0;
         for (unsigned seed = 1; seed <= 500; ++seed) {
@@ -98,14 +99,15 @@ TEST(Estimate, SaysWhenALayerIsNotSteady) {
     std::vector<double> drifting;
     for (int i = 0; i < 60; ++i) drifting.push_back(0.01 * i);
     EXPECT_EQ(estimate_packing(drifting, wanted).verdict, Verdict::not_steady);
-    // A start-up that takes longer than half of the run.
+    // A start-up that lasts longer than half of the run.
     EXPECT_EQ(estimate_packing(Series{.start = -0.8, .decay = 60}.make(40, 1), wanted).verdict,
               Verdict::not_steady);
     EXPECT_EQ(estimate_packing({}, wanted).verdict, Verdict::not_steady);
     EXPECT_EQ(estimate_packing(std::vector<double>{0.8}, wanted).verdict, Verdict::not_steady);
 }
 
-// A layer may wander slowly for ever; when it wanders by less than was asked, it is steady as far as asked.
+// A layer may fluctuate slowly forever; if it does so by less than the required half-width, it counts as
+// steady.
 TEST(Estimate, WanderingWithinWhatWasAskedIsSteady) {
     std::vector<double> values = Series{.sigma = 0.001}.make(40, 1);
     for (std::size_t i = 0; i < 20; ++i) values[i] += 0.015;
@@ -117,7 +119,7 @@ TEST(Estimate, WanderingWithinWhatWasAskedIsSteady) {
 TEST(Estimate, SaysWhenAMeanIsNotPrecise) {
     EXPECT_EQ(estimate_packing(Series{.sigma = 0.3}.make(40, 3), wanted).verdict, Verdict::not_precise);
     EXPECT_EQ(estimate_packing(Series{}.make(40, 3), wanted).verdict, Verdict::precise);
-    // Five equal cycles prove nothing, however small their scatter.
+    // Five equal cycles are not sufficient, however small their scatter.
     EXPECT_NE(estimate_packing(std::vector<double>(5, 0.8), wanted).verdict, Verdict::precise);
 }
 
@@ -140,9 +142,9 @@ TEST(Estimate, EndsAtTheFirstCheckpointWhoeverLooks) {
     EXPECT_EQ(answer.estimate.discarded + answer.estimate.measured, *needed);
 }
 
-// What a case says is the interval over packings. Each run ends by its own interval, which is too narrow
-// where cycles are strongly correlated; their scatter is not. The rule
-// covers 98 % or more of 1000 trials; 95 % is what a case promises.
+// The result of a case has the interval over packings. Each run ends according to its own interval, which is
+// too narrow if cycles are strongly correlated; the scatter between packings is not. The combined interval
+// contains the true mean in 98 % or more of 1000 trials; 95 % is required.
 TEST(Estimate, IntervalOverPackingsCoversTheTruthAlsoWhenCyclesWander) {
     for (double const rho : {0.0, 0.5, 0.8, 0.9}) {
         int covered = 0;

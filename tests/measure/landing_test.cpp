@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-// A point mass that moves as the theory says is a layer whose landing and whose normal force are known.
+// A point mass that moves according to the theory serves as a layer whose landing and normal force are known
+// exactly.
 namespace vibrotrough::measure {
 namespace {
 
@@ -15,9 +16,10 @@ SlidingMass facts_of(PointMassPhases const& mass, double friction) {
             mass.omega * mass.length_x};
 }
 
-// J_t / J_n = mu where the mass lands ahead of the trough and friction does not stop it (P'): the rest of the
-// interval is a slide of the same direction, so nothing is lost. Where the landing stops the slip, J_t = m
-// times that slip; 0.01, because the interval holds a piece of the slide that follows, too.
+// J_t / J_n = mu if the mass lands faster than the trough and friction does not stop it (P'): the rest of the
+// interval is a slide in the same direction, so that the ratio is not affected. If the landing stops the
+// slip, J_t = m times that slip; tolerance 0.01, because the interval also contains a part of the following
+// slide.
 TEST(Landing, FrictionOfAPointMassIsMu) {
     for (double const mu : {0.1, 0.23}) {
         PointMassPhases ahead(theory::PointMass{1.5, 0.5, 0, mu});
@@ -39,10 +41,11 @@ TEST(Landing, WithoutFlightThereIsNone) {
     EXPECT_FALSE(landing_friction({}));
 }
 
-// Under the normal force of a point mass, a point mass moves as the theory says. The force is known as means
-// over a hundredth of a cycle, so that a landing is anywhere within one: 0.01 cycles times what it changes of
-// the slip, and a mass that it stops is held to the trough up to 2 pi / 100 too long, in which the trough's
-// velocity changes by that times |sin t|. The rest, 0.001, is what the means lose where slides begin and end.
+// With the normal force of a point mass, a point mass moves according to the theory. The force is known as
+// means over a hundredth of a cycle, so that the time of a landing is known to 0.01 cycles. The error is this
+// time multiplied by the change of slip at the landing; in addition, a mass that is stopped by the landing
+// sticks to the trough for up to 2 pi / 100 too long, during which the velocity of the trough changes by that
+// multiplied by |sin t|. The remaining 0.001 is the error of the means where slides begin and end.
 TEST(Landing, ThePointMassUnderItsOwnForceIsTheTheorys) {
     for (double const gamma : {0.8, 1.2, 1.5, 1.7, 2.0, 2.5}) {
         for (double const tan_alpha : {-0.05, 0.0, 0.05}) {
@@ -60,7 +63,7 @@ TEST(Landing, ThePointMassUnderItsOwnForceIsTheTheorys) {
     }
 }
 
-// Steeper than friction holds: it runs away, and there is no number.
+// Steeper than the friction angle: the mass runs away, and there is no efficiency.
 TEST(Landing, AMassThatRunsAwayHasNoEfficiency) {
     PointMassPhases mass(theory::PointMass{0.8, 0.5, -0.2, 0.23});
     LayerMotion const motion = layer_motion(mass.series(8), mass.facts);

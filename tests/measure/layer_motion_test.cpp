@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-// A point mass that moves exactly as the theory says is a layer whose every number is known.
+// A point mass that moves exactly according to the theory serves as a layer for which all quantities are
+// known.
 namespace vibrotrough::measure {
 namespace {
 
@@ -29,7 +30,7 @@ theory::Phase longest_flight(theory::Motion const& motion) {
     return longest;
 }
 
-/// Whether every phase lasts long enough to be seen, and every slide is faster than what counts as rest.
+/// Whether every phase is long enough to be recognised and every slide is faster than the threshold for rest.
 bool is_clear(theory::ConveyorMotion const& theory) {
     for (theory::Phase const& phase : theory.motion.phases) {
         if (phase.end - phase.start < 5 * interval) return false;
@@ -78,7 +79,7 @@ TEST(LayerMotion, GivesBackTheTheorysModes) {
             EXPECT_FALSE(found.restitution);
             continue;
         }
-        // Lines are a hundredth of a cycle apart; force falls to zero slowly and comes back at once.
+        // Lines are a hundredth of a cycle apart; the force decreases to zero gradually and returns suddenly.
         theory::Phase const flight = longest_flight(wanted);
         EXPECT_NEAR(found.take_off_phase.value(), std::fmod(flight.start, 2 * pi), interval) << name(point);
         EXPECT_NEAR(found.flight_number, wanted.flight_number, 0.01) << name(point);
@@ -95,7 +96,7 @@ TEST(LayerMotion, GivesBackTheTheorysModes) {
         EXPECT_TRUE(modes.contains(mode)) << mode;
 }
 
-// Gamma = 4.6 flies 1.4 cycles, twice as long a period: a layer that skips cycles.
+// At Gamma = 4.6 the flight lasts 1.4 cycles and the period is two cycles: a layer that skips cycles.
 TEST(LayerMotion, SeesThatCyclesAreSkipped) {
     PointMassPhases mass(theory::PointMass{5.0, 0.5, 0, 0.35});
     ASSERT_EQ(mass.theory.motion.period_cycles, 2);
@@ -105,8 +106,7 @@ TEST(LayerMotion, SeesThatCyclesAreSkipped) {
     EXPECT_GT(motion.flight_number, 1.5);
 }
 
-// |F_x| / F_z = mu in every slide of a point mass; the ends of slides, where both kinds of contact meet in
-// one interval, are left out.
+// |F_x| / F_z = mu in every slide of a point mass; intervals in which a slide begins or ends are left out.
 TEST(LayerMotion, SeesTheFrictionOfASlide) {
     for (double const mu : {0.15, 0.3, 0.45}) {
         PointMassPhases mass(theory::PointMass{0.8, 0.5, 0.02, mu});
@@ -115,9 +115,10 @@ TEST(LayerMotion, SeesTheFrictionOfASlide) {
     }
 }
 
-// E per cycle against the theory's own losses (friction and impacts, per mass in (omega r)^2), which come
-// from an integral over the slides and not from the work of the trough. Forces are means over intervals in
-// which the trough's speed changes by up to 6 %: 1 % where there are impacts.
+// The dissipation per cycle against the losses of the theory (friction and impacts, per unit mass in (omega
+// r)^2), which are computed from an integral over the slides and not from the work of the trough. Forces are
+// means over intervals in which the speed of the trough changes by up to 6 %: tolerance 1 % if there are
+// impacts.
 TEST(LayerMotion, DissipatesWhatTheTheorySays) {
     for (theory::PointMass const point :
          {theory::PointMass{0.8, 0.5, 0.05, 0.3}, theory::PointMass{1.5, 0.5, -0.1, 0.3},
@@ -131,8 +132,9 @@ TEST(LayerMotion, DissipatesWhatTheTheorySays) {
     }
 }
 
-// A mass with e = 0.3 rebounds with 0.3 of its falling speed. In the rest of the interval of the impact
-// gravity and the trough slow its rise: up to a sixth of a rebound from a flight of a tenth of a cycle.
+// A mass with e = 0.3 rebounds with 0.3 of its approach speed. In the rest of the interval of the impact,
+// gravity and the motion of the trough reduce its relative speed: by up to a sixth of a rebound after a
+// flight of a tenth of a cycle.
 TEST(LayerMotion, MeasuresTheRestitution) {
     PointMassPhases mass(theory::PointMass{2.2, 0.5, 0, 0.3}, 0.3);
     LayerMotion const motion = layer_motion(mass.series(12), mass.facts);
@@ -155,12 +157,12 @@ TEST(LayerMotion, CurvesAreTheTheorysTrace) {
         if (series.touching[j] == 1) {
             EXPECT_NEAR(curves.slip[j], series.vx[j] - curves.trough_velocity_x[j], 1e-5);
         }
-        // Every cycle is the same, up to the trace's linear steps.
+        // All cycles are equal, up to the linear interpolation of the trace.
         EXPECT_LT(curves.velocity_x_deviation[j], 1e-4);
     }
 }
 
-// Needs a line before the first one that counts, and one cycle at least.
+// At least one cycle and a line before the first evaluated one are required.
 TEST(LayerMotion, IsEmptyWithoutCycles) {
     PointMassPhases mass(theory::PointMass{2.0, 0.5, 0, 0.23});
     PhaseSeries const series = mass.series(3);
@@ -174,15 +176,16 @@ TEST(LayerMotion, IsEmptyWithoutCycles) {
     }
     mass.facts.discarded = 0;
     mass.facts.used = 2;
-    EXPECT_EQ(layer_motion(series, mass.facts).mode, mass.theory.motion.mode) << "the second cycle counts";
+    EXPECT_EQ(layer_motion(series, mass.facts).mode, mass.theory.motion.mode)
+        << "the second cycle is evaluated";
 }
 
 // x = sin(t) + sin(7 t + 1) / 10: v = omega (cos(t) + 0.7 cos(7 t + 1)), exact up to rounding.
 TEST(LayerMotion, PeriodicVelocityIsExactForHarmonics) {
-    std::vector<double> places;
+    std::vector<double> positions;
     for (int j = 1; j <= 100; ++j)
-        places.push_back(std::sin(interval * j) + 0.1 * std::sin(7 * interval * j + 1));
-    auto const velocity = periodic_velocity(places, 3);
+        positions.push_back(std::sin(interval * j) + 0.1 * std::sin(7 * interval * j + 1));
+    auto const velocity = periodic_velocity(positions, 3);
     for (int j = 1; j <= 100; ++j) {
         double const wanted = 6 * pi * (std::cos(interval * j) + 0.7 * std::cos(7 * interval * j + 1));
         EXPECT_NEAR(velocity[static_cast<std::size_t>(j - 1)], wanted, 1e-10);
@@ -197,7 +200,7 @@ TEST(LayerMode, ReadsPhases) {
     EXPECT_EQ(mode({1, 1, -1, -1, 0, 1, 2, 2, 1, 1}, force), "FP'N");
     EXPECT_EQ(mode({0, 0, 0, 0, 0, 1, 2, 2, 0, 0}, force), "FR");
     EXPECT_EQ(mode(std::vector<double>(10, 0.01), level), "R");
-    EXPECT_EQ(mode(std::vector<double>(10, -1), level), "N") << "a layer that slides down for ever";
+    EXPECT_EQ(mode(std::vector<double>(10, -1), level), "N") << "a layer that always slides down";
     EXPECT_EQ(mode(std::vector<double>(10, 1), std::vector<double>(10, 0.0)), "F");
     EXPECT_EQ(mode({-1, -1, -1, -1, 1, 1, 1, 1, -1, -1}, level), "PN") << "the first slide after phase 0";
     // One stray grain: 0.06 of the weight in a tenth of a cycle.

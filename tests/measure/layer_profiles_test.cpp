@@ -48,13 +48,13 @@ TEST_F(Snapshots, AreRead) {
     ASSERT_EQ(snapshots.size(), 2u);
     EXPECT_EQ(snapshots[1].step, 30);
     ASSERT_EQ(snapshots[1].bins.size(), 3u);
-    EXPECT_EQ(snapshots[1].bins[1].place, 1.5);
+    EXPECT_EQ(snapshots[1].bins[1].position, 1.5);
     EXPECT_EQ(snapshots[1].bins[1].grains, 10);
     EXPECT_EQ(snapshots[1].bins[1].density, 700);
     EXPECT_EQ(snapshots[1].bins[2].means, (std::vector<double>{60, 0.25}));
 }
 
-// A run that was cut and went on from step 60 does again what the first one had done after it.
+// A run that was interrupted and continued from step 60 repeats the later steps of the first run.
 TEST_F(Snapshots, OfALaterRunReplaceWhatItDidAgain) {
     write("profiles.0.txt",
           head + snapshot(0) + snapshot(30) + snapshot(60) + snapshot(90) + "120 3\n  1 0.5 ");
@@ -117,7 +117,7 @@ TEST(Surface, HasTheAmplitudeOfItsWave) {
         one.bins.push_back({0.001 * i, 60, 500, {height / 2}});
     }
     Snapshot holed = one;
-    holed.bins.push_back({0.1, 0, 0, {0}});  // a column without a grain has no height
+    holed.bins.push_back({0.1, 0, 0, {0}});  // the height of a column without grains is undefined
     for (Snapshot const& snapshot : {one, holed}) {
         Surface const surface = layer_surface({snapshot}, facts(1, 2));
         EXPECT_NEAR(surface.wiggle_amplitude.value(), 0.002 * std::sqrt(8.0 / 7), 1e-12);

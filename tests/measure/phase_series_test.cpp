@@ -52,17 +52,18 @@ TEST_F(PhasesFile, IsRead) {
     EXPECT_EQ(series.touching_spin[0], 11);
     EXPECT_EQ(series.clearance[1], -1e-5);
     EXPECT_EQ(series.energy_rotation[1], 14);
-    // The engine's largest of no contacts is its most negative number.
+    // Without contacts the engine writes its most negative number as the maximum.
     EXPECT_EQ(series.overlap, (std::vector<double>{15, 0}));
 }
 
 // x_1 = x_0 + (3 + 3) / 2 * 0.5
 TEST_F(PhasesFile, PlacesOfRigidBodiesAreIntegrated) {
-    PhaseSeries const series = with_integrated_places(read(whole), 0.5);
+    PhaseSeries const series = with_integrated_positions(read(whole), 0.5);
     EXPECT_EQ(series.x, (std::vector<double>{1, 2.5}));
 }
 
-// The engine is read while it writes: at every moment the whole lines are taken and the rest is left.
+// The file is read while the engine writes it: at any time the complete lines are read and the rest is left
+// out.
 TEST_F(PhasesFile, IsReadAtAnyMoment) {
     for (std::size_t size = 0; size <= whole.size(); ++size) {
         PhaseSeries const series = read(whole.substr(0, size));

@@ -9,8 +9,8 @@
 
 namespace vibrotrough::measure {
 
-/// phases.csv as the engine would write it for a layer that moves as the theory's point mass, exactly: the
-/// means of forces are changes of momentum, impacts included.
+/// phases.csv as the engine would write it for a layer that moves exactly like the theory's point mass: the
+/// mean forces follow from the changes of momentum, including impacts.
 class PointMassPhases {
   public:
     static constexpr double amplitude = 0.006;  // m
@@ -29,7 +29,7 @@ class PointMassPhases {
         facts = {mass, -gravity * fall * point_.tan_inclination, -gravity * fall, omega / (2 * pi), 2, 2};
     }
 
-    /// Lines of `cycles` cycles.
+    /// The lines of `cycles` cycles.
     PhaseSeries series(int cycles) {
         facts.used = cycles;
         PhaseSeries s;
@@ -44,7 +44,7 @@ class PointMassPhases {
             s.trough_z.push_back(now.trough_z);
             s.normal_force.push_back(mass * ((now.vz - before.vz) / interval - facts.gravity_z));
             s.tangential_force.push_back(-mass * ((now.vx - before.vx) / interval - facts.gravity_x));
-            // What rounding leaves of a free fall is no force.
+            // Rounding errors of a free fall must not appear as a force.
             if (std::abs(s.normal_force.back()) < 1e-9 * mass * gravity) s.normal_force.back() = 0;
             s.floor_force.push_back(s.normal_force.back());
             s.touching.push_back(now.touches ? 1 : 0);
@@ -64,7 +64,7 @@ class PointMassPhases {
 
   private:
     static constexpr double pi = std::numbers::pi;
-    static constexpr int samples = 20000;  // of the theory per cycle
+    static constexpr int samples = 20000;  // number of samples of the theory per cycle
 
     static theory::Conveyor conveyor_of(theory::PointMass const& point, double restitution) {
         theory::Conveyor conveyor;
@@ -78,7 +78,7 @@ class PointMassPhases {
         bool touches;
     };
 
-    /// At the end of interval i - 1.
+    /// The sample at the end of interval i - 1.
     State at(int i) const {
         double const t = 2 * pi * i / PhaseSeries::per_cycle, start = fine_.front().t;
         double const period = fine_.back().t - start;

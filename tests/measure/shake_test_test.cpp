@@ -10,20 +10,20 @@
 namespace vibrotrough::measure {
 namespace {
 
-/// K = Gamma / sin(beta), and beta stands for zero.
+/// K = Gamma / sin(beta), with a very small beta instead of zero.
 PointMassPhases shaken(double machine_number, double friction) {
     constexpr double tan_beta = 1e-7;
     return PointMassPhases(theory::PointMass{machine_number * tan_beta, tan_beta, 0, friction});
 }
 
-// Eqs. 10 and 20: the pen's line is the theory's largest slide, and inverting it gives the friction back. The
-// velocity is exact at the lines, so that the parabola misses the turning point by less than 1e-4 of r where
-// the acceleration jumps from one slide to the next; dX/dmu is 2 to 5 here.
+// Eqs. 10 and 20: the range of the displacement is the theory's largest slide, and inverting the theory
+// returns the friction. The velocity is exact at the lines, so that the parabola misses the turning point by
+// less than 1e-4 r where the acceleration jumps from one slide to the next; dX/dmu is 2 to 5 here.
 TEST(ShakeTest, GivesTheFrictionBack) {
     for (double const mu : {0.05, 0.15, 0.23, 0.3, 0.35}) {
         PointMassPhases mass = shaken(0.67, mu);
         ASSERT_EQ(mass.theory.motion.mode, "PN");
-        auto const lines = pen_lines(mass.series(5), 1, 5);
+        auto const lines = relative_displacement_ranges(mass.series(5), 1, 5);
         ASSERT_EQ(lines.size(), 4u);
         for (double const line : lines) {
             double const wanted = theory::shake({0.67}, mu).max_relative_displacement;
@@ -47,9 +47,9 @@ TEST(ShakeTest, ALayerThatGoesWithTheTroughDrawsNothing) {
         series.trough_x.push_back(std::sin(0.01 * i));
         series.x.push_back(series.trough_x.back() + 1);
     }
-    for (double const line : pen_lines(series, 1, 3)) EXPECT_NEAR(line, 0, 1e-12);
-    EXPECT_THROW(pen_lines(series, 0, 3), std::invalid_argument);
-    EXPECT_THROW(pen_lines(series, 1, 4), std::invalid_argument);
+    for (double const line : relative_displacement_ranges(series, 1, 3)) EXPECT_NEAR(line, 0, 1e-12);
+    EXPECT_THROW(relative_displacement_ranges(series, 0, 3), std::invalid_argument);
+    EXPECT_THROW(relative_displacement_ranges(series, 1, 4), std::invalid_argument);
     EXPECT_THROW(creep_per_cycle(series, 2, 2), std::invalid_argument);
 }
 

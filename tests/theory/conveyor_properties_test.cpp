@@ -35,7 +35,8 @@ Conveyor extreme_conveyor() {
     return c;
 }
 
-// Any legal combination gives a finite efficiency, an interval or a named outcome, within bounded work.
+// Any legal combination of inputs gives a finite efficiency, an interval or a named outcome within bounded
+// work.
 RC_GTEST_PROP(ConveyorProperties, ExtremeInputsHaveAnAnswer, ()) {
     Conveyor const c = extreme_conveyor();
     ConveyorMotion const motion = solve(c);

@@ -18,8 +18,8 @@ Conveyor plastic(double throw_number, double tan_beta, double tan_alpha, double 
     return conveyor;
 }
 
-// With the defaults the general solver is the plastic point mass, by other means: starts from rest, certified
-// steps, no slip angles. Tolerance: the state is taken as periodic at 1e-11.
+// With the defaults the general solver describes the plastic point mass, but by other means: it starts from
+// rest and uses safe steps instead of slip angles. Tolerance: the state is accepted as periodic at 1e-11.
 TEST(Conveyor, DefaultsAreThePlasticPointMass) {
     for (double throw_number = 0.1; throw_number < 6; throw_number += 0.137) {
         for (double const tan_beta : {0.1, 0.5, 1.5, 4.0}) {
@@ -41,10 +41,10 @@ struct TableEntry {
     double throw_number, tan_alpha, restitution, printed;
 };
 
-// Table 1 at e > 0. The physics, Eqs. 12-18 and 23, gives lower efficiencies than the paper prints at Gamma =
-// 2; it is held to Runge and Kutta's rule, tolerance 1e-7: its h^4 = 2e-11 amplified by chains of rebounds.
-// Under the named rule V_F = cos(delta_F) the printed numbers come out, 11 of 12 within 0.002 (and half a
-// digit) and 0.249 within 0.021.
+// Table 1 at e > 0. At Gamma = 2, Eqs. 12-18 and 23 give lower efficiencies than the paper prints. They are
+// compared with a Runge-Kutta integration; tolerance 1e-7: its error h^4 = 2e-11, amplified by chains of
+// rebounds. With the rule V_F = cos(delta_F) the printed numbers are reproduced, 11 of 12 within 0.002 (plus
+// half a digit) and 0.249 within 0.021.
 TEST(Conveyor, Table1NeedsTheNamedRule) {
     TableEntry const table[] = {{1.5, -0.05, 0.1, 0.477}, {1.5, -0.05, 0.2, 0.477}, {1.5, 0, 0.1, 0.210},
                                 {1.5, 0, 0.2, 0.210},     {1.5, 0.05, 0.1, -0.065}, {1.5, 0.05, 0.2, 0.249},
@@ -67,9 +67,9 @@ TEST(Conveyor, Table1NeedsTheNamedRule) {
     EXPECT_EQ(close, 11);
 }
 
-// Each extension and all together against Runge and Kutta's rule at 3000 steps per cycle, which shares
-// nothing with the library. Tolerance: the rule's error of h^4 = 2e-11 times the phases; a phase shorter than
-// a step moves the mass by less than h^3 = 1e-8.
+// Each extension, and all together, against a Runge-Kutta integration with 3000 steps per cycle, which does
+// not share code with the library. Tolerance: its error of h^4 = 2e-11 times the number of phases; a phase
+// shorter than a step moves the mass by less than h^3 = 1e-8.
 TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     Conveyor const base = plastic(1.7, 0.5, -0.05, 0.3);
     std::vector<Conveyor> cases(10, base);
@@ -78,7 +78,7 @@ TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     cases[3].along_ratio = 0.8, cases[3].along_phase = 0.7;
     cases[4].along = {{2, 0.3, 0.4}}, cases[4].normal = {{3, 0.2, 1.0}};
     cases[5].wall_friction = 0.3, cases[5].height_over_width = 0.5;
-    cases[6].restitution = 0.1;  // more has long periods at the larger throw number
+    cases[6].restitution = 0.1;  // larger values lead to long periods at the larger throw number
     cases[7].static_friction = 0.4, cases[7].air_drag = 0.05, cases[7].along_phase = -0.4;
     cases[7].normal = {{2, 0.1, 0.2}}, cases[7].wall_friction = 0.2, cases[7].height_over_width = 0.3;
     cases[8].landing_friction = 0.1;
@@ -96,18 +96,18 @@ TEST(Conveyor, ExtensionsAgreeWithSmallSteps) {
     }
 }
 
-// Janssen's ratio: k = 0.5, wall friction 0.4, H/W = 0.5 add 0.1 to mu. Exact.
+// Janssen's ratio k = 0.5, wall friction 0.4 and H/W = 0.5 add 0.1 to mu, exactly.
 TEST(Conveyor, WallsAddToFriction) {
     Conveyor walls = plastic(2, 0.5, 0, 0.23);
     walls.wall_friction = 0.4;
     walls.height_over_width = 0.5;
-    EXPECT_NEAR(effective_friction(walls).kinetic, 0.33, 1e-15);
+    EXPECT_NEAR(effective_friction(walls).kinetic_friction, 0.33, 1e-15);
     EXPECT_NEAR(solve(walls).motion.velocity_efficiency,
                 solve(PointMass{2, 0.5, 0, 0.33}).velocity_efficiency, 1e-9);
 }
 
-// A landing that brakes by mu is the plain theory. One that does not brake keeps the mass faster where it
-// lands ahead of the trough and is not stopped (1.7: FP'N); below Gamma = 1 nothing lands.
+// A landing friction equal to mu gives the plain theory. Without landing friction the mass stays faster where
+// it lands ahead of the trough and is not stopped (Gamma = 1.7: FP'N). Below Gamma = 1 there are no landings.
 TEST(Conveyor, LandingFrictionIsThatOfLandingsOnly) {
     auto const eta = [](double throw_number, std::optional<double> landing) {
         Conveyor conveyor = plastic(throw_number, 0.5, 0, 0.23);
@@ -120,8 +120,8 @@ TEST(Conveyor, LandingFrictionIsThatOfLandingsOnly) {
     EXPECT_DOUBLE_EQ(eta(0.8, 0.0), eta(0.8, {}));
 }
 
-// Without a period: the mean of two halves of the run lies within the stated interval of the whole, most
-// times.
+// Motions without a period: the means of both halves of the run usually lie within the stated interval of the
+// whole.
 TEST(Conveyor, SaysHowWellAMeanWithoutPeriodIsKnown) {
     int without = 0;
     for (double throw_number = 4; throw_number < 8; throw_number += 0.25) {
@@ -141,8 +141,8 @@ TEST(Conveyor, SaysHowWellAMeanWithoutPeriodIsKnown) {
     EXPECT_GT(without, 0);
 }
 
-// e = 0.5, Gamma = 4: an elastic ball on a trough has periodic motions of several cycles; their phases cover
-// the period.
+// e = 0.5, Gamma = 4: a bouncing mass has periodic motions over several cycles, and their phases cover the
+// period.
 TEST(Conveyor, PhasesCoverThePeriodWithRebounds) {
     for (double const e : {0.1, 0.3, 0.5}) {
         for (double throw_number = 1.2; throw_number < 5; throw_number += 0.31) {
@@ -173,7 +173,8 @@ TEST(Conveyor, RefusesWhatIsOutOfRange) {
     refused([](Conveyor& c) { c.height_over_width = -1; });
 }
 
-// |tan(alpha)| between kinetic and static friction: it holds while the drive is weak, and runs away when not.
+// |tan(alpha)| between kinetic and static friction: the mass sticks while the drive is weak and otherwise
+// runs away.
 TEST(Conveyor, StaticFrictionHoldsOnASlope) {
     Conveyor conveyor = plastic(0.01, 0.5, 0.35, 0.3);
     conveyor.static_friction = 0.5;
@@ -181,7 +182,7 @@ TEST(Conveyor, StaticFrictionHoldsOnASlope) {
     conveyor.point.throw_number = 2;
     conveyor.point.tan_vibration_angle = 0.1;
     EXPECT_EQ(solve(conveyor).motion.outcome, Outcome::runs_away);
-    // With air drag there is a steady speed.
+    // With air drag a steady speed exists.
     conveyor.air_drag = 0.1;
     EXPECT_TRUE(solve(conveyor).motion.converged);
 }

@@ -10,9 +10,9 @@
 namespace vibrotrough::theory {
 namespace {
 
-// eta by a second formulation (tests/theory/reference.cpp). Tolerance: what the library states, 1e-9; the
-// reference bisects to 1e-18 and overlooks phases shorter than its step of 1e-3 rad, which move the mass by
-// less than the cube of that, 1e-9, and only next to a mode change.
+// eta against a second formulation (tests/theory/reference.cpp). Tolerance: 1e-9 as stated by the library.
+// The reference bisects to 1e-18 and misses phases shorter than its step of 1e-3 rad; these occur only close
+// to a change of mode and move the mass by less than the cube of the step, 1e-9.
 TEST(Exactness, AgreesWithASecondFormulation) {
     std::mt19937_64 random(20261);
     std::uniform_real_distribution<> unit(0, 1);
@@ -27,7 +27,7 @@ TEST(Exactness, AgreesWithASecondFormulation) {
         ASSERT_TRUE(motion.converged);
         if (motion.period_cycles > 4) continue;  // the reference would take seconds
         auto const reference = static_cast<double>(reference_efficiency(input, motion.period_cycles, 400));
-        if (std::isnan(reference)) continue;  // too slow an approach for plain repetition
+        if (std::isnan(reference)) continue;  // converges too slowly for direct repetition
         ++compared;
         auto const where = testing::Message() << input.throw_number << ' ' << input.tan_vibration_angle << ' '
                                               << input.tan_inclination << ' ' << mu << ' ' << motion.mode;
@@ -37,7 +37,7 @@ TEST(Exactness, AgreesWithASecondFormulation) {
     EXPECT_GE(compared, 50);
 }
 
-// The fast solver against solve(), over the map of the speed claim. Tolerance: 1e-9, stated in
+// The fast solver against solve(), over the map used for the speed benchmark. Tolerance: 1e-9, as stated in
 // efficiency.hpp.
 TEST(Exactness, FastSolverAgreesOverAMap) {
     EfficiencySolver fast;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Eq. 15 and its inverse, the solver. Tolerance: rounding.
+// Eq. 15 against its inverse, which the solver computes. Tolerance: rounding.
 TEST(Limits, FlightOfEquation15) {
     EXPECT_NEAR(throw_number_of_flight(1), std::sqrt(1 + pi * pi), 1e-14);
     EXPECT_NEAR(throw_number_of_flight(0.25), 1.08057, 5e-6);
@@ -21,21 +21,22 @@ TEST(Limits, FlightOfEquation15) {
     EXPECT_EQ(throw_number_of_flight(0), 1);
 }
 
-// The paper's 2.975, and the optimum that the solver finds at small beta. Tolerances: its digits; Brent's
-// 1e-7 and a shift in proportion to mu tan(beta) = 1e-6.
+// The paper's value 2.975, and the optimum that the solver finds at small beta. Tolerances: the digits of the
+// paper; 1e-7 of Brent's method plus a shift proportional to mu tan(beta) = 1e-6.
 TEST(Limits, BestThrowNumber) {
     double const limit = best_throw_number_small_angle();
     EXPECT_NEAR(limit, 2.975, 0.0006);
     for (double const tan_alpha : {-0.1, 0.0, 0.1}) {
         EXPECT_NEAR(best_throw_number(1e-6, tan_alpha, 0.35).throw_number, limit, 1e-4) << tan_alpha;
     }
-    // At finite mu tan(beta) it moves up, to about 3.05 at tan(beta) = mu = 0.5: two digits are given.
+    // At finite mu tan(beta) the optimum is higher, about 3.05 at tan(beta) = mu = 0.5 (two digits are
+    // known).
     EXPECT_NEAR(best_throw_number(0.5, 0, 0.5).throw_number, 3.05, 0.01);
     EXPECT_THROW(best_throw_number(0.5, 0.4, 0.3), std::invalid_argument);
 }
 
-// eta = cos(delta_F) at Gamma = sqrt(1 + pi^2), where the landing is at take-off and adds nothing: 0.9529.
-// Tolerance: rounding.
+// eta = cos(delta_F) at Gamma = sqrt(1 + pi^2), where the mass lands at the phase of take-off, so that the
+// contact has no duration: 0.9529. Tolerance: rounding.
 TEST(Limits, EfficiencyAtAFlightOfOneCycle) {
     double const gamma = throw_number_of_flight(1);
     double const expected = std::cos(std::asin(1 / gamma));
@@ -43,7 +44,7 @@ TEST(Limits, EfficiencyAtAFlightOfOneCycle) {
     EXPECT_NEAR(expected, 0.9529, 5e-5);
 }
 
-// Eq. 20 against the solver wherever it applies, and nowhere else. Tolerance: solve()'s 1e-9.
+// Eq. 20 agrees with the solver wherever it applies, and has no value elsewhere. Tolerance: 1e-9 of solve().
 TEST(Limits, PnModeInClosedForm) {
     int applies = 0;
     for (double gamma = 0.02; gamma <= 1; gamma += 0.02) {
@@ -65,7 +66,7 @@ TEST(Limits, PnModeInClosedForm) {
 }
 
 // Eq. 21: eta -> - sin(pi tan(alpha) / (2 mu)) for beta -> 0, K -> infinity, Gamma <= 1; 0.434 at -0.10,
-// 0.35. Tolerance: tan(beta) = 1e-6 and 1/K = 1e-6 are the distance to the limit.
+// 0.35. Tolerance: the distance to the limit is tan(beta) = 1e-6 and 1/K = 1e-6.
 TEST(Limits, SmallVibrationAngles) {
     EXPECT_NEAR(small_angle_efficiency(-0.1, 0.35), 0.434, 0.0005);
     for (double const tan_alpha : {-0.3, -0.1, 0.0, 0.05, 0.2}) {
@@ -76,8 +77,8 @@ TEST(Limits, SmallVibrationAngles) {
     EXPECT_THROW(small_angle_efficiency(0.4, 0.35), std::invalid_argument);
 }
 
-// K = mu sqrt(1 + pi^2/4) is where PRNR becomes PN at beta = 0, alpha = 0 (0.652 at mu = 0.35). Tolerance:
-// the step on either side.
+// At beta = 0, alpha = 0 the mode changes from PRNR to PN at K = mu sqrt(1 + pi^2/4) (0.652 at mu = 0.35).
+// Tolerance: the step on either side.
 TEST(Limits, PnModeBeginsWhereTheClosedFormSays) {
     EXPECT_NEAR(pn_machine_number(0.35), 0.652, 0.0005);
     for (double const mu : {0.1, 0.35, 0.8}) {
@@ -88,8 +89,8 @@ TEST(Limits, PnModeBeginsWhereTheClosedFormSays) {
 }
 
 // beta = 0, alpha = 0 in the PN mode, by Eqs. 10 and 20: C = pi, cos(d_P) = pi mu/(2 K), and
-// X = 2 sin d_P + pi cos d_P - pi^2 mu / (2 K) = 2 sin d_P = 2 sqrt(1 - (pi mu / (2 K))^2). Tolerance:
-// solve()'s.
+// X = 2 sin d_P + pi cos d_P - pi^2 mu / (2 K) = 2 sin d_P = 2 sqrt(1 - (pi mu / (2 K))^2). Tolerance: that
+// of solve().
 TEST(FrictionTest, ForwardCurveInThePnMode) {
     for (double const mu : {0.1, 0.2, 0.35}) {
         for (double const k : {0.7, 1.0, 2.0}) {
@@ -101,8 +102,8 @@ TEST(FrictionTest, ForwardCurveInThePnMode) {
     }
 }
 
-// The inverse undoes the forward curve, and its interval is the curve's. Tolerance: the root's 2^-45 over the
-// slope.
+// friction_from_shake() inverts shake(), also for the interval. Tolerance: the accuracy 2^-45 of the root
+// divided by the slope.
 TEST(FrictionTest, InverseUndoesTheForwardCurve) {
     for (double const tan_alpha : {0.0, 0.05}) {
         for (double const mu : {0.12, 0.2, 0.3, 0.5, 0.8}) {

@@ -16,7 +16,7 @@ Inputs paper_inputs() {
     return inputs;
 }
 
-// Every point of a map is the point solved alone, whatever the number of threads. Tolerance: both know eta to
+// Every point of a map equals the point solved alone, for any number of threads. Tolerance: both know eta to
 // 1e-9.
 TEST(Map, IsItsPoints) {
     MapAxis const x{Input::throw_number, 0.3, 3.3, 41}, y{Input::vibration_angle_deg, 5, 60, 31};
@@ -35,8 +35,8 @@ TEST(Map, IsItsPoints) {
     }
 }
 
-// The line between flight and no flight is Gamma = 1 exactly, between FP'... and longer flights none.
-// Tolerance: 2^-30 of a cell of 0.1.
+// The boundary between modes with and without flight is exactly Gamma = 1; there is none between FP'... and
+// longer flights. Tolerance: 2^-30 of a cell of 0.1.
 TEST(Map, BoundariesAreRoots) {
     MapAxis const x{Input::throw_number, 0.35, 1.55, 13}, y{Input::vibration_angle_deg, 20, 50, 13};
     Map const map = solve_map(paper_inputs(), x, y, {});
@@ -53,7 +53,7 @@ TEST(Map, BoundariesAreRoots) {
     EXPECT_GT(at_one, 3);
 }
 
-// Fig. 7: at small beta over K the line PRNR - PN stands at mu sqrt(1 + pi^2/4) for beta = 0.
+// Fig. 7: at beta = 0 the boundary between PRNR and PN is at K = mu sqrt(1 + pi^2/4).
 TEST(Map, ModeDiagramAtSmallVibrationAngles) {
     Inputs inputs;
     inputs.set(Input::friction, 0.35);
@@ -83,8 +83,8 @@ TEST(Map, TakesAnyTwoInputs) {
 
 TEST(Map, RefusesInputsThatDoNotFit) {
     MapAxis const x{Input::throw_number, 0.3, 3.3, 3}, y{Input::vibration_angle_deg, 5, 60, 3};
-    EXPECT_THROW(solve_map(Inputs{}, x, y, {}), std::invalid_argument);        // no friction
-    EXPECT_THROW(solve_map(paper_inputs(), x, x, {}), std::invalid_argument);  // one axis twice
+    EXPECT_THROW(solve_map(Inputs{}, x, y, {}), std::invalid_argument);        // friction is missing
+    EXPECT_THROW(solve_map(paper_inputs(), x, x, {}), std::invalid_argument);  // the same axis twice
     Inputs twice = paper_inputs();
     twice.set(Input::throw_number, 2);
     EXPECT_THROW(solve_map(twice, x, y, {}), std::invalid_argument);

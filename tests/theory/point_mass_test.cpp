@@ -18,7 +18,7 @@ double efficiency(double throw_number, double tan_beta, double tan_alpha, double
 }
 
 // Sloot & Kruyt, Table 1, column e = 0: Eqs. 6-18 at tan(beta) = 0.25, mu = 0.23.
-// Tolerance: the table has three decimals; 0.210 at Gamma 1.5 is 0.209 in two independent codes.
+// Tolerance: the table has three decimals; for its 0.210 at Gamma = 1.5 two independent codes give 0.209.
 TEST(PointMass, ReproducesTable1) {
     double const tolerance = 0.001;
     EXPECT_NEAR(efficiency(1.5, 0.25, -0.05, 0.23), 0.477, tolerance);
@@ -29,7 +29,7 @@ TEST(PointMass, ReproducesTable1) {
     EXPECT_NEAR(efficiency(2, 0.25, 0.05, 0.23), 0.498, tolerance);
 }
 
-// The case that DEM is compared with. Tolerance: four decimals are given.
+// The case that DEM simulations are compared with. Tolerance: four decimals are known.
 TEST(PointMass, ReproducesTheCaseOfTheDem) {
     EXPECT_NEAR(efficiency(2, 0.5, 0, 0.23), 0.5815, 5e-5);
 }
@@ -43,7 +43,8 @@ TEST(PointMass, FliesAsLongAsEquation15Says) {
     for (double n = 0.001; n < 1; n += 0.001) {
         double const d = 2 * pi * n;
         double const ratio = (std::cos(d) + d * d / 2 - 1) / (d - std::sin(d));
-        // The ratio above loses d^4/24 to 1: relative error 1e-16 * 24 / d^4, and n grows like it.
+        // In the ratio above, terms of size d^4/24 are lost against 1: the relative error is 1e-16 * 24 /
+        // d^4, and n has the same error.
         double const tolerance = 1e-13 + n * 1e-15 * 24 / (d * d * d * d);
         EXPECT_NEAR(solve({std::hypot(ratio, 1), 0.25, 0, 0.23}).flight_number, n, tolerance) << n;
     }
@@ -57,8 +58,9 @@ TEST(PointMass, FliesAWholeCycleAtSqrt1PlusPiSquared) {
     EXPECT_EQ(motion.period_cycles, 1);
 }
 
-// Beyond, the landing relaunches: a flight of exactly one cycle from the phase where cos(phase) = pi / Gamma.
-// Tolerance: the period is accepted at a phase error of 1e-14, amplified by at most 1 / (1 - contraction).
+// Above this throw number the mass takes off again as it lands: a flight of exactly one cycle from the phase
+// where cos(phase) = pi / Gamma. Tolerance: the period is accepted at a phase error of 1e-14, amplified by at
+// most 1 / (1 - contraction).
 TEST(PointMass, RelaunchesAtOnceBeyondAWholeCycle) {
     for (double const throw_number : {3.3, 3.35, 3.4, 3.6}) {
         Motion const motion = solve({throw_number, 0.5, 0, 0.5});
@@ -69,15 +71,16 @@ TEST(PointMass, RelaunchesAtOnceBeyondAWholeCycle) {
 }
 
 TEST(PointMass, RecognisesPeriodsOfSeveralCycles) {
-    Motion const motion = solve({4.6, 0.5, 0, 0.5});  // lands in the second cycle, within reach of the trough
+    Motion const motion =
+        solve({4.6, 0.5, 0, 0.5});  // lands in the second cycle, at a height that the trough reaches
     ASSERT_TRUE(motion.converged);
     EXPECT_EQ(motion.period_cycles, 2);
     EXPECT_GT(motion.flight_number, 1);
     EXPECT_NEAR(motion.phases.back().end - motion.phases.front().start, 4 * pi, 1e-12);
 }
 
-// The phases of one period join and their displacements sum to eta times the period.
-// Tolerance: sums of a few doubles of order 10.
+// The phases of one period follow each other without gaps and their displacements sum to eta times the
+// period. Tolerance: sums of a few doubles of order 10.
 TEST(PointMass, PhasesCoverThePeriod) {
     for (double throw_number = 0.05; throw_number < 8; throw_number += 0.05) {
         for (double const tan_alpha : {-0.2, 0.0, 0.1}) {
@@ -98,7 +101,7 @@ TEST(PointMass, PhasesCoverThePeriod) {
     }
 }
 
-// Eqs. 7, 8: no slip starts while (mu -/+ tan(alpha)) tan(beta) > Gamma (1 +/- mu tan(beta)).
+// Eqs. 7, 8: slip does not start while (mu -/+ tan(alpha)) tan(beta) > Gamma (1 +/- mu tan(beta)).
 TEST(PointMass, RestsWhenTheDriveIsWeak) {
     Motion const motion = solve({0.02, 0.25, 0, 0.23});
     EXPECT_EQ(motion.mode, "R");

@@ -22,9 +22,10 @@ PointMass ordinary_point() {
     return {between(0.2, 8), std::tan(between(2, 80) * pi / 180), between(-0.9, 0.9) * mu, mu};
 }
 
-// Friction only brings two speeds together, so where |tan(alpha)| < mu every start ends in one motion.
-// Repeats the period map from another speed. Tolerance: the approach is geometric; what 2000 periods leave is
-// tested only where Newton's slope says it is below 1e-10.
+// Friction brings different velocities closer together, so that for |tan(alpha)| < mu every initial velocity
+// leads to the same motion. The test repeats the period map from another velocity. Tolerance: the convergence
+// is geometric; the test is made only where the slope of the map shows that less than 1e-10 is left after
+// 2000 periods.
 RC_GTEST_PROP(Properties, EveryStartEndsInTheSameMotion, ()) {
     PointMass const input = ordinary_point();
     Motion const motion = solve(input);
@@ -51,8 +52,9 @@ RC_GTEST_PROP(Properties, EveryStartEndsInTheSameMotion, ()) {
     RC_ASSERT(std::abs(eta - motion.velocity_efficiency) < 1e-9);
 }
 
-// beta -> 0 with Gamma -> 0 at fixed K: the normal force is constant, and turning the trough end for end
-// (alpha -> -alpha) turns the motion: eta -> -eta. Tolerance: the limit is approached as tan(beta).
+// beta -> 0 with Gamma -> 0 at fixed K: the normal force is constant, and reversing the inclination (alpha ->
+// -alpha) reverses the motion: eta -> -eta. Tolerance: the difference from the limit is proportional to
+// tan(beta).
 RC_GTEST_PROP(Properties, AntisymmetricInTheInclinationAtSmallVibrationAngles, ()) {
     double const mu = between(0.05, 1), tan_beta = 1e-7, tan_alpha = between(0, 0.9) * mu,
                  k = between(1.5, 20);
@@ -62,9 +64,9 @@ RC_GTEST_PROP(Properties, AntisymmetricInTheInclinationAtSmallVibrationAngles, (
     RC_ASSERT(std::abs(uphill + downhill) < 1e-4 * (1 + k));
 }
 
-// Along a line through the inputs eta is continuous while the throw number stays below sqrt(1 + pi^2), where
-// the landing jumps into the next cycle. Tolerance: steps of 1e-7 of the line; next to a tangency eta moves
-// like the square root of the step, 3e-4, times a slope of order 10.
+// Along a line in the space of inputs eta is continuous while the throw number stays below sqrt(1 + pi^2),
+// where the landing jumps to the next cycle. Tolerance: steps of 1e-7 of the line; close to a tangency eta
+// changes as the square root of the step, 3e-4, times a slope of order 10.
 RC_GTEST_PROP(Properties, ContinuousAlongLinesBelowAWholeCycle, ()) {
     double const mu = between(0.1, 1), alpha = between(-0.8, 0.8) * mu, beta = between(5, 70) * pi / 180;
     double const gamma = between(0.2, 3.2), turn = between(-1, 1);
@@ -76,9 +78,9 @@ RC_GTEST_PROP(Properties, ContinuousAlongLinesBelowAWholeCycle, ()) {
     RC_ASSERT(std::abs(at(1e-7) - at(0)) < 1e-2);
 }
 
-// Beyond, eta jumps only where the mode changes: where a landing misses the trough's crest, a flight ends in
-// another cycle and the order of phases or the period changes with it. Same tolerance; chaotic stretches (no
-// period, or a long one) are left out.
+// Above this throw number eta jumps only where the mode changes: where the mass just misses the highest
+// position of the trough, the flight ends in another cycle, and the order of phases or the period changes,
+// too. Same tolerance; chaotic intervals (no period, or a long one) are excluded.
 RC_GTEST_PROP(Properties, JumpsOnlyWhereTheModeChanges, ()) {
     double const mu = between(0.1, 1), alpha = between(-0.8, 0.8) * mu, beta = between(5, 70) * pi / 180;
     double const gamma = between(3.2, 8), turn = between(-1, 1);
@@ -92,7 +94,7 @@ RC_GTEST_PROP(Properties, JumpsOnlyWhereTheModeChanges, ()) {
     RC_ASSERT(std::abs(here.velocity_efficiency - there.velocity_efficiency) < 1e-2);
 }
 
-// Any finite input gives a finite efficiency or a named outcome, within bounded work.
+// Any finite input gives a finite efficiency or a named outcome within bounded work.
 RC_GTEST_PROP(Properties, ExtremeInputsHaveAnAnswer, ()) {
     double const mu = *rc::gen::element(0.0, 1e-12, 1e-3, 0.35, 1.0, 5.0, 1e6) * between(0, 1);
     double const beta = *rc::gen::element(1e-9, 0.1, 45.0, 89.9, 89.9999) * pi / 180;
@@ -108,7 +110,7 @@ RC_GTEST_PROP(Properties, ExtremeInputsHaveAnAnswer, ()) {
     EfficiencySolver fast;
     double const eta = fast(input).velocity_efficiency;
     RC_ASSERT(std::isfinite(eta) == !unbounded);
-    // Where the answer is well conditioned (see solve()) both solvers give the same.
+    // Where the problem is well conditioned (see solve()) both solvers agree.
     double const friction = mu * input.tan_vibration_angle;
     bool const settled_by_friction = friction > 1e-6 * std::max(1.0, gamma) && friction < 1e4 &&
                                      std::abs(input.tan_inclination) < 0.999 * mu;

@@ -29,9 +29,10 @@ Conveyor any_conveyor() {
     return c;
 }
 
-// Over a period the kinetic energy returns: work of the trough = friction + impact + drag losses + lift, for
-// every combination of the models. Tolerance: the quadrature (1e-12) and the state's return (1e-11 in
-// velocity); what rebounds below slowest_rebound = 1e-6 carry is its square.
+// Over a period the kinetic energy does not change: work of the trough = friction + impact + drag losses +
+// potential energy, for every combination of the models. Tolerance: the quadrature (1e-12) and the
+// periodicity of the state (1e-11 in velocity); the energy of rebounds below slowest_rebound = 1e-6 is its
+// square.
 RC_GTEST_PROP(EnergyBalance, WorkOfTheTroughIsLossesAndLift, ()) {
     Conveyor const conveyor = any_conveyor();
     ConveyorMotion const motion = solve(conveyor);
@@ -42,14 +43,14 @@ RC_GTEST_PROP(EnergyBalance, WorkOfTheTroughIsLossesAndLift, ()) {
              << " mu_s " << conveyor.static_friction << " e " << conveyor.restitution << " drag "
              << conveyor.air_drag << " mode " << motion.motion.mode << " first "
              << motion.pieces.front().along_velocity << " n " << motion.motion.period_cycles << " defect "
-             << energy.defect();
-    RC_ASSERT(std::abs(energy.defect()) < 1e-9 * motion.motion.period_cycles);
+             << energy.residual();
+    RC_ASSERT(std::abs(energy.residual()) < 1e-9 * motion.motion.period_cycles);
     RC_ASSERT(energy.friction_loss >= -1e-12);
     RC_ASSERT(energy.impact_loss >= 0);
 }
 
-// The trace is the motion: its slip integrates to eta, its flight leaves the trough. Tolerance: the trapezoid
-// rule at 20000 samples, with a jump at each impact.
+// The trace agrees with the motion: its slip velocity integrates to eta, and the gap is open during flight.
+// Tolerance: the trapezoidal rule with 20000 samples and a jump at each impact.
 TEST(Trace, IntegratesToTheEfficiency) {
     Conveyor conveyor{};
     conveyor.point = {2, 0.5, -0.05, 0.23};
@@ -73,7 +74,7 @@ TEST(Trace, IntegratesToTheEfficiency) {
     }
 }
 
-// Any time is the same time of the first period, further by what a period conveys.
+// The motion at any time equals that of the first period, displaced by the distance conveyed per period.
 TEST(Trace, RepeatsItselfFromPeriodToPeriod) {
     Conveyor conveyor{};
     conveyor.point = {.throw_number = 2.5, .tan_vibration_angle = 0.5, .friction = 0.23};
@@ -83,7 +84,7 @@ TEST(Trace, RepeatsItselfFromPeriodToPeriod) {
     for (int const periods : {-3, 0, 1, 40}) {
         for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
             TraceSample const again = sample(motion, samples[i].t + periods * period);
-            // Rounding of t, 40 periods: 250 * 2e-16, times velocities of order 1 to 10.
+            // Rounding of t after 40 periods: 250 * 2e-16, times velocities of order 1 to 10.
             EXPECT_NEAR(again.displacement, samples[i].displacement + periods * travel, 1e-11);
             EXPECT_NEAR(again.gap, samples[i].gap, 1e-11);
             if (again.kind != samples[i].kind) continue;  // at the very end of a phase
@@ -94,8 +95,8 @@ TEST(Trace, RepeatsItselfFromPeriodToPeriod) {
 }
 
 // omega^2 = Gamma g cos(alpha) / (r sin(beta)); v = eta omega r cos(beta); mass flow = density H W v. The
-// mean normal force is the weight: mean over the cycle of N plus impulses = g cos(alpha). Tolerance:
-// rounding; trapezoid.
+// mean normal force is the weight: the mean over the cycle of N plus impulses = g cos(alpha). Tolerance:
+// rounding; the trapezoidal rule.
 TEST(Quantities, AreInSiUnits) {
     Conveyor conveyor{};
     conveyor.point = {2, std::tan(pi / 6), 0, 0.3};
@@ -110,7 +111,8 @@ TEST(Quantities, AreInSiUnits) {
     EXPECT_NEAR(q.mass_flow, 800 * 0.012 * 0.2 * speed, 1e-10);
     EXPECT_NEAR(q.mean_power, q.trough_work * q.frequency, 1e-12);
     EXPECT_NEAR(q.impacts_per_cycle, 1, 1e-9);
-    EXPECT_NEAR(q.trough_work, q.friction_energy + q.impact_energy, 1e-9);  // level: no lift
+    EXPECT_NEAR(q.trough_work, q.friction_energy + q.impact_energy,
+                1e-9);  // level trough: the potential energy does not change
     double impulse = motion.impacts[0].approach;
     auto const samples = trace(motion, 20001);
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
@@ -121,8 +123,8 @@ TEST(Quantities, AreInSiUnits) {
     EXPECT_GT(q.impact_speed, q.normal_impact_speed * 0.999);
 }
 
-// d eta / d input against a secant of the solver itself with another step. Tolerance: the secant's second
-// order.
+// d eta / d input against a difference quotient of the solver itself with another step. Tolerance: its
+// second-order error.
 TEST(Sensitivities, AreDerivatives) {
     Inputs inputs;
     inputs.set(Input::throw_number, 1.7);
@@ -140,11 +142,11 @@ TEST(Sensitivities, AreDerivatives) {
     EXPECT_LT(answers[2].derivative, 0);  // uphill is slower
 }
 
-// No machine of a grid over the same limits is faster, and the limit that is named is the one that holds.
-// Tolerance: 0.1 %, what the search states.
+// No machine on a grid within the same limits is faster, and the limit reported as active is the one that
+// restricts the speed. Tolerance: 0.1 %, as stated for the search.
 TEST(Design, IsNotBeatenByAGrid) {
     DesignLimits limits{.friction = 0.3};
-    limits.most_machine_number = 4;
+    limits.max_machine_number = 4;
     Design const design = fastest_design(limits);
     ASSERT_TRUE(design.feasible);
     EXPECT_LE(design.machine_number, 4 * (1 + 1e-6));
@@ -169,7 +171,7 @@ TEST(Design, IsNotBeatenByAGrid) {
 
 TEST(Design, SaysWhenTheFlowIsNotReached) {
     DesignLimits limits{.friction = 0.3};
-    limits.least_mass_flow = 1e6;
+    limits.min_mass_flow = 1e6;
     limits.bulk_density = 800, limits.layer_height = 0.02, limits.layer_width = 0.2;
     Design const design = fastest_design(limits);
     EXPECT_FALSE(design.feasible);

@@ -24,7 +24,7 @@ struct Mass {
     Real weight() const { return 1 / static_cast<Real>(p.throw_number); }
     Real tan_beta() const { return p.tan_vibration_angle; }
     Real mu_tan() const { return p.friction * tan_beta(); }
-    Real constant() const {  // of the acceleration
+    Real constant() const {  // the constant part of the acceleration
         Real const hold = contact == Contact::slip ? -slip * p.friction : 0;
         return tan_beta() * weight() * (hold - p.tan_inclination);
     }
@@ -43,12 +43,12 @@ struct Mass {
         return std::sin(t_off) + std::cos(t_off) * h - weight() * h * h / 2 - std::sin(s);
     }
     Real normal_force(Real s) const { return weight() - std::sin(s); }
-    /// Positive: the phase goes on at s. It ends at the first zero.
+    /// Positive while the phase continues at time s. The phase ends at the first zero.
     Real holds(Real s) const {
         if (contact == Contact::flight) return gap(s);
         Real const force = normal_force(s);
         if (contact == Contact::slip) return std::min(force, slip * (velocity(s) - std::cos(s)));
-        // Sticking needs the trough's acceleration -sin s, against gravity.
+        // Sticking requires the acceleration -sin s of the trough, against gravity.
         Real const needed = -std::sin(s) + p.tan_inclination * tan_beta() * weight();
         return std::min(force, mu_tan() * force - std::abs(needed));
     }
@@ -65,7 +65,7 @@ struct Mass {
             slip = relative > 0 ? 1 : -1;
         } else if (std::abs(needed) > mu_tan() * normal_force(t)) {
             contact = Contact::slip;
-            slip = needed > 0 ? -1 : 1;  // friction would have to push forward: the mass lags
+            slip = needed > 0 ? -1 : 1;  // friction would have to push forwards: the mass lags behind
         } else {
             contact = Contact::stick;
         }

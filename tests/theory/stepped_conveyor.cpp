@@ -13,10 +13,10 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int steps = 3000;  // per cycle
 
 /// Slip velocity, gap and its rate.
-using State = std::array<double, 4>;  // the fourth is the way slipped
+using State = std::array<double, 4>;  // the fourth is the slip distance
 
-/// The equations of motion as they stand, integrated by Runge and Kutta's fourth-order rule; events by
-/// halving the step in which they happen.
+/// The equations of motion, integrated by the fourth-order Runge-Kutta method; events are found by bisecting
+/// the step in which they occur.
 class Stepper {
   public:
     explicit Stepper(Conveyor const& conveyor) : c_(conveyor) {
@@ -75,7 +75,7 @@ class Stepper {
         for (std::size_t i = 0; i < s.size(); ++i) s[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
         return s;
     }
-    /// Whether the phase still holds at the end of a step of h.
+    /// Whether the phase still lasts at the end of a step of length h.
     bool holds(double h) const {
         State const s = stepped(h);
         double const t = t_ + h;

@@ -20,7 +20,7 @@ def points(name):
 
 
 def main(folder):
-    # name: times, grains, points of the block (None: there is no such object)
+    # name: times, grains, points of the block (None: the object does not exist)
     wanted = {"none": (0, None, None), "one": (1, 500, 24), "no_grains": (1, 0, 24), "no_point_mass": (3, 500, None)}
     for name, (times, grains, block) in wanted.items():
         ResetSession()

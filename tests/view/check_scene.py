@@ -44,8 +44,8 @@ def check_frame(step, dumps):
     arrays = FindSource("grains").PointData
     assert {name: arrays[name].GetNumberOfComponents() for name in arrays.keys()} == ARRAYS
 
-    # Spheres of true size reach from the least x - r to the largest x + r. A sphere of 20 facets around falls short of
-    # its radius by at most 1 - cos(pi / 20) = 1.3 %: 2e-5 m of 1.65 mm.
+    # Spheres of true size extend from the smallest x - r to the largest x + r. The facets of a sphere with 20 facets per
+    # turn are closer to its centre than the radius by at most 1 - cos(pi / 20) = 1.3 %: 2e-5 m of 1.65 mm.
     bounds = FindSource("spheres").GetDataInformation().GetBounds()
     for axis in range(3):
         near(bounds[2 * axis], min(row[axis] - row[6] for row in rows), 2.2e-5, f"spheres, axis {axis}, low")
@@ -63,7 +63,7 @@ def check_frame(step, dumps):
     text = annotation("cycle and phase")
     assert text == f"cycle 21, phase {phase:3.0f} deg", text
 
-    # The theory's block stands on the trough, or flies above it, in front of the layer.
+    # The block of the theory rests on the trough or flies above it, in front of the layer.
     block = FindSource("point_mass").GetDataInformation()
     assert block.GetNumberOfPoints() == 24 and block.GetNumberOfCells() == 6
     text = annotation("motion of the point mass")
@@ -75,24 +75,24 @@ def check_frame(step, dumps):
     lane = FindSource("lane of the point mass").GetDataInformation().GetBounds()
     assert lane[2] < block.GetBounds()[2] and block.GetBounds()[3] < lane[3] < 0, f"the lane is {lane}"
 
-    # All grains are in the profile: solid fraction summed over slabs of half a mean diameter.
+    # The profile contains all grains: the solid fraction summed over slabs of half a mean diameter.
     profile = FindSource("profile").PointData
     assert profile["solid_fraction"].GetRange()[1] < 0.75 and profile["height"].GetRange()[1] < 0.1
 
-    # The table has six digits of 5 mm, the trough single precision of 4 cm: 5e-9 m together.
+    # Rounding: six digits of 5 mm in the table and single precision of 4 cm in the trough, 5e-9 m together.
     trough = FindSource("trough").GetDataInformation().GetBounds()
     near(trough[0], AMPLITUDE_X * math.sin(OMEGA * time), 1e-8, "trough, x")
     near(trough[4], AMPLITUDE_Z * math.sin(OMEGA * time), 1e-8, "trough, z")
 
 
 def annotation(name):
-    """What a text of the scene says."""
+    """The content of a text annotation in the scene."""
     table = servermanager.Fetch(FindSource(name))
     return table.GetColumn(0).GetValue(0)
 
 
 def check_charts():
-    """Two charts beside the layer, with the layer's height over velocity and over solid fraction."""
+    """There are two charts beside the layer: height over velocity and height over solid fraction."""
     charts = [view for view in GetViews() if view.GetXMLName() == "XYChartView"]
     assert len(charts) == 2, f"{len(charts)} charts"
     for chart in charts:
@@ -102,7 +102,7 @@ def check_charts():
 
 
 def check_picture(path):
-    """Grains that run ahead of the trough are red: half as much of the picture at least as when it is right (29 %)."""
+    """Grains faster than the trough are red: at least half as much of the picture as in a correct image (29 %)."""
     view = GetActiveView()
     view.ViewSize = [400, 250]
     SaveScreenshot(path, view, ImageResolution=[400, 250])

@@ -1,5 +1,5 @@
-// Exports the sample's frames into a folder, for the tests that open it in ParaView: the whole sample, and
-// below "poor" what has no frame, one frame, no grain or no periodic point mass.
+// Exports the sample's frames into a folder, for the tests that open it in ParaView: the whole sample, and in
+// the folder "poor" exports without frames, with one frame, without grains or without a periodic point mass.
 
 #include "view/frames.hpp"
 #include "view/table_vtk.hpp"

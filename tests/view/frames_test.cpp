@@ -101,7 +101,7 @@ TEST_F(Frames, CollectionsHaveTrueTimes) {
         ASSERT_EQ(entries.size(), 3u);
         for (int i = 0; i < 3; ++i) {
             auto const& [time, file] = entries[static_cast<std::size_t>(i)];
-            // Exact: the same product, printed so that it reads back as the same double.
+            // Exact: the same product, printed with enough digits to be read back as the same double.
             EXPECT_EQ(time, (60000 + 300 * i) * time_step);
             auto const data = read(file);
             ASSERT_NE(data->GetFieldData()->GetArray("TimeValue"), nullptr);
@@ -181,7 +181,7 @@ TEST_F(Frames, NoFileHasAppendedData) {
     EXPECT_EQ(files, 4 * 3);
 }
 
-// Frames are a tenth of a cycle apart, from the start of cycle 20 on.
+// Frames are a tenth of a cycle apart, beginning at the start of cycle 20.
 TEST_F(Frames, KnowCycleAndPhase) {
     export_frames(source, target);
     for (std::string const object : {"grains", "trough", "point_mass", "profile"}) {
@@ -189,7 +189,7 @@ TEST_F(Frames, KnowCycleAndPhase) {
             auto const data = read(fmt::format("{}/{:06}.vtp", object, i));
             vtkFieldData& facts = *data->GetFieldData();
             EXPECT_EQ(facts.GetArray("cycle")->GetComponent(0, 0), 20.0);
-            // 60000 steps of 2.4e-5 s: 126 rad, known to 1e-14 rad.
+            // 60000 steps of 2.4e-5 s: 126 rad, accurate to 1e-14 rad.
             EXPECT_NEAR(facts.GetArray("vibration_phase")->GetComponent(0, 0), 36.0 * i, 1e-9);
         }
     }
@@ -270,7 +270,7 @@ TEST_F(Frames, GarbageNamesFileAndLine) {
     EXPECT_THAT(with("\n500\n", "\n499\n"),
                 AllOf(HasSubstr("frames.60300.dump:509: "), HasSubstr("last grain")));
     EXPECT_THAT(with("\n500\n", "\n-5\n"), HasSubstr("frames.60300.dump:4: "));
-    // More grains promised than there are: a file that was cut, here in the middle of the run.
+    // The header states more grains than the file contains: a truncated file in the middle of the run.
     EXPECT_THAT(with("\n500\n", "\n4000000000000\n"), HasSubstr("ends early"));
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double length_x = 0.00536656, length_z = 0.00268328;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// The demo's trough: Gamma = 2 flies and slides (FN'), Gamma = 0.6 slides and rests.
+/// The trough of the demo: at Gamma = 2 the mass flies and slides (FN'), at Gamma = 0.6 it slides and rests.
 class PointMass : public testing::Test {
   protected:
     static TheoryMotion motion_at(double throw_number) {
@@ -44,7 +44,7 @@ TEST_F(PointMass, IsConveyedByTheVelocityEfficiency) {
         PointMassMotion const mass(source, motion);
         double const period = two_pi / source.angular_frequency;
         int const cycles = 12 * motion.motion.motion.period_cycles;
-        // The trough is back at its place; eta is known to 1e-9 of 12 r cos(beta).
+        // The trough is back at its initial position; eta is known to 1e-9, of 12 r cos(beta).
         EXPECT_NEAR(mass.at(cycles * period).x - mass.at(0.0).x,
                     two_pi * cycles * motion.motion.motion.velocity_efficiency * length_x, 1e-9)
             << throw_number;
@@ -60,8 +60,8 @@ TEST_F(PointMass, RestsSlidesAndFliesInStep) {
             double const time = i / 360.0 * two_pi / source.angular_frequency;
             double const rate = source.angular_frequency * std::cos(source.angular_frequency * time);
             PointMassState const state = mass.at(time);
-            // Relative velocity is velocity minus the trough's, A omega cos(omega t): sums of numbers below 1
-            // m/s.
+            // The relative velocity is the velocity minus that of the trough, A omega cos(omega t): sums of
+            // numbers below 1 m/s.
             EXPECT_NEAR(state.velocity[0] - length_x * rate, state.relative_velocity[0], 1e-14);
             EXPECT_NEAR(state.velocity[2] - length_z * rate, state.relative_velocity[2], 1e-14);
             switch (state.phase) {
@@ -85,7 +85,8 @@ TEST_F(PointMass, RestsSlidesAndFliesInStep) {
     EXPECT_GT(slides, 0);
 }
 
-// Velocity is the derivative of position: central difference with an error of h^2 times the jerk, 3e-6 m/s.
+// The velocity is the derivative of the position: a central difference with an error of h^2 times the jerk,
+// 3e-6 m/s.
 TEST_F(PointMass, PositionsBelongToVelocities) {
     auto const motion = motion_at(2.0);
     PointMassMotion const mass(source, motion);
@@ -102,7 +103,8 @@ TEST_F(PointMass, PositionsBelongToVelocities) {
     EXPECT_GT(compared, 80);
 }
 
-// With an elliptical drive and a harmonic, velocity less relative velocity is still the trough's.
+// With an elliptical drive and a harmonic, velocity minus relative velocity is still the velocity of the
+// trough.
 TEST_F(PointMass, FollowsAnyDrive) {
     theory::Conveyor conveyor{};
     conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
@@ -120,8 +122,8 @@ TEST_F(PointMass, FollowsAnyDrive) {
         EXPECT_NEAR(state.velocity[0] - state.relative_velocity[0], trough.vx, 1e-12);
         EXPECT_NEAR(state.velocity[2] - state.relative_velocity[2], trough.vz, 1e-12);
         EXPECT_GE(state.gap, 0.0);
-        // The trough's velocity is its displacement's derivative: error h^2 omega^3 A / 6 = 1e-9 m/s and
-        // rounding.
+        // The velocity of the trough is the derivative of its displacement: error h^2 omega^3 A / 6 = 1e-9
+        // m/s plus rounding.
         double const h = 1e-6;
         EXPECT_NEAR((trough_state(source, time + h).x - trough_state(source, time - h).x) / (2 * h),
                     trough.vx, 1e-7);
@@ -141,7 +143,7 @@ TEST_F(PointMass, BlockStandsOnTheTroughBesideTheLayer) {
                                    0.002);
         double bounds[6];
         data->GetBounds(bounds);
-        // Single precision of 4 cm: 2e-9 m each.
+        // Single precision of 4 cm: 2e-9 m for each coordinate.
         for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(bounds[2 * axis + 1] - bounds[2 * axis], edge, 1e-8);
         EXPECT_NEAR(bounds[4], 0.0025, 1e-8);
         EXPECT_LT(bounds[3], 0.0) << "in front of the layer";

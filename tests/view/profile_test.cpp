@@ -38,7 +38,7 @@ TEST(Profile, OfOneSphereIsTwoHalves) {
     EXPECT_NEAR(profile.velocity[0], 0.25, 1e-12);
 }
 
-// Slices add up to the spheres, and their momenta to the grains': sum over slabs = sum over grains.
+// The volumes and momenta of the slices, summed over the slabs, equal those of the grains.
 TEST(Profile, LosesNoVolumeAndNoMomentum) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0.0F, 1.0F);

@@ -1,6 +1,6 @@
 #!/bin/sh
-# run_pvbatch.sh WORK_FOLDER PYTHON SCRIPT ARGUMENTS ...: runs a script in Debian's ParaView, rendering without a screen.
-# Exits with 77 (skipped) when ParaView is not installed, and says so.
+# run_pvbatch.sh WORK_FOLDER PYTHON SCRIPT ARGUMENTS ...: runs a script in Debian's ParaView and renders without a screen.
+# Exits with 77 (skipped) and a message when ParaView is not installed.
 set -eu
 work=$1
 python=$2
@@ -19,7 +19,7 @@ if ! "$python" -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec
     if ! test -d "$modules"; then
         mkdir -p "$work/download"
         (cd "$work/download" && apt-get download python3-paraview) || {
-            echo "SKIPPED: python3-paraview can be neither found nor downloaded"
+            echo "SKIPPED: python3-paraview was not found and could not be downloaded"
             exit 77
         }
         rm -rf "$modules.part"

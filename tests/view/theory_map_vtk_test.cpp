@@ -16,7 +16,7 @@
 namespace vibrotrough::view {
 namespace {
 
-// Read back by VTK's own readers. Tolerance: none, doubles are stored as they are.
+// Read back with VTK's own readers. Tolerance: zero, because doubles are stored exactly.
 TEST(TheoryMapVtk, IsReadBack) {
     theory::Inputs inputs;
     inputs.set(theory::Input::friction, 0.35);

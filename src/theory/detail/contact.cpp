@@ -3,9 +3,10 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double root_step = 3e-6;  // a Halley step this small leaves an error of its cube, below rounding
+constexpr double root_step =
+    3e-6;  // a Halley step of this size leaves an error of its cube, which is below rounding
 
-/// sine and cosine a small step further, by Taylor: exact to rounding for |d| <= root_step.
+/// Sine and cosine a small step later, by Taylor expansion: exact to rounding for |d| <= root_step.
 Instant shifted(Instant a, double d) {
     double const half = d * d / 2;
     return {a.t + d, a.sine * (1 - half) + a.cosine * d, a.cosine * (1 - half) - a.sine * d};
@@ -15,7 +16,7 @@ Instant shifted(Instant a, double d) {
 
 Slide::Slide(double sign, double b, double c) : sign_(sign), b_(b), c_(c) {
     double const size = std::abs(b);
-    if (!(c < size)) return;  // slows down always
+    if (!(c < size)) return;  // always decelerates
     double const s = std::max(c / size, -1.0);
     double const delta = std::asin(s);
     double const flip = b < 0 ? -1 : 1;
@@ -34,8 +35,8 @@ Law make_law(PointMass const& input) {
             .negative = Slide(-1, friction_tangent - 1, (input.friction - input.tan_inclination) * weight)};
 }
 
-// The speed falls monotonically over [lo, hi], from above zero to zero or below; it falls fastest at
-// `steepest`, from where Newton approaches the zero from one side.
+// The speed decreases monotonically over [lo, hi] from a positive to a zero or negative value. It decreases
+// fastest at `steepest`, from where Newton's method approaches the zero from one side.
 Instant Slide::stop_between(double w0, Instant from, double lo, double hi, double steepest,
                             double hint) const {
     double h = hint;
@@ -60,7 +61,7 @@ Instant Slide::stop_between(double w0, Instant from, double lo, double hi, doubl
         double next = h + step;
         bool const inside = slope < 0 && next >= lo && next <= hi;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
-        // Next to a tangency rounding keeps the steps from shrinking: then halve.
+        // Near a tangency rounding keeps the steps from shrinking: then bisect.
         if (!inside || i > 20) next = lo + (hi - lo) / 2;
         if (hi - lo <= 4e-16 * (1 + std::abs(from.t + h)) || next == h) return here;
         h = next;
@@ -71,7 +72,7 @@ Instant Slide::stop_between(double w0, Instant from, double lo, double hi, doubl
 Instant Slide::stop(double w0, Instant from, Instant limit, bool begins, double hint, bool& stopped) const {
     double const h_max = limit.t - from.t;
     stopped = true;
-    if (!can_start()) {  // slows down always
+    if (!can_start()) {  // always decelerates
         if (speed(w0, from, limit.t, limit.cosine) <= 0) {
             double const from_begin = from.t - (b_ < 0 ? pi / 2 : -pi / 2);
             double const steepest = two_pi * std::ceil(from_begin / two_pi) - from_begin;

@@ -8,15 +8,15 @@
 #include <cmath>
 #include <numbers>
 
-// The motion along the trough while the mass touches it. Internal to the room.
+// The motion along the trough while the mass is in contact with it. Internal to this room.
 // Lengths along the trough in r cos(beta), time in 1/omega, relative velocity v = x' - cos t.
 namespace vibrotrough::theory::detail {
 
 inline constexpr double pi = std::numbers::pi;
 inline constexpr double two_pi = 2 * pi;
-inline constexpr double unknown = -1;  ///< no hint
+inline constexpr double unknown = -1;  ///< stands for a missing hint
 
-/// A time with its sine and cosine, which cost more than everything else that is done with it.
+/// A time together with its sine and cosine, which are the most expensive part of all calculations with it.
 struct Instant {
     double t, sine, cosine;
     static Instant at(double t) { return {t, std::sin(t), std::cos(t)}; }
@@ -27,8 +27,8 @@ inline double sine_excess(Instant a, Instant b) {
     return b.sine - a.sine - (b.t - a.t) * a.cosine;
 }
 
-/// A slide in one direction (Eq. 6 relative to the trough): its speed w = |v| changes by w' = b sin t - c.
-/// It can start from rest, and speeds up, where b sin t > c.
+/// A slide in one direction (Eq. 6 relative to the trough): its speed w = |v| obeys w' = b sin t - c. Where b
+/// sin t > c it can start from rest and accelerates.
 class Slide {
   public:
     Slide() = default;
@@ -36,7 +36,7 @@ class Slide {
 
     double sign() const { return sign_; }
     bool can_start() const { return length_ > 0; }
-    /// Where it can start (Eqs. 7, 8), in the cycle of [0, 2 pi).
+    /// The phase at which it can start (Eqs. 7, 8), in [0, 2 pi).
     Instant begin() const { return {begin_, begin_sine_, begin_cosine_}; }
     double acceleration(double sine) const { return b_ * sine - c_; }
     double speed(double w0, Instant from, double t, double cosine) const {
@@ -47,15 +47,16 @@ class Slide {
         double const h = to.t - from.t;
         return w0 * h - c_ * h * h / 2 - b_ * sine_excess(from, to);
     }
-    /// How long from t until a slide can start; infinite when never.
+    /// Time from t until a slide can start; infinite if it never can.
     double wait(double t) const {
         if (!can_start()) return HUGE_VAL;
         double const p = position(t);
         return p < length_ ? 0 : two_pi - p;
     }
-    /// When the speed is zero (Eq. 11), at the latest at `limit`; whether it stopped is in `stopped`.
-    /// @param begins  it starts where it can start: rounding could put the instant just before that
-    /// @param hint    a guess of the duration, or `unknown`; it changes the cost, not the answer
+    /// The time when the speed reaches zero (Eq. 11), at the latest `limit`; `stopped` is set to whether it
+    /// did.
+    /// @param begins  whether the slide starts at begin(): rounding could put the instant just before it
+    /// @param hint    a guess of the duration, or `unknown`; it changes the cost but not the result
     Instant stop(double w0, Instant from, Instant limit, bool begins, double hint, bool& stopped) const;
 
   private:
@@ -63,16 +64,16 @@ class Slide {
         double const x = t - begin_;
         double const p = x - two_pi * std::floor(x * (1 / two_pi));
         return two_pi - p > 1e-15 * (1 + std::abs(t)) ? p
-                                                      : 0;  // rounding: just before the begin is the begin
+                                                      : 0;  // rounding: just before begin() counts as begin()
     }
     Instant stop_between(double w0, Instant from, double lo, double hi, double steepest, double hint) const;
 
     double sign_ = 1, b_ = 0, c_ = 0;
-    double begin_ = 0, length_ = 0;  // where it speeds up: [begin, begin + length] modulo 2 pi
+    double begin_ = 0, length_ = 0;  // it accelerates in [begin, begin + length] modulo 2 pi
     double begin_sine_ = 0, begin_cosine_ = 1;
 };
 
-/// What acts on the mass along the trough.
+/// The forces that act on the mass along the trough.
 struct Law {
     double friction_tangent;  ///< mu tan(beta)
     double gravity;           ///< tan(alpha) tan(beta) / Gamma
@@ -81,13 +82,13 @@ struct Law {
 
 Law make_law(PointMass const& input);
 
-/// Tangential velocity with its derivative with respect to the velocity at the start of the period.
+/// The tangential velocity and its derivative with respect to the velocity at the start of the period.
 struct Tangent {
     double v;
     double slope;
 };
 
-/// Durations of the slides of an earlier evaluation nearby, in order: guesses for this one.
+/// The durations of the slides in an earlier, similar evaluation, in order: guesses for the present one.
 struct Hints {
     std::array<double, 8> duration{unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown};
     std::size_t next = 0;
@@ -98,26 +99,27 @@ struct Hints {
     }
 };
 
-inline constexpr int most_contact_phases = 1000000;
+inline constexpr int max_contact_phases = 1000000;
 
 inline PhaseKind slide_kind(bool positive, bool landed) {
     if (positive) return landed ? PhaseKind::positive_slide_after_landing : PhaseKind::positive_slide;
     return landed ? PhaseKind::negative_slide_after_landing : PhaseKind::negative_slide;
 }
 
-/// Past a stop: either the mass slides back at once, and its velocity then depends on the time of the stop,
-/// or it rests and forgets. Gives d v / d v0 after the stop.
+/// d v / d v0 after a stop. Either the mass slides back at once, so that its velocity depends on the time of
+/// the stop, or it rests and no longer depends on the initial velocity.
 inline double slope_past_stop(Slide const& slide, Slide const& back, double sine, double slope) {
     double const slowing = slide.acceleration(sine), reversed = back.acceleration(sine);
     return reversed > 0 && slowing < 0 ? slope * std::min(-reversed / slowing, 1.0) : 0;
 }
 
-/// Follows the contact from `at` to `end`. `record(kind, from, to, displacement, slope)` is told each phase.
+/// Follows the contact from `at` to `end`. Calls `record(kind, from, to, displacement, slope)` for each
+/// phase.
 template <class Record>
 Tangent follow_contact(Law const& law, Tangent s, Instant at, Instant const end, bool landed, Hints& hints,
                        Record& record) {
     for (int guard = 0; at.t < end.t; ++guard) {
-        if (guard > most_contact_phases) throw PhaseError("the contact does not end");
+        if (guard > max_contact_phases) throw PhaseError("the contact does not end");
         bool forward = s.v > 0, begins = false;
         if (s.v == 0) {
             double const wait_p = law.positive.wait(at.t), wait_n = law.negative.wait(at.t);

@@ -12,14 +12,15 @@ using detail::Sample;
 using detail::Term;
 using detail::Trigonometric;
 
-constexpr double drag_reach = 1;  // rad: within it the bounds on drag below hold
+constexpr double drag_reach = 1;  // rad: the distance within which the bounds on drag below hold
 
 /// (1 - exp(-kappa h)) / kappa
 double once_decayed(double kappa, double h) {
     return kappa * h == 0 ? h : -std::expm1(-kappa * h) / kappa;
 }
 
-/// Its integral: (h - once_decayed) / kappa, by its series where the difference would lose digits.
+/// The integral of once_decayed: (h - once_decayed) / kappa, from a series where the difference would lose
+/// digits.
 double twice_decayed(double kappa, double h) {
     double const x = kappa * h;
     if (x > 0.1) return (h - once_decayed(kappa, h)) / kappa;
@@ -31,7 +32,8 @@ double twice_decayed(double kappa, double h) {
     return sum;
 }
 
-/// Position for -amplitude sin(order t + phase) of acceleration: amplitude / order^2 sin(...).
+/// The position of the trough; an acceleration -amplitude sin(order t + phase) gives amplitude / order^2
+/// sin(...).
 Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& harmonics) {
     std::vector<Term> terms{{1, ratio, phase}};
     for (Harmonic const& h : harmonics) {
@@ -75,18 +77,19 @@ ConveyorModel::ConveyorModel(Conveyor const& conveyor)
       gravity_(conveyor.point.tan_inclination * conveyor.point.tan_vibration_angle * weight_),
       drag_(conveyor.air_drag) {
     auto const friction = effective_friction(conveyor);
-    kinetic_ = friction.kinetic * conveyor.point.tan_vibration_angle;
-    standing_ = friction.standing * conveyor.point.tan_vibration_angle;
-    landing_ = friction.landing * conveyor.point.tan_vibration_angle;
+    kinetic_ = friction.kinetic_friction * conveyor.point.tan_vibration_angle;
+    static_ = friction.static_friction * conveyor.point.tan_vibration_angle;
+    landing_ = friction.landing_friction * conveyor.point.tan_vibration_angle;
     normal_ = y_.differentiated(1, drag_);
     needed_ = x_.differentiated(1, drag_);
     positive_ = make_slide(+1);
     negative_ = make_slide(-1);
-    // The mass lags behind (N slide) when more than +standing N is needed, runs ahead (P) below -standing N.
-    hold_positive_ = {standing_ * weight_ + gravity_, normal_ * standing_ + needed_};
-    hold_negative_ = {standing_ * weight_ - gravity_, normal_ * standing_ + needed_ * -1};
+    // The mass lags behind (N slide) when a friction force above +mu_s N is needed, and runs ahead (P slide)
+    // when it is below -mu_s N.
+    hold_positive_ = {static_ * weight_ + gravity_, normal_ * static_ + needed_};
+    hold_negative_ = {static_ * weight_ - gravity_, normal_ * static_ + needed_ * -1};
     normal_bend_ = normal_.derivative_bound(2);
-    hold_bend_ = standing_ * normal_bend_ + needed_.derivative_bound(2);
+    hold_bend_ = static_ * normal_bend_ + needed_.derivative_bound(2);
     fall_bound_ = weight_ + ay_.bound();
 }
 
@@ -131,7 +134,7 @@ double ConveyorModel::slip_after(double sign, double t, double end) const {
 
 double ConveyorModel::stop_after(double sign, double t, double speed, double end) const {
     Slide const& s = slide(sign);
-    // While the drive is above zero the speed is, too.
+    // While the driving acceleration is positive, the speed is positive, too.
     auto const drive = [&](double a) { return Sample{slide_drive(sign, a), s.drive.rate(a), s.drive_bend}; };
     double const from = speed == 0 || slide_drive(sign, t) >= 0 ? first_zero(drive, t, end) : t;
     if (from >= end) return end;
@@ -150,7 +153,7 @@ double ConveyorModel::landing_after(double t, double gap, double gap_rate, doubl
     double from = t;
     bool const takes_off = gap == 0 && gap_rate == 0;
     if (takes_off || (gap_rate >= 0 && normal_force(t) <= 0)) {
-        // While the trough falls away faster than the mass the gap grows: (gap)'' + kappa (gap)' = -N.
+        // While the trough falls away faster than the mass, the gap grows: (gap)'' + kappa (gap)' = -N.
         auto const lift = [&](double s) { return Sample{-normal_force(s), -normal_.rate(s), normal_bend_}; };
         from = first_zero(lift, t, end);
         if (from >= end) return end;

@@ -6,15 +6,15 @@
 
 namespace vibrotrough::theory {
 
-/// Velocity that obeys u' = -kappa u + constant + (a trigonometric sum), in closed form from (t0, u0).
+/// A velocity that obeys u' = -kappa u + constant + (a trigonometric sum), in closed form from u(t0) = u0.
 class DrivenVelocity {
   public:
-    /// @param particular  the bounded solution for the sum; nullptr for none
+    /// @param particular  the bounded solution for the sum; nullptr if there is no sum
     /// @param integral    an antiderivative of `particular`
     DrivenVelocity(double kappa, double constant, detail::Trigonometric const* particular,
                    detail::Trigonometric const* integral, double t0, double u0);
     double operator()(double t) const;
-    /// The way from t0 to t.
+    /// The distance travelled from t0 to t.
     double travel(double t) const;
 
   private:
@@ -23,8 +23,9 @@ class DrivenVelocity {
     detail::Trigonometric const* integral_;
 };
 
-/// The analytic phases of a Conveyor. Lengths along in r cos(beta), normal in r sin(beta), time in 1/omega,
-/// forces per mass in omega^2 r cos(beta) and omega^2 r sin(beta).
+/// The analytic solution of each phase of a Conveyor. Lengths are in r cos(beta) along the trough and r
+/// sin(beta) normal to it, time is in 1/omega, forces per unit mass are in omega^2 r cos(beta) and omega^2 r
+/// sin(beta).
 class ConveyorModel {
   public:
     explicit ConveyorModel(Conveyor const& conveyor);
@@ -40,20 +41,21 @@ class ConveyorModel {
     double weight() const { return weight_; }    ///< 1 / Gamma
     double gravity() const { return gravity_; }  ///< tan(alpha) tan(beta) / Gamma
     double drag() const { return drag_; }
-    double kinetic_tangent() const { return kinetic_; }  ///< mu tan(beta), walls included
-    double landing_tangent() const { return landing_; }  ///< the same of a landing's impulse
+    double kinetic_tangent() const { return kinetic_; }  ///< mu tan(beta), side walls included
+    double landing_tangent() const { return landing_; }  ///< the same for the impulse of a landing
 
     /// N(t) in contact: 1/Gamma + Y'' + kappa Y'.
     double normal_force(double t) const { return weight_ + normal_(t); }
-    /// Friction that keeps the mass on the trough: X'' + kappa X' + gravity.
+    /// The friction force that keeps the mass at rest on the trough: X'' + kappa X' + gravity.
     double needed_friction(double t) const { return gravity_ + needed_(t); }
-    /// Acceleration of the slip speed of a slide in direction sign (+1, -1) at zero speed; above zero it
-    /// starts.
+    /// The acceleration of a slide in direction sign (+1, -1) at zero slip speed; it starts if this is
+    /// positive.
     double slide_drive(double sign, double t) const {
         Slide const& s = slide(sign);
         return s.drive_constant + s.drive(t);
     }
-    /// How far static friction is from giving way to a slide in direction sign.
+    /// The margin of static friction against a slide in direction sign; negative when the mass starts to
+    /// slide.
     double hold(double sign, double t) const { return hold(sign).constant + hold(sign).sum(t); }
 
     DrivenVelocity slide_velocity(double sign, double t0, double u0) const;
@@ -83,7 +85,7 @@ class ConveyorModel {
 
     Conveyor conveyor_;
     detail::Trigonometric x_, y_, vx_, vy_, ax_, ay_;
-    double weight_, gravity_, drag_, kinetic_, standing_, landing_;
+    double weight_, gravity_, drag_, kinetic_, static_, landing_;
     detail::Trigonometric normal_, needed_;
     Slide positive_, negative_;
     Shifted hold_positive_, hold_negative_;

@@ -8,7 +8,7 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double shortest_piece = 1e-12;  // rad; shorter ones are rounding
+constexpr double shortest_piece = 1e-12;  // rad; shorter pieces are rounding errors
 constexpr double rounding = 1e-13;        // of forces
 constexpr int most_events = 2000000;
 
@@ -49,7 +49,8 @@ void Walk::fly(WalkState& s, double end, Passage& passage, Keep keep) const {
     if (landing < end) land(s, std::max(-s.gap_rate, 0.0), passage, keep);
 }
 
-// Eqs. 17, 18 and 23: impulse mu (1 + e) times the approach (mu of landings), at most what stops the slip.
+// Eqs. 17, 18 and 23: the impulse is mu (1 + e) times the approach velocity (with mu of landings), limited to
+// the value that stops the slip.
 void Walk::land(WalkState& s, double approach, Passage& passage, Keep keep) const {
     Conveyor const& conveyor = model_.conveyor();
     double const bounce = conveyor.restitution * approach;
@@ -126,7 +127,7 @@ void Walk::slide(WalkState& s, double end, Passage& passage, Keep keep) const {
     double const moved = u.travel(to) - (model_.trough_x(to) - model_.trough_x(s.t));
     keep_piece(passage, keep, {s.kind, s.t, to, model_.trough_vx(s.t) + s.v, 0, 0, moved});
     s.slope *= std::exp(-model_.drag() * (to - s.t));
-    if (to < off) {  // it stops: and slides back at once, or sticks
+    if (to < off) {  // it stops, and either slides back at once or sticks
         passage.stopped = true;
         double const slowing = model_.slide_drive(sign, to), back = model_.slide_drive(-sign, to);
         bool const gives_way = model_.hold(-sign, to) < 0;

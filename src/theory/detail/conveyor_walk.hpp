@@ -4,36 +4,36 @@
 
 #include <vector>
 
-// Internal to the room.
+// Internal to this room.
 namespace vibrotrough::theory::detail {
 
-/// Where a motion is.
+/// The state of a motion at one time.
 struct WalkState {
     double t = 0;
     bool flying = false;
-    double gap = 0, gap_rate = 0;      ///< of a flight
+    double gap = 0, gap_rate = 0;      ///< height above the trough during a flight, and its rate
     double v = 0;                      ///< slip velocity
-    double slope = 1;                  ///< d v / d v at the start of the walk
-    double starting = 0;               ///< +1, -1: a slide starts here from rest
-    bool landed = false;               ///< the contact phase that comes now starts with a landing
-    PhaseKind kind = PhaseKind::rest;  ///< of the slide under way
+    double slope = 1;                  ///< derivative of v with respect to v at the start of the walk
+    double starting = 0;               ///< +1, -1: a slide in this direction starts here from rest
+    bool landed = false;               ///< whether the next contact phase starts with a landing
+    PhaseKind kind = PhaseKind::rest;  ///< of the current slide
 };
 
-/// What a walk passed.
+/// What happened during a walk.
 struct Passage {
     std::vector<Piece> pieces;
     std::vector<Impact> impacts;
     double displacement = 0;
-    bool stopped = false;  ///< the slip velocity was zero at least once
+    bool stopped = false;  ///< whether the slip velocity was zero at least once
 };
 
-/// Follows the motion of a model event by event.
+/// Follows the motion of a model from event to event.
 class Walk {
   public:
     enum class Keep { nothing, pieces };
 
     explicit Walk(ConveyorModel const& model) : model_(model) {}
-    /// Advances the state to time `end`; what it passed is added to `passage`.
+    /// Advances the state to time `end` and adds what happened to `passage`.
     void advance(WalkState& s, double end, Passage& passage, Keep keep) const;
 
   private:

@@ -5,22 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
-// Internal to the room.
+// Internal to this room.
 namespace vibrotrough::theory::detail {
 
+/// A function at one point, with bounds on its behaviour to the right.
 struct Sample {
     double value, rate;
-    double bend;  ///< no |second derivative| exceeds it within the next `reach`
+    double bend;  ///< upper bound of |second derivative| within the next `reach`
     double reach = HUGE_VAL;
 };
 
-/// The first time in [t, end] at which a function that is above zero (or rises from zero) at t reaches zero;
-/// `end` when it does not. Every step is certified: with |f''| <= bend, f stays above zero for h = (f' +
-/// sqrt(f'^2 + 2 bend f)) / bend. Next to a zero the steps are Newton's, so it converges quadratically, from
-/// the left.
+/// The first time in [t, end] at which a function that is positive (or rises from zero) at t reaches zero;
+/// `end` if it does not. No step can skip a zero: with |f''| <= bend, f stays positive for h = (f' +
+/// sqrt(f'^2 + 2 bend f)) / bend. Close to a zero these are Newton steps, so that the method converges
+/// quadratically from the left.
 template <class Function>
 double first_zero(Function const& f, double t, double end) {
-    double moment = 1e-9;  // rad
+    double least_step = 1e-9;  // rad
     for (int i = 0; i < 1000000 && t < end; ++i) {
         Sample const s = f(t);
         double const value = s.value > 0 ? s.value : 0;
@@ -32,8 +33,8 @@ double first_zero(Function const& f, double t, double end) {
         double const least = 4e-16 * (1 + std::abs(t));
         if (step < least && s.rate < 0) return t;
         if (step < least || (value == 0 && i > 0)) {
-            step = std::max(step, moment);  // it leaves zero with hardly a rate: look a moment later
-            moment *= 2;
+            step = std::max(step, least_step);  // f leaves zero with almost no slope: go a little further
+            least_step *= 2;
         }
         t += step;
     }

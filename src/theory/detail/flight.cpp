@@ -6,27 +6,28 @@ namespace {
 constexpr int most_launches = 4000;
 constexpr int most_cycles_aloft = 100000;
 constexpr double whole_cycle_throw = 3.2969;  // just below sqrt(1 + pi^2), where a flight lasts one cycle
-constexpr int longest_orbit = 64;  // launches in a period that never touches for longer than an instant
+constexpr int longest_orbit = 64;             // take-offs in a period in which the contacts are instantaneous
 
 Instant take_off_at(double inverse_throw) {
     return {std::asin(inverse_throw), inverse_throw, std::sqrt((1 - inverse_throw) * (1 + inverse_throw))};
 }
 
-/// d - sin(d) without loss of digits.
+/// d - sin(d) without loss of accuracy.
 double sine_defect(double d, double sine) {
     if (std::abs(d) > 0.5) return d - sine;
     double const q = d * d;
     return d * q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156)))));
 }
 
-/// d^2/2 - 1 + cos(d) without loss of digits.
+/// d^2/2 - 1 + cos(d) without loss of accuracy.
 double cosine_defect(double d, double cosine) {
     double const q = d * d;
     if (std::abs(d) > 0.5) return q / 2 - 1 + cosine;
     return q * q / 24 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132 * (1 - q / 182)))));
 }
 
-/// Height above the trough, and its rate, a time d after a launch at phase `start` without normal velocity.
+/// Height above the trough, and its rate, a time d after a take-off at phase `start` with zero relative
+/// normal velocity.
 struct Height {
     double inverse_throw, sine, cosine;
 
@@ -40,7 +41,7 @@ struct Height {
     }
 };
 
-/// The zero of a falling function between lo (above zero) and hi (zero or below).
+/// The zero of a decreasing function between lo (positive value) and hi (zero or negative value).
 template <class Function, class Rate>
 double falling_zero(Function const& f, Rate const& rate, double lo, double hi) {
     double x = hi;
@@ -56,7 +57,8 @@ double falling_zero(Function const& f, Rate const& rate, double lo, double hi) {
     throw PhaseError("the landing was not found");
 }
 
-/// d over q = sqrt(Gamma^2 - 1) for standard flights, with its rate, at equal steps of q from 0 to pi.
+/// d as a function of q = sqrt(Gamma^2 - 1) for standard flights, with its derivative, at equal steps of q
+/// from 0 to pi.
 class FlightTable {
   public:
     FlightTable() {
@@ -92,16 +94,20 @@ class FlightTable {
     std::array<Node, size> node_{};
 };
 
-/// The first landing. Between the zeros of its acceleration the height is concave or convex: a concave
-/// stretch from above to below zero has one zero; a convex one may dip below zero and come up again.
+/// The first landing. Between the zeros of the relative acceleration the height is concave or convex. A
+/// concave section from positive to negative has one zero; a convex one may become negative and positive
+/// again.
 double landing_after(Height const& height, double take_off, double start) {
     auto const rate = [&](double d) { return height.rate(d); };
-    double const window = pi - 2 * take_off;  // where the trough accelerates away faster than gravity
+    double const window =
+        pi -
+        2 * take_off;  // length of the interval in which the trough accelerates downwards faster than gravity
     double into = std::fmod(start - take_off, two_pi);
     if (into < 0) into += two_pi;
-    if (into > (two_pi + window) / 2) into = 0;  // rounding: a launch just before the window is at its begin
+    if (into > (two_pi + window) / 2)
+        into = 0;  // rounding: a take-off just before the window counts as being at its beginning
     double lo = std::max(window - into, 0.0);
-    // It cannot land while the ballistic parabola is above the trough's highest point.
+    // It cannot land while the ballistic parabola is above the highest point of the trough.
     double const root = height.cosine * height.cosine - 2 * height.inverse_throw * (1 - height.sine);
     double const clear = root > 0 ? (height.cosine + std::sqrt(root)) / height.inverse_throw : 0;
     if (clear > lo + two_pi) lo += two_pi * std::floor((clear - lo) / two_pi);
@@ -121,7 +127,7 @@ double landing_after(Height const& height, double take_off, double start) {
     throw PhaseError("the flight does not end");
 }
 
-/// After how many launches the launch phase repeats; 0 while it does not.
+/// The number of take-offs after which the phase of take-off repeats; 0 if it does not.
 int orbit(std::vector<Flight> const& flights) {
     auto const mismatch = [&](int k) {
         Instant const earlier = flights[flights.size() - static_cast<std::size_t>(k)].start;
@@ -131,7 +137,8 @@ int orbit(std::vector<Flight> const& flights) {
     int const most = std::min(longest_orbit, static_cast<int>(flights.size()));
     for (int k = 1; k <= most; ++k) {
         if (mismatch(k) > 1e-15) continue;
-        for (int shorter = 1; shorter < k; ++shorter) {  // an alternating approach closes in on 2 before 1
+        for (int shorter = 1; shorter < k;
+             ++shorter) {  // an alternating approach meets the tolerance for 2 before it does for 1
             if (k % shorter == 0 && mismatch(shorter) < 1e-12) return shorter;
         }
         return k;
@@ -187,7 +194,7 @@ void find_normal_motion(double throw_number, NormalMotion& motion) {
     for (int i = 0; i < most_launches; ++i) {
         Instant const landing = flights.back().end;
         double const phase = landing.t - two_pi * std::floor(landing.t * (1 / two_pi));
-        if (!(phase > take_off && phase < pi - take_off)) {  // the trough holds the mass
+        if (!(phase > take_off && phase < pi - take_off)) {  // the mass stays in contact
             motion.end = motion.start;
             motion.end.t = landing.t - phase + take_off + (phase > take_off ? two_pi : 0);
             motion.cycles = cycles_between(motion.start, motion.end);

@@ -25,7 +25,7 @@ void check_ranges(PointMass const& p) {
     require_range(p.friction >= 0 && p.friction <= 1e6, "friction", p.friction, "[0, 1e6]");
 }
 
-std::string described(PointMass const& p) {
+std::string inputs_text(PointMass const& p) {
     return "throw_number=" + number_text(p.throw_number) +
            " tan_vibration_angle=" + number_text(p.tan_vibration_angle) +
            " tan_inclination=" + number_text(p.tan_inclination) + " friction=" + number_text(p.friction);

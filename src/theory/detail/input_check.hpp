@@ -4,19 +4,19 @@
 
 #include <string>
 
-// Internal to the room.
+// Internal to this room.
 namespace vibrotrough::theory::detail {
 
-/// Shortest text that reads back as the same number.
+/// The shortest text from which the same number is read back.
 std::string number_text(double value);
 
-/// @throws std::invalid_argument "name = value is outside its range range" unless good
+/// @throws std::invalid_argument "name = value is outside its range range" unless `good`
 void require_range(bool good, char const* name, double value, char const* range);
 
-/// @throws std::invalid_argument when an input is out of its range
+/// @throws std::invalid_argument when an input is out of range
 void check_ranges(PointMass const& input);
 
-/// The inputs as text that reproduces them.
-std::string described(PointMass const& input);
+/// The inputs as text from which they can be reproduced.
+std::string inputs_text(PointMass const& input);
 
 }  // namespace vibrotrough::theory::detail

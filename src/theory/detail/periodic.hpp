@@ -5,16 +5,17 @@
 
 #include <cmath>
 
-// The periodic motion along the trough as a fixed point. Internal to the room.
+// The periodic motion along the trough as a fixed point. Internal to this room.
 namespace vibrotrough::theory::detail {
 
-/// Eqs. 17, 18: the landing slows the slip by mu tan(beta) times the approach velocity, and at most stops it.
+/// Eqs. 17, 18: the landing reduces the slip velocity by mu tan(beta) times the approach velocity, at most to
+/// zero.
 inline Tangent landed(Tangent s, double impulse) {
     if (std::abs(s.v) <= impulse) return {0, 0};
     return {s.v - std::copysign(impulse, s.v), s.slope};
 }
 
-/// One period of the normal motion along the trough, from velocity v at its start.
+/// Follows the motion along the trough over one period of the normal motion, from velocity v at its start.
 template <class Record>
 Tangent follow_period(Law const& law, NormalMotion const& normal, double v, Hints& hints, Record&& record) {
     Tangent s{v, 1};
@@ -35,8 +36,8 @@ Tangent follow_period(Law const& law, NormalMotion const& normal, double v, Hint
     return s;
 }
 
-/// Without flight the period may start anywhere: where a slide begins, so that a rest before it makes v = 0
-/// exact. @return false when no slide ever begins
+/// Without a flight the period may start anywhere. It is made to start where a slide begins, so that v = 0 is
+/// exact if there is a rest before it. @return false when no slide ever begins
 inline bool start_at_slide(Law const& law, NormalMotion& normal) {
     normal.flights.clear();
     if (!law.positive.can_start() && !law.negative.can_start()) return false;
@@ -48,15 +49,15 @@ inline bool start_at_slide(Law const& law, NormalMotion& normal) {
 }
 
 struct FixedPoint {
-    double v;      ///< velocity at which the map was evaluated last
+    double v;      ///< velocity at which the map was last evaluated
     double error;  ///< Newton's estimate of the fixed point minus v
 };
 
 /// The fixed point of a map v -> (f(v), f'(v)) with 0 <= f' <= 1, by Newton within a bracket.
 ///
-/// f(v) - v never rises, so every evaluation tells on which side the fixed point is. Where f' = 1 the motion
-/// drifts by the same amount every period; the step is then doubled until it leaves that stretch.
-/// Range: the fixed point exists (|tan(alpha)| <= mu). Throws PhaseError otherwise.
+/// f(v) - v never increases, so that every evaluation shows on which side the fixed point is. Where f' = 1
+/// the velocity drifts by the same amount in every period; the step is then doubled until that region is
+/// left. The fixed point must exist (|tan(alpha)| <= mu); otherwise PhaseError is thrown.
 /// @param tolerance  stops when the estimated error of v is below tolerance (1 + |v|)
 template <class Map>
 FixedPoint fixed_point(Map const& map, double v, double tolerance) {

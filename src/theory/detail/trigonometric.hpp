@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-// Internal to the room.
+// Internal to this room.
 namespace vibrotrough::theory::detail {
 
 /// amplitude sin(order t + phase)
@@ -11,7 +11,7 @@ struct Term {
     double order, amplitude, phase;
 };
 
-/// A sum of such terms.
+/// A sum of such terms, each evaluated at t in rad.
 class Trigonometric {
   public:
     Trigonometric() = default;
@@ -28,17 +28,17 @@ class Trigonometric {
             sum += term.amplitude * term.order * std::cos(term.order * t + term.phase);
         return sum;
     }
-    /// No |value| exceeds it.
+    /// An upper bound of |value|.
     double bound() const { return derivative_bound(0); }
-    /// No |n-th derivative| exceeds it.
+    /// An upper bound of |n-th derivative|.
     double derivative_bound(int n) const {
         double sum = 0;
         for (Term const& term : terms_) sum += std::abs(term.amplitude) * std::pow(term.order, n);
         return sum;
     }
-    /// Linear operations term by term: a (d/dt)^2 + b d/dt of the sum.
+    /// The linear combination second (d/dt)^2 + first d/dt applied to the sum.
     Trigonometric differentiated(double second, double first) const;
-    /// The bounded solution u of u' = -kappa u + this.
+    /// The bounded solution u of u' = -kappa u + (this sum).
     Trigonometric driven(double kappa) const;
     /// An antiderivative.
     Trigonometric integrated() const;

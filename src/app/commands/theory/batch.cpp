@@ -30,7 +30,7 @@ void run(Options const& options) {
     }
     int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
     store::TheoryPoints const table = store::read_theory_points(options.input);
-    theory::BatchAnswer answer;
+    theory::BatchResult answer;
     try {
         answer = theory::solve_batch(table.points, jobs);
     } catch (std::invalid_argument const& error) {

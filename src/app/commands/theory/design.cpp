@@ -69,14 +69,14 @@ theory::DesignLimits read(Options const& o) {
             read_range("--inclination", *o.inclination, example, angle("--inclination", example, -90));
     }
     if (o.machine_number)
-        l.most_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
+        l.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
     if (o.throw_number)
-        l.most_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+        l.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
     auto const set = [](double& value, char const* option, Text const& text, char const* unit,
                         char const* example) {
         if (text) value = read_positive_quantity(option, *text, unit, example);
     };
-    set(l.least_mass_flow, "--mass-flow", o.mass_flow, "kg/s", "2 kg/s");
+    set(l.min_mass_flow, "--mass-flow", o.mass_flow, "kg/s", "2 kg/s");
     set(l.bulk_density, "--bulk-density", o.bulk_density, "kg/m3", "800 kg/m3");
     set(l.layer_height, "--layer-height", o.layer_height, "m", "20 mm");
     set(l.layer_width, "--layer-width", o.layer_width, "m", "200 mm");
