@@ -13,16 +13,20 @@ import os
 import pathlib
 import re
 import sys
+from typing import Any
 
 import jinja2
 import markupsafe
 
 from figure_style import Problem
 
+Case = dict[str, Any]
+Column = tuple[str, str, str, str]
+
 DEGREE = "\u00b0"
 
 # Columns of the table: name in campaign.json, heading, unit, format.
-COLUMNS = [
+COLUMNS: list[Column] = [
     ("case", "case", "", "{}"),
     ("throw_number", "throw number \u0393", "", "{:.3f}"),
     ("vibration_angle_deg", "\u03b2", "\u00b0", "{:.2f}"),
@@ -60,7 +64,7 @@ CASE_FIGURES = [
 MOST_CASES = 60  # whose own figures are in the report: 140 kB each
 
 
-def read_json(path, needed=True):
+def read_json(path: pathlib.Path, needed: bool = True) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -71,7 +75,7 @@ def read_json(path, needed=True):
         raise Problem(f"cannot read {path} ({error}); remove it or write it anew") from error
 
 
-def inline_svg(path, number, title):
+def inline_svg(path: pathlib.Path, number: int, title: str) -> markupsafe.Markup:
     """The figure as an element of the page: no prolog, ids of its own, a name for screen readers."""
     text = path.read_text(encoding="utf-8")
     text = text[text.index("<svg") :]
@@ -84,21 +88,21 @@ def inline_svg(path, number, title):
 class Figures:
     """Finds the figures that are there and numbers them."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: pathlib.Path) -> None:
         self.folder, self.number = folder, 0
 
-    def get(self, name, title):
+    def get(self, name: str, title: str) -> dict[str, Any] | None:
         path = self.folder / f"{name}.svg"
         if not path.is_file():
             return None
         self.number += 1
         return {"number": self.number, "title": title, "svg": inline_svg(path, self.number, title)}
 
-    def all(self, names):
+    def all(self, names: list[tuple[str, str]]) -> list[dict[str, Any]]:
         return [figure for figure in (self.get(*one) for one in names) if figure]
 
 
-def cell(row, name, form):
+def cell(row: Case, name: str, form: str) -> dict[str, Any]:
     """What is shown of a value, and what it is sorted by; unknown values are empty."""
     value = row.get(name)
     if value is None or value == "":
@@ -106,7 +110,7 @@ def cell(row, name, form):
     return {"shown": form.format(value), "key": value if isinstance(value, (int, float)) else str(value)}
 
 
-def split_columns(cases):
+def split_columns(cases: list[Case]) -> tuple[list[Column], str]:
     """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
     same = [name for name in MAY_BE_CONSTANT if len(cases) > 1 and len({case[name] for case in cases}) == 1]
     told = [f"{heading} = {form.format(cases[0][name])}{unit if unit == DEGREE else ' ' * bool(unit) + unit}"
@@ -115,7 +119,7 @@ def split_columns(cases):
     return [column for column in COLUMNS if column[0] not in same + empty], ", ".join(told)
 
 
-def table(cases, columns):
+def table(cases: list[Case], columns: list[Column]) -> list[dict[str, Any]]:
     lines = []
     for case in cases:
         row = dict(case, residual=None)
@@ -126,14 +130,14 @@ def table(cases, columns):
     return lines
 
 
-def counts(cases):
-    found = {}
+def counts(cases: list[Case]) -> dict[str, int]:
+    found: dict[str, int] = {}
     for case in cases:
         found[case["outcome"]] = found.get(case["outcome"], 0) + 1
     return found
 
 
-def split_certificate(certificate):
+def split_certificate(certificate: Any) -> tuple[Any, dict[str, list[dict[str, Any]]]]:
     """Its facts, and its lists of objects (the probes), which are tables of their own."""
     if not isinstance(certificate, dict):
         return certificate, {}
@@ -141,7 +145,7 @@ def split_certificate(certificate):
     return {name: one for name, one in certificate.items() if name not in lists}, lists
 
 
-def render(directory, output):
+def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
     figures = Figures(output)
@@ -172,7 +176,7 @@ def render(directory, output):
     )
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder")
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures and the report")
