@@ -20,6 +20,7 @@ struct EngineIdentity {
     std::string key() const;
 };
 
+/// How a measured value is compared with the expected one.
 enum class Comparison {
     near,     ///< |measured - expected| <= tolerance
     at_most,  ///< measured <= expected + tolerance
@@ -27,28 +28,29 @@ enum class Comparison {
 
 /// One question to the engine, and its answer.
 struct ProbeResult {
-    std::string name;      ///< e.g. "restitution-0.5"
-    std::string question;  ///< one sentence
-    std::string source;    ///< formula or reference of `expected`
-    std::string unit;      ///< "1" for pure numbers
-    Comparison comparison;
-    double expected;
-    double measured;  ///< NaN when the engine gave no answer; `problem` says why
-    double tolerance;
-    std::string tolerance_reason;
-    std::string problem;
+    std::string name;              ///< e.g. "restitution-0.5"
+    std::string question;          ///< one sentence
+    std::string source;            ///< formula or reference of `expected`
+    std::string unit;              ///< "1" for pure numbers
+    Comparison comparison;         ///< how `measured` is judged
+    double expected;               ///< by the source
+    double measured;               ///< NaN when the engine gave no answer; `problem` says why
+    double tolerance;              ///< largest difference that passes
+    std::string tolerance_reason;  ///< why the tolerance is as large as it is
+    std::string problem;           ///< why there is no answer; empty when there is one
 
+    /// The measured value is within the tolerance.
     bool passed() const;
 };
 
 /// What the probes found out about one engine binary.
 struct Certificate {
-    EngineIdentity engine;
+    EngineIdentity engine;                          ///< the binary that was probed
     std::string program_version, git_commit, host;  ///< that probed
     std::string probed;                             ///< ISO 8601, UTC
     double grain_steps_per_cpu_second = 0;          ///< of a packed layer; 0 when a probe failed
     int speed_grains = 0;                           ///< number of grains in that layer
-    std::vector<ProbeResult> probes;
+    std::vector<ProbeResult> probes;                ///< in the order in which they are reported
 
     bool passed() const;  ///< all probes passed, and there are some
 };

@@ -7,9 +7,9 @@ struct ContactMaterial {
     double radius;          ///< m
     double density;         ///< kg/m^3
     double youngs_modulus;  ///< Pa
-    double poisson_ratio;
-    double restitution;  ///< nominal
-    double friction;
+    double poisson_ratio;   ///< Poisson's ratio
+    double restitution;     ///< nominal
+    double friction;        ///< coefficient mu
 };
 
 /// Velocities at the end of an impact.

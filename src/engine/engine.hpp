@@ -13,7 +13,7 @@ namespace vibrotrough::engine {
 
 /// A LIGGGHTS that answered when asked for its version.
 struct Engine {
-    std::filesystem::path program;
+    std::filesystem::path program;  ///< path of the executable
     std::string version;  ///< as it names itself, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled 2022-01-26-19:42:32
                           ///< by buildd"
     int ranks = 1;        ///< MPI processes of every run

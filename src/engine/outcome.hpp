@@ -25,8 +25,9 @@ enum class Stage {
     driving,   ///< ends with the end marker
 };
 
+/// How a run of the engine ended, and what it reported at its end.
 struct RunReport {
-    Outcome outcome;
+    Outcome outcome;           ///< by name
     std::string message;       ///< one line for people; empty when completed
     long last_step = 0;        ///< of the end marker, of driving
     double settled_force = 0;  ///< N, of the resting layer on the trough, pressing positive, of settling

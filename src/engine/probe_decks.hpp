@@ -18,11 +18,12 @@ struct ProbeDeck {
 
 /// Nominal restitution of grain types 1 to 5 of an impact deck.
 constexpr std::array<double, 5> probed_restitutions{0.1, 0.3, 0.5, 0.7, 0.9};
+/// Friction between grain and floor in the decks of impacts.
 constexpr double impact_friction = 0.23;
 
 /// Grain number (from 1) is its place in this list; type t has probed_restitutions[t - 1].
 struct Impact {
-    int type;
+    int type;                 ///< of the grain, from 1
     double normal_speed;      ///< m/s
     double tangential_speed;  ///< m/s
     double gap;               ///< m, between grain and floor at the start
@@ -35,13 +36,14 @@ std::vector<Impact> const& coarse_impacts();  ///< at 20 % of the Rayleigh time,
 /// Friction and restitution are the given ones.
 ContactMaterial probe_material(double restitution, double friction);
 
+/// Grains on an inclined floor, with and without enough friction to hold them.
 struct Incline {
     double angle = 0.3490658503988659;  ///< rad, 20 degrees: tan = 0.364
     double holding_friction = 0.8;      ///< of grains 1 and 3
     double sliding_friction = 0.23;     ///< of grain 2
     double time_step = 5e-6;            ///< s
-    int steps = 20000;
-    int sample_steps = 200;
+    int steps = 20000;                  ///< time steps of the run
+    int sample_steps = 200;             ///< time steps between two samples
 };
 
 /// A trough that moves along the direction of vibration from step 0 on, and grains that are held where they
@@ -50,7 +52,7 @@ struct MovingTrough {
     double amplitude_x, amplitude_z;  ///< m
     double period = 0.05;             ///< s
     int steps = 500;                  ///< per period: the fewest that a deck uses
-    int grains;
+    int grains;                       ///< number of grains
 };
 
 MovingTrough sliding_trough();  ///< along itself, under grains that touch it
@@ -59,10 +61,15 @@ MovingTrough flying_trough();   ///< as in a campaign, out of the grain's way
 /// Overlap at which one contact carries a grain's weight at this inclination, m.
 double resting_overlap(double inclination);
 
+/// The impacts of fine_impacts().
 ProbeDeck fine_impact_deck();
+/// The impacts of coarse_impacts().
 ProbeDeck coarse_impact_deck();
+/// Three grains on the floor of Incline.
 ProbeDeck incline_deck();
+/// Grains that rest on a floor under their own weight.
 ProbeDeck contact_deck();
+/// The two troughs, which must move as asked.
 ProbeDeck drive_deck();
 
 /// A layer of about a thousand grains on a moving trough.

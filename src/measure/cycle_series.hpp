@@ -37,8 +37,9 @@ CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int gr
 CycleSeries first_cycles(CycleSeries const& series, int cycles);
 
 /// The layer's weight by the balance of momentum over all cycles, N: what the trough carried on average, less
-/// the momentum that the layer gained, W = <F_z> - m (v_z(n) - v_z(0)) / (n T). Exact up to the integrator,
-/// so it shows whether the trough weighed every force that moved the layer, and no other force did.
+/// the momentum that the layer gained, W = mean(F_z) - m (v_z(n) - v_z(0)) / (n T). Exact up to the
+/// integrator, so it shows whether the trough weighed every force that moved the layer, and no other force
+/// did.
 /// @param mass    kg, of the layer
 /// @param period  s, of a cycle
 double weight_by_momentum(CycleSeries const& series, double mass, double period);

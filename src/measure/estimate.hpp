@@ -23,14 +23,14 @@ struct PackingEstimate {
     int measured;       ///< cycles kept
     double correlation_time;  ///< statistical inefficiency g >= 1: measured / g cycles are worth as many
                               ///< independent ones
-    Verdict verdict;
+    Verdict verdict;          ///< whether the mean may be used
 };
 
 /// Mean over independent packings.
 struct CaseEstimate {
-    double mean;
-    double half_width;
-    int packings;
+    double mean;        ///< mean of the means of the packings
+    double half_width;  ///< of the confidence interval
+    int packings;       ///< number of packings
 };
 
 /// What an interval must be.
@@ -42,6 +42,7 @@ struct Precision {
 /// Fewest cycles kept for an interval to be trusted, and fewest that are worth an independent one: a shorter
 /// series shows too little of its own correlation.
 constexpr int fewest_cycles = 20;
+/// Fewest independent values that the cycles kept must be worth.
 constexpr double fewest_independent = 3;
 
 /// Velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
@@ -80,9 +81,10 @@ std::optional<int> cycles_needed(std::span<double const> values, Precision const
 
 /// The estimate from the cycles needed, else from all values; `used` says how many it rests on.
 struct SequentialEstimate {
-    PackingEstimate estimate;
-    int used;
+    PackingEstimate estimate;  ///< from these cycles
+    int used;                  ///< number of cycles that it rests on
 };
+/// See SequentialEstimate and cycles_needed().
 SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted);
 
 /// Mean over packings: Student's t of their means (packings - 1 degrees of freedom), and never narrower than

@@ -34,8 +34,14 @@ struct PhaseCurves {
     std::vector<double> sliding;      ///< m/s, the same without rotation
     std::vector<double> energy_translation, energy_rotation;  ///< J
     std::vector<double> overlap;                              ///< m, largest of two grains, over all periods
-    std::vector<double> displacement_deviation, height_deviation, velocity_x_deviation, velocity_z_deviation;
-    std::vector<double> normal_force_deviation, tangential_force_deviation, touching_deviation;
+    /// standard deviations, same units
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> displacement_deviation, height_deviation;
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> velocity_x_deviation, velocity_z_deviation;
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> normal_force_deviation, tangential_force_deviation;
+    std::vector<double> touching_deviation;  ///< standard deviation over the periods
 };
 
 /// How the layer moves within the cycle. Numbers that do not exist (no flight, no slide) are NaN.
@@ -60,10 +66,11 @@ struct LayerMotion {
     /// Tangential over normal impulse while the layer lands, and the efficiency of a point mass under the
     /// layer's own normal force; see landing.hpp. NaN without landings, and with side walls.
     double landing_friction = std::numeric_limits<double>::quiet_NaN();
+    /// velocity efficiency of a point mass under the normal force of the layer
     double efficiency_by_normal_force = std::numeric_limits<double>::quiet_NaN();
     double largest_overlap = std::numeric_limits<double>::quiet_NaN();        ///< m, of two grains
     double largest_floor_overlap = std::numeric_limits<double>::quiet_NaN();  ///< m
-    PhaseCurves curves;
+    PhaseCurves curves;                                                       ///< mean curves over one period
 };
 
 /// Cycles after which the height above the trough repeats: the first of 2 ... 8 whose squared differences are

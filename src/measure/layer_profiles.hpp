@@ -16,9 +16,10 @@ struct Bin {
     std::vector<double> means;  ///< over those grains, as the deck asks
 };
 
+/// What the engine found in all bins at one moment.
 struct Snapshot {
-    long step;
-    std::vector<Bin> bins;
+    long step;              ///< time step of the engine
+    std::vector<Bin> bins;  ///< in the order of their places
 };
 
 /// Reads the snapshots of a packing: `NAME.STEP.txt`, one file for each time the engine was started, STEP
@@ -36,8 +37,8 @@ std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files,
 
 /// What is needed beside the snapshots.
 struct ProfileFacts {
-    double density;  ///< kg/m^3, of the grains' material
-    int steps_per_cycle;
+    double density;       ///< kg/m^3, of the grains' material
+    int steps_per_cycle;  ///< time steps of the engine per cycle
     int discarded, used;  ///< cycles: those after `discarded`, up to `used`, count
     int phases;           ///< snapshots per cycle, evenly spaced
     std::vector<double> trough_z, trough_vx, trough_vz;  ///< of the trough at each of these phases, m, m/s
@@ -57,6 +58,7 @@ struct Profiles {
     double velocity_gradient;
 };
 
+/// Means of the snapshots of the cycles that count, phase by phase.
 Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
 
 /// The layer's surface along the trough, row by row: phases in order, and in each the columns.
@@ -70,6 +72,7 @@ struct Surface {
     double wiggle_amplitude;
 };
 
+/// The surface at the last snapshot of each phase.
 Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
 
 }  // namespace vibrotrough::measure

@@ -12,7 +12,7 @@ namespace vibrotrough::measure {
 /// 99 is the end of the first cycle. All values are of that instant but the forces, which are means over the
 /// steps since the line before.
 struct PhaseSeries {
-    static constexpr int per_cycle = 100;
+    static constexpr int per_cycle = 100;  ///< lines per cycle
 
     std::vector<double> x, z, vx, vz;        ///< of the layer's centre of mass, m and m/s
     std::vector<double> trough_x, trough_z;  ///< m, displacement of the trough
@@ -27,6 +27,7 @@ struct PhaseSeries {
     std::vector<double> energy_rotation;     ///< J
     std::vector<double> overlap;             ///< m, largest of two grains; 0 without contact
 
+    /// Number of lines.
     std::size_t lines() const { return x.size(); }
     /// Number of whole cycles.
     int cycles() const { return static_cast<int>(lines()) / per_cycle; }

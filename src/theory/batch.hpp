@@ -6,9 +6,10 @@
 
 namespace vibrotrough::theory {
 
+/// The answers to many points.
 struct BatchAnswer {
-    std::vector<MapPoint> points;  ///< in the order of the inputs
-    double cpu_seconds_per_solution;
+    std::vector<MapPoint> points;     ///< in the order of the inputs
+    double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, s
 };
 
 /// Solves many unrelated points, each as solve_inputs() does, on `jobs` threads (0: all cores).

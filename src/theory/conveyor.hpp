@@ -43,12 +43,12 @@ struct Conveyor {
     double wall_friction = 0;             ///< of the layer on the two side walls, >= 0
     double wall_pressure_ratio = 0.5;     ///< Janssen's k: horizontal over vertical stress, in [0, 1]
     double height_over_width = 0;         ///< of the layer, >= 0
-    FlightStart flight_start = FlightStart::actual_velocity;
+    FlightStart flight_start = FlightStart::actual_velocity;  ///< velocity with which a flight starts
 };
 
 /// Friction coefficients that stand for floor and walls together.
 struct EffectiveFriction {
-    double kinetic, standing, landing;
+    double kinetic, standing, landing;  ///< while slipping, at rest, and in the impulse of a landing
 };
 
 /// Side walls by Janssen's stress ratio: the walls carry the horizontal stress k sigma_v, sigma_v = N(t) z /
@@ -60,29 +60,30 @@ EffectiveFriction effective_friction(Conveyor const& conveyor);
 /// An impact at the end of a flight; velocities relative to the trough, along in omega r cos(beta), normal in
 /// omega r sin(beta).
 struct Impact {
-    double t;                  ///< rad
-    double approach, rebound;  ///< normal, both >= 0
-    double along_before, along_after;
+    double t;                          ///< rad
+    double approach, rebound;          ///< normal, both >= 0
+    double along_before, along_after;  ///< along the trough, signed
 };
 
 class ConveyorModel;  // the analytic phases; see conveyor_model.hpp
 
 /// A phase with all that is needed to evaluate it at any time within.
 struct Piece {
-    PhaseKind kind;
+    PhaseKind kind;         ///< what the mass does
     double start, end;      ///< rad
     double along_velocity;  ///< absolute, at start, in omega r cos(beta)
     double gap, gap_rate;   ///< at start, in r sin(beta), omega r sin(beta); zero in contact
     double displacement;    ///< relative, in r cos(beta)
 };
 
+/// The long run of a motion, with what is needed to evaluate it at any time.
 struct ConveyorMotion {
     Motion motion;                ///< as solve(): eta, mode, phases, period
     double half_width = 0;        ///< of eta at 95 % confidence when there is no period; 0 when periodic
     int cycles_followed = 0;      ///< cycles that the mean is over, without a period
     std::vector<Piece> pieces;    ///< of one period (of the cycles that were followed last, without a period)
     std::vector<Impact> impacts;  ///< in the same time
-    std::shared_ptr<ConveyorModel const> model;
+    std::shared_ptr<ConveyorModel const> model;  ///< evaluates the pieces
 };
 
 /// The long run of the motion that starts at rest. Analytic within each phase; the ends of phases are found

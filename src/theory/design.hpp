@@ -7,8 +7,9 @@
 
 namespace vibrotrough::theory {
 
+/// The values that a quantity may take.
 struct Range {
-    double low, high;
+    double low, high;  ///< ends of the range, both included
 };
 
 /// Within what a machine may be chosen.
@@ -21,17 +22,18 @@ struct DesignLimits {
     double most_machine_number = 5;         ///< K: what the structure bears
     double most_throw_number = 3.29;        ///< Gamma: beyond a flight of one cycle landings get irregular
     double least_mass_flow = 0;             ///< kg/s, 0: none; needs a layer
-    double gravity = 9.81;
-    double bulk_density = 0, layer_height = 0, layer_width = 0;
+    double gravity = 9.81;                  ///< m/s^2
+    double bulk_density = 0, layer_height = 0, layer_width = 0;  ///< kg/m^3, m, m; 0 without a layer
 };
 
+/// A machine within the limits and its conveying speed.
 struct Design {
     double frequency, amplitude, vibration_angle, inclination;  ///< SI, rad
-    double throw_number, machine_number, velocity_efficiency;
-    double conveying_speed;  ///< m/s
-    double mass_flow;        ///< kg/s; 0 without a layer
-    std::string mode;
-    bool feasible;  ///< all limits are kept; when not, the flow asked for is not reached
+    double throw_number, machine_number, velocity_efficiency;   ///< Gamma, K and eta of the point mass
+    double conveying_speed;                                     ///< m/s
+    double mass_flow;                                           ///< kg/s; 0 without a layer
+    std::string mode;  ///< letters of the phases in order, e.g. "FPN"
+    bool feasible;     ///< all limits are kept; when not, the flow asked for is not reached
     std::vector<std::string> active_limits;  ///< that hold the speed back: "machine_number <= 5" and the like
 };
 

@@ -13,18 +13,20 @@ struct ShakeTest {
     double tan_inclination = 0;  ///< of the plate along the shaking
 };
 
+/// The motion of a mass on a plate that is shaken.
 struct ShakeMotion {
     double max_relative_displacement;  ///< largest way of one slide against the plate, in amplitudes r; in
                                        ///< [0, 2)
-    std::string mode;
+    std::string mode;                  ///< letters of the phases in order, e.g. "PN"
 };
 
 /// The forward curve of Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver elsewhere). mu > |tan(alpha)|.
 /// Falls with mu from 2 (mu = 0: the box stands still in space) to 0 at mu = K.
 ShakeMotion shake(ShakeTest const& test, double friction);
 
+/// The friction that explains a measured displacement.
 struct FrictionEstimate {
-    double friction;
+    double friction;   ///< mu
     double low, high;  ///< for the displacement plus and minus its uncertainty
     std::string
         mode;  ///< at `friction`: outside PN the mass rests between slides and static friction matters

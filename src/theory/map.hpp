@@ -10,34 +10,38 @@ namespace vibrotrough::theory {
 
 /// One axis of a map: `count` values of an input at equal steps from `from` to `to`.
 struct MapAxis {
-    Input input;
-    double from, to;
-    int count;
+    Input input;      ///< what the axis varies
+    double from, to;  ///< first and last value, in the unit of the input
+    int count;        ///< number of values, >= 1
+    /// The value at index i in [0, count).
     double value(int i) const { return count < 2 ? from : from + (to - from) * i / (count - 1); }
 };
 
+/// The motion at one point of a map.
 struct MapPoint {
-    double velocity_efficiency;
-    double half_width;  ///< 0 when periodic
-    ModeCode mode;
-    int period_cycles;
-    Outcome outcome;
+    double velocity_efficiency;  ///< eta, as in Motion
+    double half_width;           ///< 0 when periodic
+    ModeCode mode;               ///< phases of one period; 0 when the motion does not settle
+    int period_cycles;           ///< cycles after which the motion repeats; 0 when it does not settle
+    Outcome outcome;             ///< how the long run ends
 };
 
 /// A piece of the line between two modes, within one cell of the map; its ends are roots, known to 1e-9 of a
 /// cell.
 struct BoundaryPiece {
-    double x0, y0, x1, y1;
-    ModeCode mode_a, mode_b;
+    double x0, y0, x1, y1;    ///< its two ends, in the units of the axes
+    ModeCode mode_a, mode_b;  ///< the modes on its two sides
 };
 
+/// Velocity efficiency and mode over a grid of two inputs.
 struct Map {
-    MapAxis x, y;
+    MapAxis x, y;                           ///< the two inputs
     std::vector<MapPoint> points;           ///< points[j * x.count + i]
     std::vector<BoundaryPiece> boundaries;  ///< where modes meet; empty unless asked for
     double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, boundaries apart
 };
 
+/// How a map is computed.
 struct MapOptions {
     int jobs = 0;            ///< threads; 0: all cores
     bool boundaries = true;  ///< locate the lines between modes

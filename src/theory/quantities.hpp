@@ -8,12 +8,13 @@ namespace vibrotrough::theory {
 
 /// What a motion is at one time. Lengths along in r cos(beta), normal in r sin(beta), time in 1/omega.
 struct TraceSample {
-    double t;  ///< rad
-    PhaseKind kind;
-    double trough_vx, trough_vy, mass_vx, mass_vy;
-    double trough_ax, trough_ay;
-    double displacement;  ///< of the mass against the trough since the start of the trace
-    double gap;           ///< 0 in contact
+    double t;                     ///< rad
+    PhaseKind kind;               ///< what the mass does
+    double trough_vx, trough_vy;  ///< velocity in the frame of the ground
+    double mass_vx, mass_vy;      ///< likewise of the mass
+    double trough_ax, trough_ay;  ///< accelerations, in omega^2 r cos(beta) and omega^2 r sin(beta)
+    double displacement;          ///< of the mass against the trough since the start of the trace
+    double gap;                   ///< 0 in contact
     double normal_force;  ///< of the trough on the mass, per mass, in omega^2 r sin(beta); without impacts
     double tangential_force;  ///< likewise along, in omega^2 r cos(beta)
 };
@@ -38,6 +39,7 @@ struct EnergyBalance {
     double defect() const { return trough_work - friction_loss - impact_loss - drag_loss - lift; }
 };
 
+/// The energies of a motion. @throws std::invalid_argument when it has no pieces
 EnergyBalance energy_balance(ConveyorMotion const& motion);
 
 /// The machine behind the dimensionless numbers.
@@ -57,11 +59,11 @@ struct EngineerQuantities {
     double mass_flow;            ///< kg/s, bulk density * height * width * speed; 0 without a layer
     double impact_speed;         ///< m/s, largest speed of the mass against the trough at an impact: damage
     double normal_impact_speed;  ///< m/s, its normal part
-    double impacts_per_cycle;
-    double friction_energy;                                 ///< J/kg per cycle: wear
-    double impact_energy;                                   ///< J/kg per cycle
-    double trough_work;                                     ///< J/kg per cycle
-    double mean_power;                                      ///< W/kg
+    double impacts_per_cycle;    ///< mean number of impacts
+    double friction_energy;      ///< J/kg per cycle: wear
+    double impact_energy;        ///< J/kg per cycle
+    double trough_work;          ///< J/kg per cycle
+    double mean_power;           ///< W/kg
     double largest_normal_force, largest_tangential_force;  ///< N/kg, between impacts
     double largest_impulse;                                 ///< N s/kg, normal, of one impact
 };

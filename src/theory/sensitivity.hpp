@@ -8,7 +8,7 @@ namespace vibrotrough::theory {
 
 /// How eta answers to one input.
 struct Sensitivity {
-    Input input;
+    Input input;        ///< the input that is varied
     double value;       ///< of the input
     double derivative;  ///< d eta / d input; the mean of both sides at a mode change
     double elasticity;  ///< (input / eta) d eta / d input; 0 when eta is 0

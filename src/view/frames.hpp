@@ -12,27 +12,28 @@ namespace vibrotrough::view {
 
 /// The theory's periodic motion on the same drive, with its pieces, and its units of length.
 struct TheoryMotion {
-    theory::ConveyorMotion motion;
-    double length_x;            ///< m, its unit of length along the trough, r cos(beta)
-    double length_z;            ///< m, its unit normal to it
-    double phase_at_start = 0;  ///< rad, its time (an angle) at the drive's t = 0
+    theory::ConveyorMotion motion;  ///< in the units of the theory
+    double length_x;                ///< m, its unit of length along the trough, r cos(beta)
+    double length_z;                ///< m, its unit normal to it
+    double phase_at_start = 0;      ///< rad, its time (an angle) at the drive's t = 0
 };
 
 /// Where one run's frames come from and what they need to be understood.
 struct FrameSource {
-    std::filesystem::path folder;  ///< holds frames.<step>.dump and frames.csv (step, trough x, trough z)
+    std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z)
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
     double angular_frequency;      ///< omega, rad/s
     scenario::DriveMotion
         drive;     ///< X(t) and Z(t); the trough's displacement at t is X(t) - X(0) and Z(t) - Z(0)
     double width;  ///< m, of the layer across the trough
-    std::optional<TheoryMotion> point_mass = {};
+    std::optional<TheoryMotion> point_mass = {};  ///< nothing when the theory has no periodic motion
     std::string caption;  ///< one line shown in the scene, without Greek (ParaView has none); may be empty
 };
 
+/// The files that an export wrote.
 struct ExportedFrames {
-    int frames = 0;
+    int frames = 0;                    ///< number of frames
     std::filesystem::path grains;      ///< grains.pvd
     std::filesystem::path trough;      ///< trough.pvd
     std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the

@@ -12,10 +12,10 @@ namespace vibrotrough::view {
 
 /// Where the theory's point mass is at one time, SI, in the frame of the ground.
 struct PointMassState {
-    theory::PhaseKind phase;
-    double x;    ///< m, displacement along the trough since t = 0, of mass and trough together
-    double gap;  ///< m, above the trough's surface
-    std::array<double, 3> velocity;
+    theory::PhaseKind phase;  ///< what the mass does
+    double x;                 ///< m, displacement along the trough since t = 0, of mass and trough together
+    double gap;               ///< m, above the trough's surface
+    std::array<double, 3> velocity;           ///< m/s, x y z
     std::array<double, 3> relative_velocity;  ///< against the trough, m/s
 };
 
@@ -25,7 +25,9 @@ std::string_view in_words(theory::PhaseKind phase);
 /// Evaluates the periodic motion at omega t, in step with the trough.
 class PointMassMotion {
   public:
+    /// Both must outlive this object.
     PointMassMotion(FrameSource const& source, TheoryMotion const& theory);
+    /// The state at `time` (s).
     PointMassState at(double time) const;
 
   private:

@@ -7,8 +7,9 @@
 
 namespace vibrotrough::view {
 
+/// One column of a table.
 struct TableColumn {
-    std::string name;
+    std::string name;                                                    ///< heading
     std::variant<std::vector<double>, std::vector<std::string>> values;  ///< one for each row; NaN: not known
 };
 

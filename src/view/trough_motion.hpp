@@ -9,9 +9,9 @@ namespace vibrotrough::view {
 
 /// Where the trough is at one frame.
 struct TroughPosition {
-    long step;
-    double x;  ///< m, displacement from rest
-    double z;  ///< m, displacement from rest
+    long step;  ///< time step of the engine
+    double x;   ///< m, displacement from rest
+    double z;   ///< m, displacement from rest
 };
 
 /// Where the trough is meant to be, and how fast.

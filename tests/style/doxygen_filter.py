@@ -4,6 +4,7 @@ usage: doxygen_filter.py HEADER
 Doxygen itself gives the text to the last name only. Line numbers stay as they are.
 """
 
+import itertools
 import pathlib
 import re
 import sys
@@ -25,9 +26,14 @@ def spread(line: str, above: str) -> str:
 
 def main() -> None:
     above: list[str] = []
-    for line in pathlib.Path(sys.argv[1]).read_text(encoding="utf-8").splitlines():
+    lines = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines):
+        below = itertools.takewhile(lambda later: later.strip().startswith("///<"), lines[number + 1:])
+        text = [later.strip().removeprefix("///<").strip() for later in below]
+        if text and SEVERAL.match(line):  # a long text goes on below the declaration
+            line = " ".join([line if "///<" in line else f"{line}  ///<", *text])
         print(spread(line, " ".join(above)))
-        comment = re.match(r"\s*/// ?(.*)", line)
+        comment = re.match(r"\s*///(?!<) ?(.*)", line)
         above = [*above, comment[1]] if comment else []
 
 
