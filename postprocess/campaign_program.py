@@ -1,11 +1,18 @@
-"""A campaign of variations on one base, run for real, and its table: what the validations by simulation are made of."""
+"""Runs a campaign of variations of a base campaign and reads its table, for the validations by simulation."""
 
 import csv
 import io
+import pathlib
 import subprocess
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+Row = dict[str, str]
+Sections = Mapping[str, Mapping[str, Any]]
 
 
-def toml_value(value):
+def toml_value(value: Any) -> str:
+    """A TOML value: a truth value, text, number, or a list of these."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -15,8 +22,12 @@ def toml_value(value):
     return repr(value)
 
 
-def campaign_text(base, changes, sweep):
-    """`base`: sections of a campaign; `changes`: {"section.key": value}, None removes; `sweep`: {"section.key": values}."""
+def campaign_text(base: Sections, changes: Mapping[str, Any], sweep: Mapping[str, Sequence[Any]]) -> str:
+    """The TOML text of a campaign.
+
+    `base`: sections of a campaign, whose sweep is ignored; `changes`: {"section.key": value}, where None removes the key;
+    `sweep`: {"section.key": list of values}.
+    """
     sections = {name: dict(keys) for name, keys in base.items() if name != "sweep"}
     for path, value in changes.items():
         section, key = path.split(".")
@@ -28,8 +39,8 @@ def campaign_text(base, changes, sweep):
     return "\n".join(lines) + "\n"
 
 
-def run_campaign(program, folder, text, jobs):
-    """Runs or finishes the campaign `text` in `folder`; the table's rows, as `vibrotrough compare --csv` gives them."""
+def run_campaign(program: str, folder: pathlib.Path, text: str, jobs: int) -> list[Row]:
+    """Runs or finishes the campaign `text` in `folder` and returns the rows of `vibrotrough compare --csv`."""
     file = folder.with_suffix(".toml")
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text, encoding="utf-8")
@@ -40,7 +51,7 @@ def run_campaign(program, folder, text, jobs):
     return campaign_table(program, folder)
 
 
-def campaign_table(program, folder):
+def campaign_table(program: str, folder: pathlib.Path) -> list[Row]:
     """The rows of `vibrotrough compare --csv`, in the order of the sweep."""
     command = [program, "compare", str(folder), "--csv"]
     answer = subprocess.run(command, capture_output=True, text=True, check=False)

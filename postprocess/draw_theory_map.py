@@ -10,11 +10,13 @@ Nothing is computed here but where a label fits. Writes MAP_KIND.png.
 
 import argparse
 import pathlib
-import sys
+from typing import Any
 
 import h5py
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -34,10 +36,10 @@ SMALLEST_LABELLED = 0.004  # of the map's area
 
 
 class TheoryMap:
-    def __init__(self, path):
+    def __init__(self, path: pathlib.Path) -> None:
         with h5py.File(path) as file:
             if file.attrs["format"] != "vibrotrough theory map":
-                raise SystemExit(f"{path} is no map of the theory; make one with vibrotrough theory map")
+                raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
             self.x, self.y = file["x"][:], file["y"][:]
             self.x_name, self.y_name = file.attrs["x_name"], file.attrs["y_name"]
             self.efficiency = file["velocity_efficiency"][:]
@@ -47,16 +49,16 @@ class TheoryMap:
             self.lines = np.stack([lines["x0"][:], lines["y0"][:], lines["x1"][:], lines["y1"][:]], axis=1)
             self.fixed = {name: float(value[()]) for name, value in file["fixed"].items()} if "fixed" in file else {}
 
-    def caption(self):
+    def caption(self) -> str:
         return ", ".join(f"{WORDS.get(name, name)} = {value:g}" for name, value in self.fixed.items())
 
 
-def draw_mode_lines(axes, theory, **style):
+def draw_mode_lines(axes: Axes, theory: TheoryMap, **style: Any) -> None:
     pieces = [[(x0, y0), (x1, y1)] for x0, y0, x1, y1 in theory.lines]
     axes.add_collection(LineCollection(pieces, **style))
 
 
-def innermost(region):
+def innermost(region: NDArray[np.bool_]) -> tuple[int, int]:
     """The cell of a region farthest from its rim: peel the region until nothing is left."""
     rim = np.pad(region, 1)
     last = rim
@@ -68,7 +70,7 @@ def innermost(region):
     return rows[middle], columns[middle]
 
 
-def label_regions(axes, theory):
+def label_regions(axes: Axes, theory: TheoryMap) -> None:
     for number in np.unique(theory.mode):
         region = theory.mode == number
         if region.mean() < SMALLEST_LABELLED:
@@ -77,7 +79,7 @@ def label_regions(axes, theory):
         axes.text(theory.x[column], theory.y[row], theory.modes[number], ha="center", va="center", fontsize=9)
 
 
-def frame(theory, axes):
+def frame(theory: TheoryMap, axes: Axes) -> None:
     axes.set_xlim(theory.x.min(), theory.x.max())
     axes.set_ylim(theory.y.min(), theory.y.max())
     axes.set_xlabel(WORDS.get(theory.x_name, theory.x_name))
@@ -85,13 +87,13 @@ def frame(theory, axes):
     axes.set_title(theory.caption(), fontsize=9)
 
 
-def draw_modes(theory, axes):
+def draw_modes(theory: TheoryMap, axes: Axes) -> None:
     draw_mode_lines(axes, theory, colors="black", linewidths=1)
     label_regions(axes, theory)
     frame(theory, axes)
 
 
-def draw_efficiency(theory, axes):
+def draw_efficiency(theory: TheoryMap, axes: Axes) -> None:
     eta = np.where(np.isfinite(theory.efficiency), theory.efficiency, np.nan)
     image = axes.pcolormesh(theory.x, theory.y, eta, shading="gouraud", cmap="viridis")
     axes.figure.colorbar(image, ax=axes, label="velocity efficiency $\\eta$")
@@ -99,7 +101,7 @@ def draw_efficiency(theory, axes):
     frame(theory, axes)
 
 
-def draw_lines(theory, axes):
+def draw_lines(theory: TheoryMap, axes: Axes) -> None:
     rows = np.unique(np.linspace(0, len(theory.y) - 1, 8).round().astype(int))
     colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(rows)))
     for row, colour in zip(rows, colours):
@@ -110,7 +112,7 @@ def draw_lines(theory, axes):
     axes.set_title(theory.caption(), fontsize=9)
 
 
-def draw_iso(theory, axes):
+def draw_iso(theory: TheoryMap, axes: Axes) -> None:
     eta = np.where(np.isfinite(theory.efficiency), theory.efficiency, np.nan)
     levels = np.arange(np.floor(np.nanmin(eta) * 10) / 10, np.nanmax(eta) + 0.05, 0.1)
     curves = axes.contour(theory.x, theory.y, eta, levels=levels, cmap="viridis")
@@ -121,7 +123,7 @@ def draw_iso(theory, axes):
 DRAW = {"modes": draw_modes, "efficiency": draw_efficiency, "lines": draw_lines, "iso": draw_iso}
 
 
-def draw(path, kind, output):
+def draw(path: pathlib.Path, kind: str, output: pathlib.Path) -> pathlib.Path:
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     DRAW[kind](TheoryMap(path), axes)
     figure.savefig(output, dpi=110)
@@ -129,7 +131,7 @@ def draw(path, kind, output):
     return output
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("map", type=pathlib.Path)
     parser.add_argument("--kind", choices=DRAW)
@@ -142,4 +144,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,13 +1,22 @@
 """The velocity efficiency of every cycle of a case, packing by packing, with what was discarded as start-up shaded."""
 
-import numpy as np
+import pathlib
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from matplotlib.axes import Axes
+
+import vibrotrough
 from figure_style import COLOURS, DASHES, GREY, corner, new_figure, plain_axes, save
+
+if TYPE_CHECKING:
+    from figures import Source
 
 MOST_PACKINGS = 6  # drawn; more would be too small to read
 
 
-def plot_cycles(source, case, result, output):
+def plot_cycles(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     packings = len(result["packings/seed"])
     shown = min(packings, MOST_PACKINGS)
     height = 1.2 + 1.35 * shown
@@ -28,7 +37,7 @@ def plot_cycles(source, case, result, output):
     return save(figure, output)
 
 
-def draw_packing(axes, result, number, row):
+def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping[str, Any]) -> None:
     efficiency = np.asarray(result[f"series/{number + 1}/efficiency"])
     discarded = int(result["packings/cycles_discarded"][number])
     mean, half_width = result["packings/efficiency"][number], result["packings/efficiency_half_width"][number]

@@ -4,10 +4,21 @@ Both need what is measured phase by phase (phases/ and profiles/ in result.h5); 
 """
 
 import csv
+import pathlib
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+import vibrotrough
 from figure_style import COLOURS, DASHES, GREY, corner, new_figure, plain_axes, save
+
+if TYPE_CHECKING:
+    from figures import Source
+
+Floats = NDArray[np.float64]
 
 LAYER = {"color": COLOURS[0], "linestyle": DASHES[0], "linewidth": 1.6}
 POINT_MASS = {"color": COLOURS[1], "linestyle": DASHES[1], "linewidth": 1.6}
@@ -15,7 +26,7 @@ TROUGH = {"color": COLOURS[6], "linestyle": DASHES[3], "linewidth": 1.2}
 MILLI = 1e3
 
 
-def read_point_mass(path):
+def read_point_mass(path: pathlib.Path) -> dict[str, Floats] | None:
     """The theory's columns as arrays; None when its motion has no period."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
@@ -27,7 +38,7 @@ def read_point_mass(path):
     return {name: np.array([row[name] for row in rows], dtype=float) for name in rows[0] if name != "phase"}
 
 
-def without_drift(cycles, displacement):
+def without_drift(cycles: Floats, displacement: Floats) -> Floats:
     """What is left of a displacement when its mean velocity is taken away."""
     return displacement - displacement[-1] * cycles / cycles[-1]
 
@@ -35,13 +46,13 @@ def without_drift(cycles, displacement):
 class Layer:
     """The mean curves of one packing from phase 0 to the end of its period, the start being the end of the period."""
 
-    def __init__(self, result, packing):
+    def __init__(self, result: vibrotrough.File, packing: int) -> None:
         place = f"phases/{packing}/"
 
-        def column(name):
+        def column(name: str) -> Floats:
             return np.asarray(result[place + name])
 
-        def closed(values):
+        def closed(values: Floats) -> Floats:
             return np.concatenate([values[-1:], values])
 
         self.cycles = np.concatenate([[0.0], column("phase") / (2 * np.pi)])
@@ -55,14 +66,14 @@ class Layer:
         self.force = closed(column("normal_force")) / float(result["packings/mass"][packing - 1])
 
 
-def has(result, group):
+def has(result: vibrotrough.File, group: str) -> list[int]:
     """Numbers of the packings that were measured phase by phase."""
     count = len(result["packings/seed"])
     return [packing for packing in range(1, count + 1)
             if f"{group}/{packing}/phase" in result and len(result[f"{group}/{packing}/phase"]) > 1]
 
 
-def plot_portraits(source, case, result, output):
+def plot_portraits(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     packings = has(result, "phases")
     if not packings:
         return []
@@ -76,7 +87,7 @@ def plot_portraits(source, case, result, output):
     return save(figure, output)
 
 
-def draw_layers(axes, layers):
+def draw_layers(axes: Any, layers: list[Layer]) -> None:
     """All packings; the first one is named."""
     for number, layer in enumerate(layers):
         style = dict(LAYER, alpha=1.0 if number == 0 else 0.35)
@@ -89,7 +100,7 @@ def draw_layers(axes, layers):
     axes[1, 0].plot(layers[0].cycles, layers[0].trough_velocity, label="trough", **TROUGH)
 
 
-def draw_point_mass(axes, mass):
+def draw_point_mass(axes: Any, mass: dict[str, Floats]) -> None:
     cycles = mass["cycles"]
     axes[0, 0].plot(MILLI * without_drift(cycles, mass["relative_displacement_m"]), mass["relative_velocity_x_m_per_s"],
                     **POINT_MASS)
@@ -98,7 +109,7 @@ def draw_point_mass(axes, mass):
     axes[1, 1].plot(cycles, mass["normal_force_n_per_kg"], **POINT_MASS)
 
 
-def label_portraits(axes):
+def label_portraits(axes: Any) -> None:
     labels = [
         (axes[0, 0], "displacement without drift  [mm]", "relative velocity, along  [m/s]"),
         (axes[0, 1], "height above lowest place  [mm]", "relative velocity, normal  [m/s]"),
@@ -113,7 +124,7 @@ def label_portraits(axes):
                     fontsize=8, color=GREY)
 
 
-def finish(figure, source, case, legend_from):
+def finish(figure: Figure, source: "Source", case: str, legend_from: Axes) -> None:
     row = source.row_of(case)
     figure.suptitle(f"case {case}: throw number {row['throw_number']:.3g}, \u03b2 = {row['vibration_angle_deg']:.3g}\u00b0",
                     fontsize=10)
@@ -124,14 +135,14 @@ def finish(figure, source, case, legend_from):
     figure.tight_layout(rect=(0, 0.03, 1, 1 - 0.35 / height))
 
 
-def profile_of(result, packing):
+def profile_of(result: vibrotrough.File, packing: int) -> list[Floats]:
     """Heights, and for each phase (row) velocity along the trough and solid fraction over them."""
     place = f"profiles/{packing}/"
     phases = len(np.unique(np.asarray(result[place + "phase"])))
     return [np.asarray(result[place + name]).reshape(phases, -1) for name in ("height", "velocity_x", "solid_fraction")]
 
 
-def plot_profiles(source, case, result, output):
+def plot_profiles(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
     packings = has(result, "profiles")
     if not packings:
         return []
@@ -152,7 +163,7 @@ def plot_profiles(source, case, result, output):
     return save(figure, output)
 
 
-def draw_profile(axes, profile, named):
+def draw_profile(axes: Any, profile: list[Floats], named: bool) -> None:
     """The mean over the phases, weighted by what is there, and the range of the phases of the first packing."""
     height, velocity, solid = profile
     weight = np.where(np.isfinite(velocity), solid, 0.0)

@@ -1,16 +1,27 @@
 """What the theory misses: measured minus theoretical velocity efficiency, over the throw number and a second input."""
 
 import itertools
+import pathlib
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+import vibrotrough
 from figure_style import COLOURS, INPUTS, MARKERS, THROW_NUMBER, corner, new_figure, plain_axes, save
+
+if TYPE_CHECKING:
+    from figures import Source
+
+Floats = NDArray[np.float64]
 
 MOST_PANELS = 12
 RESIDUAL = "residual \u0394\u03b7 = \u03b7 (DEM) \u2212 \u03b7 (theory)  [-]"
 
 
-def varied_inputs(campaign):
+def varied_inputs(campaign: vibrotrough.Campaign) -> list[str]:
     """Inputs with more than one value, the vibration angle first."""
     found = []
     for name in INPUTS:
@@ -20,7 +31,7 @@ def varied_inputs(campaign):
     return found
 
 
-def residuals(source):
+def residuals(source: "Source") -> Floats:
     """Measured minus theory for each row of campaign.h5; NaN where one of them is not known."""
     values = []
     for case in source.campaign["case"]:
@@ -30,7 +41,7 @@ def residuals(source):
     return np.array(values)
 
 
-def plot_residuals(source, output):
+def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     varied = varied_inputs(source.campaign)
     values = residuals(source)
     if not varied:
@@ -42,7 +53,7 @@ def plot_residuals(source, output):
     return save(figure, output)
 
 
-def draw_line(source, values):
+def draw_line(source: "Source", values: Floats) -> Figure:
     """Only the throw number is varied: residuals with their error bars."""
     figure, axes = new_figure(size=(7.2, 3.6))
     plain_axes(axes)
@@ -59,19 +70,19 @@ def draw_line(source, values):
     return figure
 
 
-def panels(campaign, others):
+def panels(campaign: vibrotrough.Campaign, others: list[str]) -> dict[str, list[int]]:
     """Rows of each combination of the further inputs, with its name."""
     keys = list(zip(*(np.round(np.asarray(campaign[name], dtype=float), 12) for name in others))) if others else []
     if not keys:
-        return {"": np.arange(campaign.cases)}
-    found = {}
+        return {"": list(range(campaign.cases))}
+    found: dict[str, list[int]] = {}
     for row, key in enumerate(keys):
         name = ", ".join(INPUTS[other][1].format(INPUTS[other][3] * value) for other, value in zip(others, key))
         found.setdefault(name, []).append(row)
     return found
 
 
-def draw_maps(source, values, second, others):
+def draw_maps(source: "Source", values: Floats, second: str, others: list[str]) -> Figure:
     """A square per case, coloured and with its number; colours from purple (slower) to orange (faster)."""
     campaign = source.campaign
     title, _, unit, factor = INPUTS[second]
@@ -97,7 +108,7 @@ def draw_maps(source, values, second, others):
     return figure
 
 
-def draw_panel(axes, x, y, values, reach):
+def draw_panel(axes: Axes, x: Floats, y: Floats, values: Floats, reach: float) -> Any:
     known = np.isfinite(values)
     image = axes.scatter(x[known], y[known], c=values[known], marker="s", s=420, cmap="PuOr_r", vmin=-reach, vmax=reach,
                          edgecolors="#555555", linewidths=0.5)
@@ -108,5 +119,3 @@ def draw_panel(axes, x, y, values, reach):
     axes.margins(0.12)
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     return image
-
-

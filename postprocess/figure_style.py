@@ -1,8 +1,13 @@
 """What all figures share: colours, fonts, the corner's text, saving."""
 
 import math
+import pathlib
+from collections.abc import Mapping
+from typing import Any
 
 import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -31,21 +36,21 @@ INPUTS = {
 
 
 class Problem(Exception):
-    """Something the user can mend; the text is one line."""
+    """An error that the user can correct; its text is one line."""
 
 
-def new_figure(*layout, size=(7.2, 4.8), **settings):
+def new_figure(*shape: int, size: tuple[float, float] = (7.2, 4.8), **settings: Any) -> tuple[Figure, Any]:
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10, "axes.axisbelow": True})
-    return plt.subplots(*layout, figsize=size, **settings)
+    return plt.subplots(*shape, figsize=size, **settings)
 
 
-def plain_axes(axes):
+def plain_axes(axes: Axes) -> None:
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
 
 
-def corner(figure, attributes, text=""):
+def corner(figure: Figure, attributes: Mapping[str, Any], text: str = "") -> None:
     """The campaign's name and the program's version, small, at the lower right; a remark at the lower left."""
     name = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
     figure.text(0.99, 0.01, name, ha="right", va="bottom", fontsize=7, color=GREY)
@@ -53,7 +58,7 @@ def corner(figure, attributes, text=""):
         figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color=GREY)
 
 
-def save(figure, output):
+def save(figure: Figure, output: pathlib.Path) -> list[pathlib.Path]:
     """Writes output.svg and output.png (the same bytes every time) and returns their paths."""
     paths = []
     for kind in ("svg", "png"):

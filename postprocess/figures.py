@@ -11,6 +11,8 @@ import argparse
 import json
 import pathlib
 import sys
+from collections.abc import Collection, Iterator
+from typing import Any
 
 import figure_cycles
 import figure_portraits
@@ -25,11 +27,11 @@ KINDS = ("efficiency", "residuals", "cycles", "portraits", "profiles")
 class Source:
     """What the figures are drawn from."""
 
-    def __init__(self, directory, output):
+    def __init__(self, directory: pathlib.Path, output: pathlib.Path) -> None:
         self.directory, self.output, self.data = directory, output, output / "data"
         try:
             with open(self.data / "campaign.json", encoding="utf-8") as file:
-                self.overview = json.load(file)
+                self.overview: dict[str, Any] = json.load(file)
             self.campaign = vibrotrough.open_campaign(directory)
         except (OSError, ValueError) as error:
             raise Problem(f"cannot read the campaign ({error}); give a campaign's folder, by 'vibrotrough plot DIR'") from error
@@ -37,12 +39,12 @@ class Source:
         if self.campaign.cases == 0:
             raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
 
-    def row_of(self, case):
+    def row_of(self, case: str) -> dict[str, Any]:
         """The case's row of `vibrotrough compare`."""
         return next(row for row in self.overview["cases"] if row["case"] == case)
 
 
-def draw(source, only, cases):
+def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Iterator[list[pathlib.Path]]:
     """Draws one figure after another and gives the paths of each."""
     if "efficiency" in only:
         yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency")
@@ -53,7 +55,7 @@ def draw(source, only, cases):
             yield from draw_case(source, only, case)
 
 
-def draw_case(source, only, case):
+def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
     """The figures of one case, when its result.h5 is there and whole."""
     drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
                "profiles": figure_portraits.plot_profiles}
@@ -69,7 +71,7 @@ def draw_case(source, only, case):
         yield drawers[kind](source, case, result, source.output / f"{kind}-{case}")
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures")

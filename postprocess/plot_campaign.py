@@ -17,17 +17,23 @@ import math
 import pathlib
 import sys
 from collections import defaultdict
+from typing import Any
 
 import h5py
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, plain_axes, save
 
 
+Columns = dict[str, NDArray[Any]]
+Lines = dict[float, list[NDArray[np.float64]]]  # by vibration angle
+
 UNCERTAIN = "not steady or not precise"
 
 
-def read_campaign(path):
+def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, Any]]:
     """Columns of campaign.h5 as arrays, and its root attributes."""
     try:
         with h5py.File(path) as file:
@@ -39,7 +45,7 @@ def read_campaign(path):
         raise Problem(f"cannot read {path} ({error}); give a campaign's folder") from error
 
 
-def read_theory(path):
+def read_theory(path: pathlib.Path) -> tuple[Lines, dict[str, Any]]:
     """Lines of the theory: vibration angle in degrees (rounded) -> list of (throw numbers, efficiencies), and their style."""
     points = defaultdict(list)
     try:
@@ -58,12 +64,12 @@ def read_theory(path):
     return lines, {"linewidth": 1.6} if fine else {"linewidth": 0.8, "marker": "x", "markersize": 5}
 
 
-def same_angle(degrees):
+def same_angle(degrees: float) -> float:
     """Angles that differ only by rounding are one."""
     return round(degrees, 4)
 
 
-def series_of(columns):
+def series_of(columns: Columns) -> dict[str, list[int]]:
     """What the cases differ in besides throw number and vibration angle, for the legend: rows -> label."""
     shown = {name: (form, factor) for name, (_, form, _, factor) in INPUTS.items() if name != "vibration_angle"}
     varied = [name for name in shown if len(np.unique(columns[name][np.isfinite(columns[name])])) > 1]
@@ -76,7 +82,7 @@ def series_of(columns):
     }
 
 
-def draw(axes, columns, theory, style):
+def draw(axes: Axes, columns: Columns, theory: Lines, style: dict[str, Any]) -> None:
     angles = np.array([same_angle(angle) for angle in np.degrees(columns["vibration_angle"])])
     every_angle = sorted(set(angles) | set(theory))
     for index, angle in enumerate(every_angle):
@@ -102,7 +108,7 @@ def draw(axes, columns, theory, style):
             )
 
 
-def mark_uncertain(axes, columns):
+def mark_uncertain(axes: Axes, columns: Columns) -> None:
     """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
     drawn = np.isfinite(columns["efficiency"])
     rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
@@ -118,7 +124,7 @@ def mark_uncertain(axes, columns):
         )
 
 
-def label(axes, columns, attributes, theory):
+def label(axes: Axes, columns: Columns, attributes: dict[str, Any], theory: Lines) -> None:
     confidence = np.unique(columns["confidence"])
     bars = f"{100 * confidence[0]:.3g} % interval" if len(confidence) == 1 else "confidence interval"
     axes.set_xlabel(THROW_NUMBER)
@@ -136,7 +142,7 @@ def label(axes, columns, attributes, theory):
     corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady)" if without else "")
 
 
-def plot_efficiency(directory, theory_file, output):
+def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path) -> list[pathlib.Path]:
     """Draws the figure; returns the files."""
     columns, attributes = read_campaign(directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
@@ -150,7 +156,7 @@ def plot_efficiency(directory, theory_file, output):
     return save(figure, output)
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder, with campaign.h5")
     parser.add_argument("--theory", type=pathlib.Path, metavar="FILE.csv", help="theory curve made by vibrotrough")

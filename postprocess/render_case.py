@@ -13,14 +13,14 @@ import os
 from paraview.simple import FindSource, GetActiveView, GetAnimationScene, GetLayout, Render, SaveScreenshot
 
 
-def open_scene(folder):
+def open_scene(folder: str) -> None:
     """Runs the case's own scene, so that the picture is what a person sees."""
     path = os.path.join(os.path.abspath(folder), "view_case.py")
     with open(path, encoding="utf-8") as file:
         exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__"})
 
 
-def go_to(time):
+def go_to(time: float | None) -> float:
     scene = GetAnimationScene()
     times = list(scene.TimeKeeper.TimestepValues)
     if not times:
@@ -29,7 +29,7 @@ def go_to(time):
     return scene.AnimationTime
 
 
-def count(name, time):
+def count(name: str, time: float) -> int:
     """Points of an object; a reader that fails gives none and no error, so this is how it is noticed."""
     source = FindSource(name)
     source.UpdatePipeline(time)
@@ -39,7 +39,7 @@ def count(name, time):
     return points
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("folder")
     parser.add_argument("picture")

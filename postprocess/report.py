@@ -13,6 +13,7 @@ import os
 import pathlib
 import re
 import sys
+from typing import Any
 
 import jinja2
 import markupsafe
@@ -20,6 +21,9 @@ import markupsafe
 from figure_style import Problem
 
 UNIT_SIGNS = {"1": "", "degree": "\u00b0"}  # of units that are not written as they are
+
+Case = dict[str, Any]
+Column = dict[str, Any]
 
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
@@ -36,7 +40,7 @@ CASE_FIGURES = [
 MOST_CASES = 60  # whose own figures are in the report: 140 kB each
 
 
-def read_json(path, needed=True):
+def read_json(path: pathlib.Path, needed: bool = True) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -47,7 +51,7 @@ def read_json(path, needed=True):
         raise Problem(f"cannot read {path} ({error}); remove it or write it anew") from error
 
 
-def inline_svg(path, number, title):
+def inline_svg(path: pathlib.Path, number: int, title: str) -> markupsafe.Markup:
     """The figure as an element of the page: no prolog, ids of its own, a name for screen readers."""
     text = path.read_text(encoding="utf-8")
     text = text[text.index("<svg") :]
@@ -60,21 +64,21 @@ def inline_svg(path, number, title):
 class Figures:
     """Finds the figures that are there and numbers them."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: pathlib.Path) -> None:
         self.folder, self.number = folder, 0
 
-    def get(self, name, title):
+    def get(self, name: str, title: str) -> dict[str, Any] | None:
         path = self.folder / f"{name}.svg"
         if not path.is_file():
             return None
         self.number += 1
         return {"number": self.number, "title": title, "svg": inline_svg(path, self.number, title)}
 
-    def all(self, names):
+    def all(self, names: list[tuple[str, str]]) -> list[dict[str, Any]]:
         return [figure for figure in (self.get(*one) for one in names) if figure]
 
 
-def report_columns(overview):
+def report_columns(overview: dict[str, Any]) -> list[Column]:
     """The columns that the report shows, from left to right, as campaign.json describes them."""
     shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
     for column in shown:
@@ -82,7 +86,7 @@ def report_columns(overview):
     return sorted(shown, key=lambda column: column["position"])
 
 
-def cell(row, column):
+def cell(row: Case, column: Column) -> dict[str, Any]:
     """What is shown of a value, and what it is sorted by; unknown values are empty."""
     value = row.get(column["name"])
     if value is None or value == "":
@@ -91,11 +95,11 @@ def cell(row, column):
     return {"shown": column["format"].format(value), "key": key, "text": column["type"] == "text"}
 
 
-def with_unit(shown, unit):
+def with_unit(shown: str, unit: str) -> str:
     return shown + unit if unit in ("", UNIT_SIGNS["degree"]) else f"{shown} {unit}"
 
 
-def split_columns(columns, cases):
+def split_columns(columns: list[Column], cases: list[Case]) -> tuple[list[Column], str]:
     """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
     same = [column for column in columns
             if column["once_when_same"] and len(cases) > 1 and len({case[column["name"]] for case in cases}) == 1]
@@ -104,19 +108,19 @@ def split_columns(columns, cases):
     return [column for column in columns if column not in same + empty], ", ".join(told)
 
 
-def table(cases, columns):
+def table(cases: list[Case], columns: list[Column]) -> list[dict[str, Any]]:
     return [{"id": case["case"], "cells": [cell(case, column) for column in columns], "finished": case["outcome"] == "finished"}
             for case in cases]
 
 
-def counts(cases):
-    found = {}
+def counts(cases: list[Case]) -> dict[str, int]:
+    found: dict[str, int] = {}
     for case in cases:
         found[case["outcome"]] = found.get(case["outcome"], 0) + 1
     return found
 
 
-def split_certificate(certificate):
+def split_certificate(certificate: Any) -> tuple[Any, dict[str, list[dict[str, Any]]]]:
     """Its facts, and its lists of objects (the probes), which are tables of their own."""
     if not isinstance(certificate, dict):
         return certificate, {}
@@ -124,7 +128,7 @@ def split_certificate(certificate):
     return {name: one for name, one in certificate.items() if name not in lists}, lists
 
 
-def render(directory, output):
+def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
     figures = Figures(output)
@@ -155,7 +159,7 @@ def render(directory, output):
     )
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder")
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures and the report")

@@ -1,52 +1,58 @@
-"""What `vibrotrough validate` does: runs the cases of validation/, their wrong twins, and writes the page of verdicts."""
+"""What `vibrotrough validate` does: runs the cases of validation/ and their negative controls, and writes the page of verdicts."""
 
 import argparse
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import time
 import tomllib
+from typing import Any
 
 from validation_case import FAILS, HOLDS, ROOT
 
 WRONG_INPUT, MISSING, INTERRUPTED = 2, 3, 130
 PAGE_HEAD = """# validation
 
-One folder per claim: its question, source, formula, what deviation to expect and why, inputs, reference, a criterion with its reason, and a
-deliberately wrong twin that the criterion must notice. This page is written by `vibrotrough validate --store`; [`postprocess/README.md`](../postprocess/README.md)
-tells how a case is made.
+Each folder tests one claim. It holds the question, the source, the formula, the deviation to expect and why, the inputs, the reference, and criteria
+with their reasons. Each case also has a negative control: a run with a deliberate mistake that the criteria must detect, which shows that they can fail.
+`vibrotrough validate --store` writes this page; [`postprocess/README.md`](../postprocess/README.md) explains how to make a case.
 
-    vibrotrough validate               # all cases and their twins; those of long simulations from their stored tables
-    vibrotrough validate NAME --long   # run the simulations of one again, minutes to an hour
+    vibrotrough validate               # all cases and their negative controls; cases with long simulations are judged from their stored tables
+    vibrotrough validate NAME --long   # run the simulations of one case again, which takes minutes to an hour
 
 """
 
 
 class Case:
-    def __init__(self, folder):
+    """A case of validation/ as FOLDER/case.toml describes it."""
+
+    def __init__(self, folder: pathlib.Path) -> None:
         self.folder, self.name = folder, folder.name
         try:
-            self.about = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
-            self.title, self.question, self.twin = (self.about[key] for key in ("title", "question", "wrong_twin"))
-        except (tomllib.TOMLDecodeError, KeyError) as wrong:
-            raise SystemExit(f"{folder / 'case.toml'}: {wrong!r}; a case has title, question and wrong_twin") from wrong
-        self.long = self.about.get("long", False)
-        self.figures = self.about.get("figures", [])
+            about = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
+            self.title, self.question, self.control = (str(about[key]) for key in ("title", "question", "negative_control"))
+        except (tomllib.TOMLDecodeError, KeyError) as error:
+            message = f"{folder / 'case.toml'}: {error!r}; a case needs the keys title, question and negative_control"
+            raise SystemExit(message) from error
+        self.long: bool = about.get("long", False)
+        self.figures: list[str] = about.get("figures", [])
 
-    def stored_verdict(self):
+    def stored_verdict(self) -> dict[str, Any] | None:
+        """The case's verdict.json, or None if it has not been judged."""
         path = self.folder / "verdict.json"
         return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
-    def run(self, options, twin):
-        """Exit code of run.py, which writes to its own log; nothing of a twin is kept."""
-        output = self.folder if options.store and not twin else options.output / self.name / ("wrong_twin" if twin else "")
+    def run(self, options: argparse.Namespace, control: bool) -> tuple[int, str]:
+        """Runs run.py, whose output goes to a log; returns its exit code and the log's path. Nothing of a control is stored."""
+        output = self.folder if options.store and not control else options.output / self.name / ("negative_control" if control else "")
         output.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-B", str(self.folder / "run.py"), "--program", options.program, "--output", str(output),
                    "--runs", str((options.runs / self.name).resolve()), "--jobs", str(options.jobs), "--points", str(options.points)]
-        command += ["--wrong-twin"] if twin else []
-        command += ["--long"] if options.long and self.long and not twin else []
-        log = options.output / self.name / ("wrong_twin.log" if twin else "log")
+        command += ["--negative-control"] if control else []
+        command += ["--long"] if options.long and self.long and not control else []
+        log = options.output / self.name / ("negative_control.log" if control else "log")
         log.parent.mkdir(parents=True, exist_ok=True)
         if options.verbose:
             return subprocess.run(command, check=False).returncode, "see above"
@@ -54,43 +60,46 @@ class Case:
             return subprocess.run(command, stdout=file, stderr=subprocess.STDOUT, check=False).returncode, str(log)
 
 
-def all_cases(folder):
+def all_cases(folder: pathlib.Path) -> list[Case]:
+    """The cases below `folder`, by name."""
     return [Case(path.parent) for path in sorted(folder.glob("*/case.toml"))]
 
 
-def chosen(cases, names):
+def chosen(cases: list[Case], names: list[str]) -> list[Case]:
+    """The named cases, or all."""
     known = {case.name: case for case in cases}
     for name in names:
         if name not in known:
-            print(f"there is no case '{name}'; 'vibrotrough validate --list' names them", file=sys.stderr)
+            print(f"there is no case '{name}'; 'vibrotrough validate --list' shows all cases", file=sys.stderr)
             sys.exit(WRONG_INPUT)
     return [known[name] for name in names] if names else cases
 
 
-def failures(log):
+def failures(log: str) -> list[str]:
     """The criteria that failed, for the terminal."""
     path = pathlib.Path(log)
     return [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("FAIL")] if path.exists() else []
 
 
-def judge(case, options):
-    """Runs a case and its twin; True when the case holds and the twin fails."""
+def judge(case: Case, options: argparse.Namespace) -> bool:
+    """Runs a case and its negative control; true when the case holds and the control fails."""
     begin = time.monotonic()
     print(f"{case.name:<24} ", end="", flush=True)
-    code, log = case.run(options, twin=False)
-    twin_code, twin_log = case.run(options, twin=True)
-    good = code == HOLDS and twin_code == FAILS
+    code, log = case.run(options, control=False)
+    control_code, control_log = case.run(options, control=True)
+    good = code == HOLDS and control_code == FAILS
     text = {HOLDS: "holds", FAILS: "FAILS"}.get(code, f"ERROR {code}")
-    twin = {FAILS: "its wrong twin is noticed", HOLDS: "its wrong twin PASSES"}.get(twin_code, f"its wrong twin ends with ERROR {twin_code}")
-    print(f"{text}; {twin}; {time.monotonic() - begin:.0f} s")
+    control = {FAILS: "its negative control fails, as it must", HOLDS: "its negative control PASSES, which it must not"}.get(
+        control_code, f"its negative control ends with ERROR {control_code}")
+    print(f"{text}; {control}; {time.monotonic() - begin:.0f} s")
     if not good:
         for line in failures(log):
             print(f"    {line}")
-        print(f"    more in {log}" + ("" if twin_code == FAILS else f" and {twin_log}"))
+        print(f"    more in {log}" + ("" if control_code == FAILS else f" and {control_log}"))
     return good
 
 
-def verdict_text(verdict):
+def verdict_text(verdict: dict[str, Any] | None) -> str:
     if verdict is None:
         return "not judged yet"
     failed = sum(not criterion["holds"] for criterion in verdict["criteria"])
@@ -98,12 +107,13 @@ def verdict_text(verdict):
     return f"holds ({count} criteria)" if verdict["holds"] else f"**fails** ({failed} of {count} criteria)"
 
 
-def findings_text(findings):
+def findings_text(findings: list[dict[str, Any]]) -> str:
     words = {True: "borne out", False: "**not borne out**", None: "undecided"}
     return "".join(f"- {words[one['borne_out']]}: {one['claim']}. {one['measured']}\n" for one in findings)
 
 
-def page(cases):
+def page(cases: list[Case]) -> str:
+    """The text of validation/README.md, from the stored verdicts."""
     lines = [PAGE_HEAD, "| case | claim | verdict | date | figure |\n|---|---|---|---|---|\n"]
     for case in cases:
         verdict = case.stored_verdict()
@@ -118,20 +128,20 @@ def page(cases):
         broken = [criterion for criterion in verdict["criteria"] if not criterion["holds"]]
         lines += [f"- **fails**: {one['what']}: {one['value']:.4g}, wanted {one['least']:.4g} to {one['most']:.4g}\n" for one in broken]
         lines.append(findings_text(verdict["findings"]))
-        lines.append(f"\nWrong twin, which fails as it must: {case.twin}\n")
+        lines.append(f"\nNegative control, which fails as it must: {case.control}\n")
         if case.figures:
             lines.append(f"\n![{case.title}]({case.name}/{case.figures[0]})\n")
     return "".join(lines)
 
 
-def show_list(cases):
+def show_list(cases: list[Case]) -> None:
     for case in cases:
         verdict = case.stored_verdict()
         state = "not judged yet" if verdict is None else ("holds" if verdict["holds"] else "FAILS") + " " + verdict["date"]
         print(f"{case.name:<24} {'long' if case.long else 'seconds':<8} {state:<18} {case.title}")
 
 
-def parse():
+def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*")
     parser.add_argument("--program", required=True)
@@ -145,7 +155,7 @@ def parse():
     return parser.parse_args()
 
 
-def main():
+def main() -> None:
     options = parse()
     cases = all_cases(options.cases)
     if options.list:
@@ -158,7 +168,7 @@ def main():
     if options.store:
         (options.cases / "README.md").write_text(page(cases), encoding="utf-8")
         print(f"stored in {options.cases}")
-    print(f"{sum(good)} of {len(good)} cases hold, with a twin that is noticed")
+    print(f"{sum(good)} of {len(good)} cases hold and have a negative control that fails")
     sys.exit(0 if all(good) else 1)
 
 
@@ -167,8 +177,8 @@ if __name__ == "__main__":
         main()
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
-    except BrokenPipeError:  # the reader of our output has seen enough
-        sys.stdout = None
+    except BrokenPipeError:  # the reader of our output has ended
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
     except OSError as failure:
         print(f"validate: {failure}; choose another folder with --output", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""One case of validation/: its options, criteria, findings and verdict. postprocess/README.md tells how a case is made."""
+"""One case of validation/: its options, criteria, findings and verdict. postprocess/README.md explains how to make a case."""
 
 import argparse
 import csv
@@ -11,145 +11,187 @@ import platform
 import re
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NoReturn
 
-from campaign_program import campaign_text, run_campaign
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign_program import Row, campaign_text, run_campaign
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HOLDS, FAILS = 0, 4  # exit codes; 1 is a crash of the script
 
+Floats = NDArray[np.float64]
 
-def read_table(path):
-    """Rows of a CSV file as dicts of texts; lines that begin with # are remarks."""
-    lines = [line for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+
+def read_table(path: pathlib.Path) -> list[Row]:
+    """Rows of a CSV file as dicts of texts; lines that begin with # are comments."""
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     return list(csv.DictReader(lines))
 
 
-def today():
+def today() -> str:
     return datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d")
 
 
-def machine():
+def machine() -> str:
     """System, processor and number of cores."""
     try:
         text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
-        processor = re.search(r"^model name\s*: (.*)$", text, re.MULTILINE)[1]
-    except (OSError, TypeError):
-        processor = platform.machine()
+        found = re.search(r"^model name\s*: (.*)$", text, re.MULTILINE)
+    except OSError:
+        found = None
+    processor = found[1] if found else platform.machine()
     return f"{platform.system()}, {processor}, {os.cpu_count()} cores"
 
 
-def arguments(description):
+def arguments(description: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--program", default=str(ROOT / "build/release/src/app/vibrotrough"))
     parser.add_argument("--output", type=pathlib.Path, help="folder of tables, figures and verdict.json; default: the case's own")
-    parser.add_argument("--runs", type=pathlib.Path, help="folder of simulations, which go on where they stopped; default: runs/NAME")
+    parser.add_argument("--runs", type=pathlib.Path, help="folder of simulations, which continue where they stopped; default: runs/NAME")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--long", action="store_true", help="run the simulations of a long case instead of judging the stored tables")
-    parser.add_argument("--quick", action="store_true", help="with --long: a few cases only, to try the script; proves nothing")
-    parser.add_argument("--wrong-twin", action="store_true", help="make the deliberate mistake, which the criteria must notice")
-    parser.add_argument("--points", type=int, default=300, help="per axis of a map of the theory")
+    parser.add_argument("--long", action="store_true", help="run the simulations of a long case instead of judging its stored tables")
+    parser.add_argument("--quick", action="store_true", help="with --long: run only a few cases, to try the script; this proves nothing")
+    parser.add_argument("--negative-control", action="store_true", help="make the case's deliberate mistake, which its criteria must detect")
+    parser.add_argument("--points", type=int, default=300, help="points per axis of a map of the theory")
     return parser.parse_args()
 
 
 class ValidationCase:
-    """Reads FOLDER/case.toml, runs the program, collects criteria and findings; finish() writes the verdict."""
+    """Reads FOLDER/case.toml, runs the program, collects criteria and findings; finish() writes the verdict.
 
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-        self.about = tomllib.loads((self.folder / "case.toml").read_text(encoding="utf-8"))
+    `control` is true in the negative control, a second run with a deliberate mistake that the criteria must detect.
+    """
+
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder = folder
+        self.about: dict[str, Any] = tomllib.loads((self.folder / "case.toml").read_text(encoding="utf-8"))
         options = arguments(self.about["question"])
-        self.program, self.jobs, self.points = options.program, options.jobs, options.points
-        self.output = options.output or self.folder
-        self.runs = (options.runs or ROOT / "runs" / self.folder.name).resolve()
-        self.long, self.quick, self.wrong = options.long, options.quick, options.wrong_twin
+        self.program: str = options.program
+        self.jobs: int = options.jobs
+        self.points: int = options.points
+        self.output: pathlib.Path = options.output or self.folder
+        self.runs: pathlib.Path = (options.runs or ROOT / "runs" / self.folder.name).resolve()
+        self.long: bool = options.long
+        self.quick: bool = options.quick
+        self.control: bool = options.negative_control
         self.output.mkdir(parents=True, exist_ok=True)
-        self.criteria, self.findings = [], []
+        self.criteria: list[dict[str, Any]] = []
+        self.findings: list[dict[str, Any]] = []
         self.begin, self.made_by = time.monotonic(), ""
+
+    def own_runs(self) -> pathlib.Path:
+        """Folder below --runs that the case and its negative control do not share."""
+        return self.runs / ("negative_control" if self.control else "case")
+
+    def sections(self, base: str = "base.toml") -> dict[str, Any]:
+        """The sections of FOLDER/base.toml, a campaign without a sweep."""
+        return tomllib.loads((self.folder / base).read_text(encoding="utf-8"))
 
     # What the program says.
 
-    def theory(self, *words):
+    def theory(self, *words: object) -> str:
         """What `vibrotrough theory WORDS` prints."""
         return self._ask("theory", *map(str, words))
 
-    def json(self, *words):
+    def json(self, *words: object) -> Any:
+        """What `vibrotrough theory WORDS --json` prints, as Python values."""
         return json.loads(self.theory(*words, "--json"))
 
-    def csv(self, *words):
+    def csv(self, *words: object) -> list[Row]:
+        """The rows that `vibrotrough theory WORDS` prints as CSV."""
         return list(csv.DictReader(io.StringIO(self.theory(*words))))
 
-    def probes(self):
+    def batch(self, columns: Sequence[str], points: Iterable[Sequence[float]]) -> list[Row]:
+        """The rows of `vibrotrough theory batch` for `points`, rows of numbers whose inputs `columns` names."""
+        lines = [",".join(columns)] + [",".join(repr(float(value)) for value in point) for point in points]
+        with tempfile.TemporaryDirectory() as folder:
+            questions, answers = pathlib.Path(folder, "points.csv"), pathlib.Path(folder, "answers.csv")
+            questions.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            self.theory("batch", questions, "--output", answers)
+            return read_table(answers)
+
+    def efficiencies(self, columns: Sequence[str], points: Iterable[Sequence[float]]) -> Floats:
+        """The theory's velocity efficiency at each of `points`, as for batch()."""
+        return np.array([float(row["velocity_efficiency"]) for row in self.batch(columns, points)])
+
+    def probes(self) -> dict[str, dict[str, Any]]:
         """What `vibrotrough probe-engine` measured and expected, by the probes' names."""
         return {probe["name"]: probe for probe in json.loads(self._ask("probe-engine", "--json"))["probes"]}
 
-    def _ask(self, *words):
+    def _ask(self, *words: str) -> str:
         answer = subprocess.run([self.program, *words], capture_output=True, text=True, check=False)
         if answer.returncode != 0:
             raise SystemExit(f"{self.program} {' '.join(words)}\n{answer.stderr}")
         return answer.stdout
 
-    def campaign(self, name, changes, sweep, base="base.toml"):
-        """Runs the variations on FOLDER/base.toml below --runs, and returns the table's rows, in the order of the sweep."""
-        sections = tomllib.loads((self.folder / base).read_text(encoding="utf-8"))
-        text = campaign_text(sections, {"campaign.name": name, **changes}, sweep)
+    def campaign(self, name: str, changes: Mapping[str, Any], sweep: Mapping[str, Sequence[Any]]) -> list[Row]:
+        """Runs variations of FOLDER/base.toml below --runs and returns the table's rows in the order of the sweep."""
+        text = campaign_text(self.sections(), {"campaign.name": name, **changes}, sweep)
         return run_campaign(self.program, self.runs / name, text, self.jobs)
 
-    # Tables: written by a long run, read by the judgement of this run or of a later one.
+    # Tables: written by a long run, and read when this run or a later one is judged.
 
-    def reference(self, name="reference.csv"):
+    def reference(self, name: str = "reference.csv") -> list[Row]:
+        """The rows of FOLDER/reference.csv: published or exact values."""
         return read_table(self.folder / name)
 
-    def table(self, name):
-        """A table that write_table() wrote: this run's with --long or for a case that is not long, else the stored one."""
+    def table(self, name: str) -> list[Row]:
+        """A table that write_table() wrote: that of this run with --long or if the case is not long, else the stored one."""
         fresh = self.long or not self.about.get("long", False)
         path = (self.output if fresh else self.folder) / name
         if not fresh:  # the verdict names what made the numbers, not who judged them
             self.made_by = path.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
         return read_table(path)
 
-    def write_table(self, name, header, rows):
+    def write_table(self, name: str, header: Sequence[str], rows: Iterable[Iterable[object]]) -> None:
+        """Writes a CSV file whose first line, a comment, says what made it."""
         with open(self.output / name, "w", encoding="utf-8", newline="") as file:
             file.write(f"# {self.provenance()}\n")
             csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
-    def figure(self, name):
-        """Where to save a figure; a twin's goes where nobody takes it for the case's."""
+    def figure(self, name: str) -> pathlib.Path:
+        """Where to save a figure. The negative control has an output folder of its own."""
         return self.output / name
 
     # Judgement.
 
-    def check(self, what, value, expected, tolerance, because=""):
+    def check(self, what: str, value: float, expected: float, tolerance: float, because: str = "") -> None:
         """A criterion: |value - expected| <= tolerance. `because`: the reason for the tolerance."""
         self.between(what, value, expected - tolerance, expected + tolerance, because)
 
-    def between(self, what, value, least, most, because=""):
-        """A criterion: least <= value <= most (not a number fails)."""
+    def between(self, what: str, value: float, least: float, most: float, because: str = "") -> None:
+        """A criterion: least <= value <= most. NaN fails."""
         value, holds = float(value), bool(least <= value <= most)
         self.criteria.append({"what": what, "value": value, "least": float(least), "most": float(most), "holds": holds,
                               "because": because})
         print(f"{'ok  ' if holds else 'FAIL'} {what}: {value:.6g}, wanted {least:.6g} to {most:.6g}")
 
-    def finding(self, claim, borne_out, measured):
-        """Somebody's claim and whether our measurement bears it out (True, False, or None: undecided); no criterion of ours."""
-        self.findings.append({"claim": claim, "borne_out": None if borne_out is None else bool(borne_out), "measured": measured})
-        print({True: "borne out    ", False: "not borne out", None: "undecided    "}[self.findings[-1]["borne_out"]], f"{claim}: {measured}")
+    def finding(self, claim: str, borne_out: bool | None, measured: str) -> None:
+        """A published claim and whether our measurement bears it out (None: undecided). It does not decide the verdict."""
+        borne_out = None if borne_out is None else bool(borne_out)  # NumPy's truth values are not JSON's
+        self.findings.append({"claim": claim, "borne_out": borne_out, "measured": measured})
+        print({True: "borne out    ", False: "not borne out", None: "undecided    "}[borne_out], f"{claim}: {measured}")
 
-    def provenance(self):
+    def provenance(self) -> str:
         """Date, program with its commit, and machine, for the first line of a table."""
         return f"{today()}; {self._ask('--version').strip()}; {machine()}"
 
-    def finish(self):
-        """Writes verdict.json (not for a twin) and ends with HOLDS or FAILS. A case without criteria fails."""
+    def finish(self) -> NoReturn:
+        """Writes verdict.json, except in a negative control, and exits with HOLDS or FAILS. A case without criteria fails."""
         failed = sum(not criterion["holds"] for criterion in self.criteria)
         holds = failed == 0 and bool(self.criteria)
         print("all criteria hold" if holds else f"{failed} of {len(self.criteria)} criteria fail")
-        if not self.wrong:
+        if not self.control:
             self._write_verdict(holds)
         sys.exit(HOLDS if holds else FAILS)
 
-    def _write_verdict(self, holds):
+    def _write_verdict(self, holds: bool) -> None:
         long = self.about.get("long", False)
         verdict = {"case": self.folder.name, "holds": holds, "date": today(), "seconds": round(time.monotonic() - self.begin, 1),
                    "made_by": self.made_by or self.provenance(),

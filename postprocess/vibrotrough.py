@@ -12,43 +12,52 @@ Everything is read at once, so files may be renewed meanwhile. The tables of nam
 Needs h5py and numpy.
 """
 
+from __future__ import annotations
+
+import os
 import pathlib
+from collections.abc import Iterator
+from typing import Any
 
 import h5py
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
-class Array(np.ndarray):
+class Array(np.ndarray[Any, np.dtype[Any]]):
     """A numpy array with `units` (udunits2's spelling, "1" for pure numbers) and `description`.
 
     Slices keep both. What is computed from it is a plain array: its units are yours to know.
     """
 
-    def __new__(cls, values, units="1", description=""):
+    units: str
+    description: str
+
+    def __new__(cls, values: ArrayLike, units: str = "1", description: str = "") -> Array:
         array = np.asarray(values).view(cls)
         array.units, array.description = units, description
         return array
 
-    def __array_finalize__(self, parent):
+    def __array_finalize__(self, parent: object) -> None:
         self.units = getattr(parent, "units", "1")
         self.description = getattr(parent, "description", "")
 
-    def __array_ufunc__(self, ufunc, method, *inputs, out=None, **settings):
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, out: Any = None, **settings: Any) -> Any:
         plain = [np.asarray(one) if isinstance(one, Array) else one for one in inputs]
         if out is not None:
             settings["out"] = tuple(np.asarray(one) if isinstance(one, Array) else one for one in out)
         return getattr(ufunc, method)(*plain, **settings)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"{np.asarray(self)!r} [{self.units}]"
 
 
-def _read(dataset):
+def _read(dataset: h5py.Dataset) -> Array:
     values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
     return Array(values, str(dataset.attrs.get("units", "1")), str(dataset.attrs.get("description", "")))
 
 
-def _read_fields(table):
+def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
     """The fields of a table, by name, with their units and descriptions."""
     rows = table[()]
     words = zip(table.dtype.names, table.attrs["units"], table.attrs["description"])
@@ -62,17 +71,17 @@ class File:
     attributes in `attributes`.
     """
 
-    def __init__(self, path, wanted_format):
+    def __init__(self, path: str | os.PathLike[str], wanted_format: str) -> None:
         self.path = pathlib.Path(path)
-        self._arrays = {}
+        self._arrays: dict[str, Array] = {}
         with h5py.File(self.path) as file:
-            self.attributes = dict(file.attrs)
+            self.attributes: dict[str, Any] = dict(file.attrs)
             found = self.attributes.get("format")
             if found != wanted_format:
                 raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_format}'")
             file.visititems(lambda name, item: self._keep(name, item))
 
-    def _keep(self, name, item):
+    def _keep(self, name: str, item: object) -> None:
         if not isinstance(item, h5py.Dataset):
             return
         if item.dtype.names is None:
@@ -80,40 +89,40 @@ class File:
         else:
             self._arrays |= {f"{name}/{field}": values for field, values in _read_fields(item)}
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Array:
         if name not in self._arrays:
             raise KeyError(f"{self.path} has no '{name}'; it has {', '.join(self._arrays)}")
         return self._arrays[name]
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name in self._arrays
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._arrays)
 
-    def names(self):
+    def names(self) -> list[str]:
         return list(self._arrays)
 
 
 class Campaign(File):
     """campaign.h5: one array per column, one element per finished case."""
 
-    def __init__(self, path):
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         super().__init__(path, "vibrotrough campaign")
 
     @property
-    def cases(self):
+    def cases(self) -> int:
         """Number of cases in the table."""
         return len(self["case"]) if "case" in self else 0
 
-    def case(self, case_id):
+    def case(self, case_id: object) -> File:
         """The case's result.h5, with series of cycles for each packing."""
         return File(self.path.parent / "cases" / str(case_id) / "result.h5", "vibrotrough result")
 
-    def rows(self, **conditions):
+    def rows(self, **conditions: Any) -> NDArray[np.intp]:
         """Row numbers where every named column has the value (floats to 1e-9), e.g. rows(outcome="finished")."""
         keep = np.ones(self.cases, dtype=bool)
         for name, value in conditions.items():
@@ -122,13 +131,13 @@ class Campaign(File):
         return np.flatnonzero(keep)
 
 
-def open_campaign(path):
+def open_campaign(path: str | os.PathLike[str]) -> Campaign:
     """A campaign from its folder or its campaign.h5."""
     path = pathlib.Path(path)
     return Campaign(path / "campaign.h5" if path.is_dir() else path)
 
 
-def open_result(path):
+def open_result(path: str | os.PathLike[str]) -> File:
     """One case's result.h5, from the file or the case's folder."""
     path = pathlib.Path(path)
     return File(path / "result.h5" if path.is_dir() else path, "vibrotrough result")

@@ -8,7 +8,10 @@ works from any folder. `vibrotrough export` writes this file beside the .pvd fil
 postprocess/view_case.py is its template.
 """
 
+from __future__ import annotations
+
 import os
+from typing import Any
 
 import paraview
 from paraview.simple import (
@@ -36,7 +39,7 @@ from paraview.simple import (
 
 CAPTION = "@CAPTION@"
 FREQUENCY = "@FREQUENCY@"  # Hz, of the vibration
-SPEED = "@SPEED@"  # m/s, largest speed of the trough along itself
+SPEED: Any = "@SPEED@"  # m/s, largest speed of the trough along itself
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 COLOURED_BY = "velocity_relative_to_trough"
@@ -44,18 +47,18 @@ MOST_SPHERES = 5000  # above, grains are drawn as Gaussian points shaded like sp
 INK = [0.1, 0.1, 0.1]
 
 
-def has_frames(collection):
+def has_frames(collection: str) -> bool:
     with open(os.path.join(FOLDER, collection), encoding="utf-8") as file:
         return "<DataSet" in file.read()
 
 
-def open_collection(name):
+def open_collection(name: str) -> Any:
     reader = PVDReader(registrationName=name, FileName=os.path.join(FOLDER, name + ".pvd"))
     reader.UpdatePipeline()
     return reader
 
 
-def colour_by_velocity(view, shown):
+def colour_by_velocity(view: Any, shown: Any) -> None:
     """Blue where grains lag behind the trough, red where they run ahead, to twice the trough's largest speed."""
     ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
     colours = GetColorTransferFunction(COLOURED_BY)
@@ -76,7 +79,7 @@ def colour_by_velocity(view, shown):
     shown.SetScalarBarVisibility(view, True)
 
 
-def show_grains(view, grains):
+def show_grains(view: Any, grains: Any) -> None:
     if grains.GetDataInformation().GetNumberOfPoints() > MOST_SPHERES:
         shown = Show(grains, view)
         shown.SetRepresentationType("Point Gaussian")
@@ -100,7 +103,7 @@ def show_grains(view, grains):
     colour_by_velocity(view, shown)
 
 
-def show_trough(view, trough):
+def show_trough(view: Any, trough: Any) -> None:
     shown = Show(trough, view)
     shown.SetRepresentationType("Surface With Edges")
     shown.ColorArrayName = ["POINTS", ""]
@@ -108,7 +111,7 @@ def show_trough(view, trough):
     shown.EdgeColor = [0.55, 0.57, 0.6]
 
 
-def show_text(view, source, where):
+def show_text(view: Any, source: Any, where: str) -> Any:
     shown = Show(source, view)
     shown.WindowLocation = where
     shown.Color = INK
@@ -116,7 +119,7 @@ def show_text(view, source, where):
     return shown
 
 
-def show_point_mass(view, trough):
+def show_point_mass(view: Any, trough: Any) -> tuple[Any, Any]:
     """The theory's block on a lane that is the trough once more, narrower and in front of it."""
     block = open_collection("point_mass")
     lane = Transform(registrationName="lane of the point mass", Input=trough)
@@ -134,7 +137,7 @@ def show_point_mass(view, trough):
     return block, lane
 
 
-def annotate(view, grains, block):
+def annotate(view: Any, grains: Any, block: Any) -> None:
     time = AnnotateTimeFilter(registrationName="time", Input=grains)
     time.Format = "t = {time:.4f} s"
     show_text(view, time, "Upper Left Corner")
@@ -149,7 +152,7 @@ def annotate(view, grains, block):
         show_text(view, motion, "Lower Left Corner")
 
 
-def show_chart(layout, location, share, profile, what, axis_title, reach, height):
+def show_chart(layout: Any, location: int, share: float, profile: Any, what: str, axis_title: str, reach: tuple[float, float], height: float) -> int:
     """The layer's height upwards over one of its values, with axes that stay still."""
     layout_location = layout.SplitHorizontal(location, share) if location == 0 else layout.SplitVertical(location, share)
     chart = CreateView("XYChartView")
@@ -174,7 +177,7 @@ def show_chart(layout, location, share, profile, what, axis_title, reach, height
     return layout_location
 
 
-def show_profile(view, height):
+def show_profile(view: Any, height: float) -> None:
     profile = open_collection("profile")
     layout = GetLayout(view)
     if layout is None:
@@ -186,7 +189,7 @@ def show_profile(view, height):
     SetActiveView(view)
 
 
-def look_along_the_width(view, trough, lane, grains):
+def look_along_the_width(view: Any, trough: Any, lane: Any, grains: Any) -> float:
     """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
     left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
     if lane:
@@ -205,7 +208,7 @@ def look_along_the_width(view, trough, lane, grains):
     return height
 
 
-def main():
+def main() -> None:
     paraview.simple._DisableFirstRenderCameraReset()
     view = GetActiveViewOrCreate("RenderView")
     view.UseColorPaletteForBackground = 0

@@ -21,6 +21,7 @@ struct EngineIdentity {
     std::string key() const;
 };
 
+/// How a measured value is compared with the expected one.
 enum class Comparison {
     near,     ///< |measured - expected| <= tolerance
     at_most,  ///< measured <= expected + tolerance
@@ -39,6 +40,7 @@ struct ProbeResult {
     std::string tolerance_reason;
     std::string problem;
 
+    /// The measured value is within the tolerance.
     bool passed() const;
 };
 
@@ -49,7 +51,7 @@ struct Certificate {
     std::string probed;                             ///< ISO 8601, UTC
     double grain_steps_per_cpu_second = 0;          ///< for a packed layer; 0 if a probe failed
     int speed_grains = 0;                           ///< number of grains in that layer
-    std::vector<ProbeResult> probes;
+    std::vector<ProbeResult> probes;                ///< in the order in which they are reported
 
     bool passed() const;  ///< whether there are probes and all of them passed
 };

@@ -18,12 +18,13 @@ struct ProbeDeck {
 
 /// Nominal restitution coefficients of grain types 1 to 5 of an impact deck.
 constexpr std::array<double, 5> probed_restitutions{0.1, 0.3, 0.5, 0.7, 0.9};
+/// Friction between grain and floor in the decks of impacts.
 constexpr double impact_friction = 0.23;
 
 /// One impact. The number of the grain (from 1) is its position in the list of impacts; type t has
 /// probed_restitutions[t - 1].
 struct Impact {
-    int type;
+    int type;                 ///< of the grain, from 1
     double normal_speed;      ///< m/s
     double tangential_speed;  ///< m/s
     double gap;               ///< m, initial distance between grain and floor
@@ -38,13 +39,14 @@ coarse_impacts();  ///< with 20 % of the Rayleigh time, the longest time step of
 /// the given friction and restitution.
 ContactMaterial probe_material(double restitution, double friction);
 
+/// Grains on an inclined floor, with and without enough friction to hold them.
 struct Incline {
     double angle = 0.3490658503988659;  ///< rad, 20 degrees: tan = 0.364
     double holding_friction = 0.8;      ///< of grains 1 and 3
     double sliding_friction = 0.23;     ///< of grain 2
     double time_step = 5e-6;            ///< s
-    int steps = 20000;
-    int sample_steps = 200;
+    int steps = 20000;                  ///< time steps of the run
+    int sample_steps = 200;             ///< time steps between two samples
 };
 
 /// A trough that vibrates from step 0 on, under grains that are held in place.
@@ -61,10 +63,15 @@ MovingTrough flying_trough();   ///< moves as in a campaign, without touching th
 /// The overlap at which one contact carries the weight of a grain at this inclination, m.
 double resting_overlap(double inclination);
 
+/// The impacts of fine_impacts().
 ProbeDeck fine_impact_deck();
+/// The impacts of coarse_impacts().
 ProbeDeck coarse_impact_deck();
+/// Three grains on the floor of Incline.
 ProbeDeck incline_deck();
+/// Grains that rest on a floor under their own weight.
 ProbeDeck contact_deck();
+/// The two troughs, which must move as asked.
 ProbeDeck drive_deck();
 
 /// A layer of about a thousand grains on a moving trough.

@@ -21,7 +21,10 @@ std::vector<std::vector<GrainSample>> read_samples(std::filesystem::path const& 
 
 /// One line of trough.csv.
 struct TroughSample {
-    double step, x, z, force_z, grains;
+    double step;     ///< time step of the engine
+    double x, z;     ///< m, displacement
+    double force_z;  ///< N, on the trough
+    double grains;   ///< number of grains
 };
 
 /// @throws InputError when the file is missing or incomplete

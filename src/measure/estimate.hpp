@@ -43,6 +43,7 @@ struct Precision {
 /// The smallest number of cycles kept, and of equivalent independent cycles, for which an interval is
 /// trusted: the correlation of a shorter series cannot be estimated well enough.
 constexpr int fewest_cycles = 20;
+/// Fewest independent values that the cycles kept must be worth.
 constexpr double fewest_independent = 3;
 
 /// The velocity efficiency of each cycle: eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)).
@@ -84,9 +85,10 @@ std::optional<int> cycles_needed(std::span<double const> values, Precision const
 /// The estimate from the cycles needed or, if there is no such number, from all values; `used` is the number
 /// of cycles on which it is based.
 struct SequentialEstimate {
-    PackingEstimate estimate;
-    int used;
+    PackingEstimate estimate;  ///< from these cycles
+    int used;                  ///< number of cycles that it rests on
 };
+/// See SequentialEstimate and cycles_needed().
 SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted);
 
 /// The mean over packings. Its interval follows from Student's t for their means (packings - 1 degrees of

@@ -35,8 +35,14 @@ struct PhaseCurves {
     std::vector<double> sliding;      ///< m/s, the same without rotation
     std::vector<double> energy_translation, energy_rotation;  ///< J
     std::vector<double> overlap;                              ///< m, largest of two grains, over all periods
-    std::vector<double> displacement_deviation, height_deviation, velocity_x_deviation, velocity_z_deviation;
-    std::vector<double> normal_force_deviation, tangential_force_deviation, touching_deviation;
+    /// standard deviations, same units
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> displacement_deviation, height_deviation;
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> velocity_x_deviation, velocity_z_deviation;
+    /// Standard deviations over the periods, in the units of the means.
+    std::vector<double> normal_force_deviation, tangential_force_deviation;
+    std::vector<double> touching_deviation;  ///< standard deviation over the periods
 };
 
 /// How the layer moves within the cycle. A number that does not exist (no flight, no slide) has no value.

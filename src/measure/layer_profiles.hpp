@@ -17,9 +17,10 @@ struct Bin {
     std::vector<double> means;  ///< means over these grains of the quantities that the deck selects
 };
 
+/// What the engine found in all bins at one moment.
 struct Snapshot {
-    long step;
-    std::vector<Bin> bins;
+    long step;              ///< time step of the engine
+    std::vector<Bin> bins;  ///< in the order of their places
 };
 
 /// Reads the snapshots of a packing from `NAME.STEP.txt`, one file for each start of the engine, with STEP
@@ -58,6 +59,7 @@ struct Profiles {
     std::optional<double> velocity_gradient;
 };
 
+/// Means of the snapshots of the cycles that count, phase by phase.
 Profiles layer_profiles(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
 
 /// The surface of the layer along the trough as rows: the phases in order, and for each phase the columns.
@@ -72,6 +74,7 @@ struct Surface {
     std::optional<double> wiggle_amplitude;
 };
 
+/// The surface at the last snapshot of each phase.
 Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const& facts);
 
 }  // namespace vibrotrough::measure

@@ -12,7 +12,7 @@ namespace vibrotrough::measure {
 /// 100 with n steps per cycle, so that line 99 is the end of the first cycle. All values are instantaneous
 /// except the forces, which are means over the steps since the previous line.
 struct PhaseSeries {
-    static constexpr int per_cycle = 100;
+    static constexpr int per_cycle = 100;  ///< lines per cycle
 
     std::vector<double> x, z, vx, vz;        ///< m and m/s, of the centre of mass of the layer
     std::vector<double> trough_x, trough_z;  ///< m, displacement of the trough
@@ -28,6 +28,7 @@ struct PhaseSeries {
     std::vector<double> energy_rotation;     ///< J
     std::vector<double> overlap;             ///< m, largest overlap of two grains; 0 without contacts
 
+    /// Number of lines.
     std::size_t lines() const { return x.size(); }
     /// Number of whole cycles.
     int cycles() const { return static_cast<int>(lines()) / per_cycle; }

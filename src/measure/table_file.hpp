@@ -12,8 +12,8 @@ namespace vibrotrough::measure {
 struct TableFormat {
     std::string_view kind;    ///< in words, for errors: "cycles"
     std::string_view header;  ///< names of the columns, the first of them "step"
-    long first_step;
-    long step_distance;
+    long first_step;          ///< step of the first line
+    long step_distance;       ///< steps from one line to the next
 };
 
 /// Calls `take` with the number of each line and its values. A last line without its end is left out: the

@@ -73,13 +73,14 @@ class ConveyorModel;  // the analytic solution of each phase; see detail/conveyo
 
 /// A phase with all that is needed to evaluate the motion at any time within it.
 struct Piece {
-    PhaseKind kind;
+    PhaseKind kind;         ///< what the mass does
     double start, end;      ///< rad
     double along_velocity;  ///< absolute, at start, in omega r cos(beta)
     double gap, gap_rate;   ///< at start, in r sin(beta), omega r sin(beta); zero in contact
     double displacement;    ///< relative, in r cos(beta)
 };
 
+/// The long run of a motion, with what is needed to evaluate it at any time.
 struct ConveyorMotion {
     Motion motion;          ///< as for a PointMass: eta, mode, phases, period
     double half_width = 0;  ///< of the 95 % confidence interval of eta if no period was found; 0 if periodic

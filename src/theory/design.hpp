@@ -8,8 +8,9 @@
 
 namespace vibrotrough::theory {
 
+/// The values that a quantity may take.
 struct Range {
-    double low, high;
+    double low, high;  ///< ends of the range, both included
 };
 
 /// The limits within which a machine may be chosen.
@@ -27,6 +28,7 @@ struct DesignLimits {
     double bulk_density = 0, layer_height = 0, layer_width = 0;
 };
 
+/// A machine within the limits and its conveying speed.
 struct Design {
     double frequency, amplitude, vibration_angle, inclination;  ///< SI, rad
     double throw_number, machine_number, velocity_efficiency;

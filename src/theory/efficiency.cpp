@@ -14,7 +14,6 @@ namespace {
 
 using detail::Instant;
 using detail::Law;
-using detail::two_pi;
 
 constexpr int bits = 3, longest_mode = 21;
 constexpr double shortest_phase = 1e-12;  // rad, as in solve()

@@ -20,9 +20,9 @@ ModeCode append_phase(ModeCode code, PhaseKind kind, int length);
 /// The result for one point of many.
 struct Efficiency {
     double velocity_efficiency;  ///< eta, as in Motion; error below 1e-9
-    ModeCode mode;
-    int period_cycles;
-    Outcome outcome;
+    ModeCode mode;               ///< phases of one period; 0 when the motion does not settle
+    int period_cycles;           ///< cycles after which the motion repeats; 0 when it does not settle
+    Outcome outcome;             ///< how the long run ends
 };
 
 /// Solves many plastic point masses (see solve()) one after another, fast. It reuses what neighbouring points
@@ -34,7 +34,9 @@ class EfficiencySolver {
   public:
     EfficiencySolver();
     ~EfficiencySolver();
+    /// Moves the memory of earlier points.
     EfficiencySolver(EfficiencySolver&&) noexcept;
+    /// Moves the memory of earlier points.
     EfficiencySolver& operator=(EfficiencySolver&&) noexcept;
 
     /// @throws std::invalid_argument, PhaseError as solve() does

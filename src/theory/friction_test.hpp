@@ -14,6 +14,7 @@ struct ShakeTest {
     double tan_inclination = 0;  ///< tan(alpha) of the plate in the direction of shaking
 };
 
+/// The motion of a mass on a plate that is shaken.
 struct ShakeMotion {
     double max_relative_displacement;  ///< largest displacement relative to the plate in one slide, in
                                        ///< amplitudes r; in [0, 2)

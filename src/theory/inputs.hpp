@@ -29,10 +29,11 @@ enum class Input : std::size_t {
     height_over_width,
     landing_friction,
 };
-inline constexpr std::size_t input_count = 16;
+inline constexpr std::size_t input_count = 16;  ///< Number of inputs.
 
 /// The name of an input in text, equal to the enumerator.
 std::string_view name_of(Input input);
+/// The input of this name; nothing when there is none.
 std::optional<Input> input_named(std::string_view name);
 
 /// The inputs given for a motion; inputs that are not given have their default values.
@@ -42,8 +43,11 @@ std::optional<Input> input_named(std::string_view name);
 /// number; it is replaced by tan(beta) = 1e-12, which limits the accuracy of eta to about that value.
 class Inputs {
   public:
+    /// Gives an input its value, in the unit of the input.
     void set(Input input, double value) { value_[static_cast<std::size_t>(input)] = value; }
+    /// Takes an input back; it has its default again.
     void clear(Input input) { value_[static_cast<std::size_t>(input)].reset(); }
+    /// The value given; nothing when the input has its default.
     std::optional<double> get(Input input) const { return value_[static_cast<std::size_t>(input)]; }
 
     /// A sentence that says what is missing or given twice; std::nullopt when the set is complete.
@@ -52,6 +56,7 @@ class Inputs {
     bool plastic() const;
     /// @throws std::invalid_argument when the set is incomplete
     PointMass point() const;
+    /// @throws std::invalid_argument when the set is not complete
     Conveyor conveyor() const;
 
   private:

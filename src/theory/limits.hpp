@@ -11,9 +11,10 @@ namespace vibrotrough::theory {
 /// Gamma = sqrt(((cos 2 pi n + 2 pi^2 n^2 - 1) / (2 pi n - sin 2 pi n))^2 + 1), n in [0, 1000].
 double throw_number_of_flight(double n);
 
+/// The best throw number and what is reached there.
 struct Optimum {
-    double throw_number;
-    double velocity_efficiency;
+    double throw_number;         ///< Gamma
+    double velocity_efficiency;  ///< eta
 };
 
 /// The throw number in [0.1, sqrt(1 + pi^2)] at which eta is largest (Eqs. 15 and 19). It depends on mu
@@ -30,7 +31,7 @@ double best_throw_number_small_angle();
 struct PnMotion {
     double positive_start, positive_end;  ///< omega t; the negative slide fills the rest of the cycle
     double positive_displacement, negative_displacement;  ///< r cos(beta)
-    double velocity_efficiency;
+    double velocity_efficiency;                           ///< eta
 };
 
 /// Eq. 20: C = 2 pi / (1 - sin d1 / sin d3), e_P = C + d_P, sin(d_P + C/2) = (C - 2 pi) sin d3 / (2

@@ -43,7 +43,7 @@ ModeCode with_chains_joined(ModeCode code) {
 /// A map under construction: its points, and how to solve one of them.
 class Grid {
   public:
-    Grid(Inputs fixed, Map& map) : fixed_(std::move(fixed)), map_(map) {}
+    Grid(Inputs const& fixed, Map& map) : fixed_(fixed), map_(map) {}
 
     MapPoint solve(double x, double y, EfficiencySolver& solver) const {
         Inputs inputs = fixed_;
@@ -53,7 +53,10 @@ class Grid {
         if (!inputs.plastic()) point.mode = with_chains_joined(point.mode);
         return point;
     }
-    MapPoint& at(int i, int j) const { return map_.points[static_cast<std::size_t>(j * map_.x.count + i)]; }
+    MapPoint& at(int i, int j) const {
+        return map_.points[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.x.count) +
+                           static_cast<std::size_t>(i)];
+    }
     void solve_line(int line, bool along_y, EfficiencySolver& solver) const {
         int const length = along_y ? map_.y.count : map_.x.count;
         for (int k = 0; k < length; ++k) {

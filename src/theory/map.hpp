@@ -10,12 +10,14 @@ namespace vibrotrough::theory {
 
 /// One axis of a map: `count` equally spaced values of an input between `from` and `to`, both included.
 struct MapAxis {
-    Input input;
-    double from, to;
-    int count;
+    Input input;      ///< what the axis varies
+    double from, to;  ///< first and last value, in the unit of the input
+    int count;        ///< number of values, >= 1
+    /// The value at index i in [0, count).
     double value(int i) const { return count < 2 ? from : from + (to - from) * i / (count - 1); }
 };
 
+/// The motion at one point of a map.
 struct MapPoint {
     double velocity_efficiency;
     double half_width;  ///< of the confidence interval of eta; 0 when periodic
@@ -27,18 +29,20 @@ struct MapPoint {
 /// A segment of the boundary between two modes within one cell of the map; its end points are roots, known to
 /// 1e-9 of a cell.
 struct BoundaryPiece {
-    double x0, y0, x1, y1;
-    ModeCode mode_a, mode_b;
+    double x0, y0, x1, y1;    ///< its two ends, in the units of the axes
+    ModeCode mode_a, mode_b;  ///< the modes on its two sides
 };
 
+/// Velocity efficiency and mode over a grid of two inputs.
 struct Map {
-    MapAxis x, y;
+    MapAxis x, y;                           ///< the two inputs
     std::vector<MapPoint> points;           ///< points[j * x.count + i]
     std::vector<BoundaryPiece> boundaries;  ///< boundaries between modes; empty unless requested
     double cpu_seconds_per_solution;  ///< CPU time of all threads divided by the number of points, without
                                       ///< the boundaries
 };
 
+/// How a map is computed.
 struct MapOptions {
     int jobs = 0;            ///< threads; 0: all cores
     bool boundaries = true;  ///< whether to locate the boundaries between modes

@@ -17,7 +17,7 @@ enum class PhaseKind {
 
 /// One phase of the periodic motion. Times are given as the angle omega t.
 struct Phase {
-    PhaseKind kind;
+    PhaseKind kind;                ///< what the mass does
     double start;                  ///< rad; the first phase starts in [0, 2 pi)
     double end;                    ///< rad, >= start
     double relative_displacement;  ///< of the mass relative to the trough, in r cos(beta)
@@ -41,6 +41,7 @@ enum class Outcome {
     unsettled,    ///< no period was found; the efficiency is a mean over the simulated cycles
 };
 
+/// The long run of the motion of a point mass.
 struct Motion {
     double velocity_efficiency;  ///< eta = mean relative velocity / (omega r cos(beta)); infinite when the
                                  ///< mass runs away

@@ -156,7 +156,8 @@ TraceSample sample(ConveyorMotion const& motion, double t) {
 EnergyBalance energy_balance(ConveyorMotion const& motion) {
     require_pieces(motion);
     ConveyorModel const& model = *motion.model;
-    auto const [along, normal] = weights(model.conveyor());
+    Weights const weight = weights(model.conveyor());
+    double const along = weight.along, normal = weight.normal;
     double const stretch = shortest_stretch(model.conveyor());
     EnergyBalance sum{};
     for (Piece const& piece : motion.pieces) {

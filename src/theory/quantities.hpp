@@ -50,6 +50,7 @@ struct EnergyBalance {
     double residual() const { return trough_work - friction_loss - impact_loss - drag_loss - lift; }
 };
 
+/// The energies of a motion. @throws std::invalid_argument when it has no pieces
 EnergyBalance energy_balance(ConveyorMotion const& motion);
 
 /// The machine to which the dimensionless numbers belong.

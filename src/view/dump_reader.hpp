@@ -18,9 +18,11 @@ struct GrainFrame {
     std::vector<float> velocity;  ///< m/s, x y z of each grain, relative to the ground
     std::vector<float> radius;    ///< m
 
+    /// Number of grains.
     std::size_t grains() const { return id.size(); }
 };
 
+/// Whether a dump was whole.
 enum class DumpState {
     complete,
     unfinished,  ///< the file is incomplete: the engine is still writing it or was stopped

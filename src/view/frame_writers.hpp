@@ -18,7 +18,9 @@ void set_time(vtkPolyData& data, FrameSource const& source, double time);
 /// Writes the grains of one frame after another and reuses its memory.
 class GrainWriter {
   public:
+    /// `source` must outlive the writer.
     explicit GrainWriter(FrameSource const& source) : source_(source) {}
+    /// Writes one frame at `time` (s). @throws MissingError when the disk refuses
     void write(std::filesystem::path const& path, GrainFrame& frame, double time);
 
     /// Velocities of the grains in the last frame written: m/s, x y z of each grain, relative to the trough.
@@ -33,7 +35,9 @@ class GrainWriter {
 /// Writes the displaced trough of one frame after another.
 class TroughWriter {
   public:
+    /// `source` must outlive the writer.
     explicit TroughWriter(FrameSource const& source);
+    /// Writes the trough at `time` (s). @throws MissingError when the disk refuses
     void write(std::filesystem::path const& path, TroughPosition const& position, double time);
 
     /// m, lower and upper bounds of x, y and z at rest.

@@ -20,7 +20,7 @@ struct TheoryMotion {
 
 /// The frames of one run and the data needed to interpret them.
 struct FrameSource {
-    std::filesystem::path folder;  ///< holds frames.<step>.dump and frames.csv (step, trough x, trough z)
+    std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z)
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
     double angular_frequency;      ///< omega, rad/s
@@ -32,8 +32,9 @@ struct FrameSource {
                           ///< may be empty
 };
 
+/// The files that an export wrote.
 struct ExportedFrames {
-    int frames = 0;
+    int frames = 0;                    ///< number of frames
     std::filesystem::path grains;      ///< grains.pvd
     std::filesystem::path trough;      ///< trough.pvd
     std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the

@@ -25,7 +25,9 @@ std::string_view in_words(theory::PhaseKind phase);
 /// Evaluates the periodic motion at omega t, in phase with the trough.
 class PointMassMotion {
   public:
+    /// Both must outlive this object.
     PointMassMotion(FrameSource const& source, TheoryMotion const& theory);
+    /// The state at `time` (s).
     PointMassState at(double time) const;
 
   private:

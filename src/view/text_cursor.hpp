@@ -18,6 +18,7 @@ class TextCursor {
     TextCursor(std::string_view text, std::filesystem::path const& path)
         : at_(text.data()), end_(text.data() + text.size()), path_(&path) {}
 
+    /// Everything was read.
     bool at_end() const { return at_ == end_; }
 
     /// Returns the rest of the line without its end. @throws TextEnds if the line end is missing

@@ -9,9 +9,9 @@ namespace vibrotrough::view {
 
 /// The position of the trough in one frame, as written by the engine.
 struct TroughPosition {
-    long step;
-    double x;  ///< m, displacement from rest
-    double z;  ///< m, displacement from rest
+    long step;  ///< time step of the engine
+    double x;   ///< m, displacement from rest
+    double z;   ///< m, displacement from rest
 };
 
 /// The position and velocity of the trough according to the drive.

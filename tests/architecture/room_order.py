@@ -8,14 +8,15 @@ arrow that points back.
 import pathlib
 import re
 import sys
+from collections.abc import Iterator
 
 
-def room_order(source):
+def room_order(source: pathlib.Path) -> list[str]:
     text = (source / "CMakeLists.txt").read_text()
     return re.findall(r"^add_subdirectory\((\w+)\)", text, re.MULTILINE)
 
 
-def arrows(source, rooms):
+def arrows(source: pathlib.Path, rooms: list[str]) -> Iterator[tuple[pathlib.Path, int, str, str]]:
     """(file, line number, room of the file, room it includes) for every include of another room."""
     for path in sorted(source.rglob("*.[ch]pp")):
         own = path.relative_to(source).parts[0]
@@ -25,13 +26,13 @@ def arrows(source, rooms):
                 yield path, number, own, found.group(1)
 
 
-def main():
+def main() -> None:
     source = pathlib.Path(sys.argv[1])
     rooms = room_order(source)
     if len(rooms) < 2:
         sys.exit(f"{source}/CMakeLists.txt names no rooms")
     folders = {path.name for path in source.iterdir() if path.is_dir()}
-    wrong = [f"src/{name} is no room of src/CMakeLists.txt" for name in sorted(folders - set(rooms))]
+    wrong = [f"src/{name} is not a room of src/CMakeLists.txt" for name in sorted(folders - set(rooms))]
     count = 0
     for path, number, own, other in arrows(source, rooms):
         count += 1

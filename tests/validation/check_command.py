@@ -1,4 +1,4 @@
-"""vibrotrough validate on made-up cases: good, broken, without criterion, with a twin that passes, and words it does not know."""
+"""vibrotrough validate on made-up cases: good, broken, without criterion, with a negative control that passes, and with unknown names."""
 
 import json
 import pathlib
@@ -10,12 +10,13 @@ import unittest
 PROGRAM, POSTPROCESS = sys.argv[1], sys.argv[2]
 VALIDATE = [sys.executable, "-B", str(pathlib.Path(POSTPROCESS) / "validate.py"), "--program", PROGRAM, "--jobs", "1"]
 SCRIPT = f"""
+import pathlib
 import sys
 sys.path.insert(0, {POSTPROCESS!r})
 from validation_case import ValidationCase
-run = ValidationCase(__file__.rsplit("/", 1)[0])
+run = ValidationCase(pathlib.Path(__file__).parent)
 """
-GOOD = 'run.check("one", 2 if run.wrong else 1, 1, 0.1)\nrun.finding("it is said", False, "it is not so")\nrun.finish()\n'
+GOOD = 'run.check("one", 2 if run.control else 1, 1, 0.1)\nrun.finding("it is said", False, "it is not so")\nrun.finish()\n'
 
 
 class Validate(unittest.TestCase):
@@ -30,7 +31,7 @@ class Validate(unittest.TestCase):
     def case(self, name, body, extra=""):
         folder = self.cases / name
         folder.mkdir()
-        (folder / "case.toml").write_text(f'title = "{name}"\nquestion = "Is it?"\nwrong_twin = "two for one"\n{extra}')
+        (folder / "case.toml").write_text(f'title = "{name}"\nquestion = "Is it?"\nnegative_control = "two for one"\n{extra}')
         (folder / "run.py").write_text(SCRIPT + body)
 
     def validate(self, *words):
@@ -45,14 +46,14 @@ class Validate(unittest.TestCase):
         self.assertTrue(verdict["holds"])
         self.assertEqual(verdict["criteria"][0]["value"], 1)
 
-    def test_a_twin_that_passes_fails_the_case(self):
+    def test_a_negative_control_that_passes_fails_the_case(self):
         self.case("blind", 'run.check("one", 1, 1, 0.1)\nrun.finish()\n')
         answer = self.validate()
         self.assertEqual(answer.returncode, 1)
         self.assertIn("PASSES", answer.stdout)
 
-    def test_a_crash_is_neither_a_verdict_nor_a_noticed_twin(self):
-        self.case("broken", "if run.wrong: raise ValueError\n" + GOOD)
+    def test_a_crash_is_neither_a_verdict_nor_a_failed_control(self):
+        self.case("broken", "if run.control: raise ValueError\n" + GOOD)
         answer = self.validate()
         self.assertEqual(answer.returncode, 1)
         self.assertIn("ERROR 1", answer.stdout)
@@ -64,7 +65,7 @@ class Validate(unittest.TestCase):
 
     def test_a_long_case_is_judged_from_its_stored_table(self):
         body = 'if run.long: run.write_table("result.csv", ["x"], [[1]])\n' \
-               'run.check("x", float(run.table("result.csv")[0]["x"]) + run.wrong, 1, 0.1)\nrun.finish()\n'
+               'run.check("x", float(run.table("result.csv")[0]["x"]) + run.control, 1, 0.1)\nrun.finish()\n'
         self.case("slow", body, "long = true\n")
         self.assertEqual(self.validate().returncode, 1)  # nothing stored yet
         self.assertEqual(self.validate("--long", "--store").returncode, 0)

@@ -2,18 +2,17 @@
 import math
 import pathlib
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from campaign_program import Row  # noqa: E402
+from figure_style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 # What is varied, the values, the default among them, and the value that stands for the limit.
-VARIATIONS = [
+VARIATIONS: list[tuple[str, str, list[Any], Any, Any]] = [
     ("modulus", "grains.youngs_modulus", ["1 MPa", "5 MPa", "20 MPa", "100 MPa"], "5 MPa", "100 MPa"),
     ("time_step", "solver.rayleigh_fraction", [0.1, 0.2, 0.3, 0.4], 0.2, 0.1),
     ("length", "layer.length", ["24 mm", "36 mm", "72 mm", "144 mm"], "36 mm", "144 mm"),
@@ -24,7 +23,7 @@ LABELS = {"modulus": "Young's modulus", "time_step": "time step / Rayleigh time"
           "width": "width of the box", "height": "height of the layer", "seeds": "packing"}
 
 
-def measure(run):
+def measure(run: ValidationCase) -> None:
     rows = []
     for name, key, values, default, limit in VARIATIONS:
         if run.quick:
@@ -36,12 +35,12 @@ def measure(run):
     run.write_table("result.csv", ["variation", "value", "efficiency", "half_width", "outcome", "cycles"], rows)
 
 
-def measured(row):
+def measured(row: Row) -> list[str]:
     numbers = [f"{float(row[name] or math.nan):.4f}" for name in ("efficiency_dem", "efficiency_dem_half_width")]
     return numbers + [row["outcome"], row["cycles_measured"]]
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         measure(run)
@@ -52,7 +51,7 @@ def main():
         at, goal = found[name, str(default)], found.get((name, str(limit)))
         if goal is None:  # --quick
             continue
-        error = float(at["efficiency"]) - (theory if run.wrong else float(goal["efficiency"]))
+        error = float(at["efficiency"]) - (theory if run.control else float(goal["efficiency"]))
         width = math.hypot(float(at["half_width"]), float(goal["half_width"]))
         run.check(f"{name}: default less limit (+- {width:.3f})", error, 0, 0.05,
                   "a fifth of the gap between layer and theory (0.24) that the layer is studied for")
@@ -60,7 +59,7 @@ def main():
     run.finish()
 
 
-def draw(run, rows):
+def draw(run: ValidationCase, rows: list[Row]) -> None:
     figure, axes = plt.subplots(1, len(VARIATIONS), figsize=(13, 3), sharey=True, layout="constrained")
     for panel, (name, _, values, default, _) in zip(axes, VARIATIONS):
         here = [row for row in rows if row["variation"] == name]

@@ -9,7 +9,7 @@ from campaign_program import run_campaign  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         table = run_campaign(run.program, run.runs, (FOLDER / "campaign.toml").read_text(encoding="utf-8"), run.jobs)
@@ -17,7 +17,7 @@ def main():
     for row in run.table("result.csv"):
         gamma = float(row["throw_number"])
         theory = run.json("point", "--throw-number", row["throw_number"], "--vibration-angle", row["vibration_angle_deg"] + " deg",
-                          "--friction", 1.0 if run.wrong else row["friction"])["velocity_efficiency"]
+                          "--friction", 1.0 if run.control else row["friction"])["velocity_efficiency"]
         difference, width = float(row["efficiency_dem"]) - theory, float(row["efficiency_dem_half_width"])
         if gamma <= 2.0:
             run.between(f"layer less theory, Gamma {gamma} (+- {width:.3f})", difference, 0.1 + width, 0.6,

@@ -1,41 +1,38 @@
 #!/usr/bin/python3
+import math
 import pathlib
+import re
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-import re  # noqa: E402
-import tomllib  # noqa: E402
-
 import numpy as np  # noqa: E402
 
+from campaign_program import campaign_text  # noqa: E402
 import engine_deck  # noqa: E402
 import figure_style  # noqa: E402
-from campaign_program import campaign_text  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
+Answer = tuple[dict[str, engine_deck.Floats], float, float]  # phases, normal weight (N), time step (s)
+
 SLOPES = [0.0, -0.2]
-STANDING = {"trough.amplitude": "1 um", "trough.throw_number": 0.1}
+STANDING: dict[str, Any] = {"trough.amplitude": "1 um", "trough.throw_number": 0.1}
 
 
-def deck_number(text, pattern):
-    return float(re.search(pattern, text)[1])
-
-
-def mass_of(deck, density):
+def mass_of(deck: str, density: float) -> float:
     """From the grains that the deck's head states: '54 of diameter 0.0027 m'."""
     grains = re.findall(r"#\s+(\d+) of diameter (\S+) m", deck)
     return sum(int(count) * density * math.pi / 6 * float(diameter) ** 3 for count, diameter in grains)
 
 
-def judge_packing(run, folder, slope, gravity, density, stands):
+def judge_packing(run: ValidationCase, folder: pathlib.Path, slope: float, gravity: float, density: float, stands: bool) -> Answer | None:
     """Settles and runs one packing's decks; judges its forces; gives the phases for the figure. `stands`: as good as no motion."""
     deck = (folder / "in.liggghts").read_text(encoding="utf-8")
-    mass, time_step = mass_of(deck, density), deck_number(deck, r"timestep\s+(\S+)")
+    mass, time_step = mass_of(deck, density), float(engine_deck.last_group(r"timestep\s+(\S+)", deck))
     angle = math.atan(slope)
-    normal = mass * gravity * (1 if run.wrong else math.cos(angle))
+    normal = mass * gravity * (1 if run.control else math.cos(angle))
     along = mass * gravity * math.sin(angle)
     rest = engine_deck.settled(engine_deck.run_deck(folder, "settle.liggghts", wanted="VIBROTROUGH SETTLED"))
     name = f"tan(alpha) {slope:g}, {'at rest' if stands else 'throw number 2'}"
@@ -59,7 +56,7 @@ def judge_packing(run, folder, slope, gravity, density, stands):
     return phases, normal, time_step
 
 
-def draw(run, answers):
+def draw(run: ValidationCase, answers: list[Answer]) -> None:
     figure, panels = figure_style.new_figure(2, 1, size=(8, 5.6), layout="constrained", sharex=True)
     for slope, axes, (phases, normal, time_step) in zip(SLOPES, panels, answers):
         time = phases["step"] * time_step
@@ -73,17 +70,19 @@ def draw(run, answers):
     figure.savefig(run.figure("column.png"), dpi=100)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     gravity = float(run.reference()[0]["value"])
-    base = tomllib.loads((FOLDER / "base.toml").read_text(encoding="utf-8"))
+    base = run.sections()
     density = float(base["grains"]["density"].split()[0])
-    answers = []
-    for name, changes in (("rest", STANDING), ("throw", {}))[:1 if run.wrong else 2]:
+    answers: list[Answer] = []
+    nothing: dict[str, Any] = {}
+    for name, changes in (("rest", STANDING), ("throw", nothing))[:1 if run.control else 2]:
         text = campaign_text(base, changes, {"trough.tan_inclination": SLOPES})
-        folders = engine_deck.campaign_decks(run.program, run.runs / ("wrong_twin" if run.wrong else "case") / name, text)
-        answers = [judge_packing(run, folder, slope, gravity, density, changes == STANDING) for folder, slope in zip(folders, SLOPES)]
-    if not run.wrong:
+        folders = engine_deck.campaign_decks(run.program, run.own_runs() / name, text)
+        found = [judge_packing(run, folder, slope, gravity, density, changes == STANDING) for folder, slope in zip(folders, SLOPES)]
+        answers = [answer for answer in found if answer is not None]
+    if not run.control:
         draw(run, answers)
     run.finish()
 

@@ -5,8 +5,12 @@ Ishida, Powder Technology 71, 1992); tangential spring 8 G* sqrt(R d) that slips
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
 
 RADIUS, DENSITY, YOUNG, POISSON, GRAVITY = 0.0015, 1400.0, 5e6, 0.35, 9.81
 MASS = DENSITY * 4 / 3 * math.pi * RADIUS**3
@@ -15,18 +19,19 @@ E_STAR = YOUNG / (2 * (1 - POISSON**2))
 G_STAR = YOUNG / (4 * (2 - POISSON) * (1 + POISSON))
 
 
-def hertz_duration(speed):
+def hertz_duration(speed: float) -> float:
     """Of an elastic impact: Johnson, Contact Mechanics (1985), Eq. 11.24, with the constant from its integral."""
     constant = 0.8 * math.gamma(0.4) * math.sqrt(math.pi) / math.gamma(0.9) * (15 / 16) ** 0.4  # 2.868
     return constant * (MASS**2 / (RADIUS * E_STAR**2 * speed)) ** 0.2
 
 
-def hertz_overlap(speed):
+def hertz_overlap(speed: float) -> float:
     """Largest overlap of an elastic impact: m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2)."""
     return (15 * MASS * speed**2 / (16 * E_STAR * math.sqrt(RADIUS))) ** 0.4
 
 
-def impact(restitution, friction, normal, tangential, gravity=0.0, steps=4000):
+def impact(restitution: ArrayLike, friction: ArrayLike, normal: ArrayLike, tangential: ArrayLike, gravity: float = 0.0,
+           steps: int = 4000) -> list[Floats]:
     """Arrays of nominal restitution, friction and speeds before; gives normal speed, tangential speed and spin after."""
     e, mu, w, v = (np.array(a, dtype=float) for a in np.broadcast_arrays(*map(np.atleast_1d, (restitution, friction, normal, tangential))))
     log = np.log(e)
@@ -49,7 +54,7 @@ def impact(restitution, friction, normal, tangential, gravity=0.0, steps=4000):
     raise ArithmeticError("a contact does not end")
 
 
-def rates(state, damping, mu, gravity):
+def rates(state: Sequence[Floats], damping: Floats, mu: Floats, gravity: float) -> tuple[tuple[Floats, ...], Floats, Floats]:
     """Time derivatives of the state, the spring's length at which the contact slips, and the normal force."""
     overlap, inward, along, spin, spring = state
     contact = np.sqrt(RADIUS * np.maximum(overlap, 0))
@@ -61,6 +66,6 @@ def rates(state, damping, mu, gravity):
     return (inward, gravity - normal / MASS, -tangential / MASS, tangential * lever / INERTIA, along - spin * lever), limit, normal
 
 
-def rigid_tangential(friction, restitution, normal, tangential):
+def rigid_tangential(friction: Floats, restitution: Floats, normal: Floats, tangential: Floats) -> Floats:
     """Tangential speed after the impact of a rigid sphere without spin: it slides all the time, or rolls at the end (5/7)."""
     return np.maximum(tangential - friction * (1 + restitution) * normal, 5 / 7 * tangential)

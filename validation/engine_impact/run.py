@@ -1,16 +1,23 @@
 #!/usr/bin/python3
 import pathlib
 import sys
+from collections.abc import Sequence
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER.parent.parent / "postprocess"), str(FOLDER)]
+sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 import engine_deck  # noqa: E402
 import figure_style  # noqa: E402
 import law  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+
+Floats = NDArray[np.float64]
+Steps = NDArray[np.int64]
+Columns = dict[str, Floats]
+Impact = tuple[float, float]  # nominal restitution, tangential over normal speed
 
 NOMINAL = [0.3, 0.5, 0.7, 0.9, 1.0]  # the types of grain; the floor is the last type
 FRICTION = 0.3
@@ -22,38 +29,29 @@ SLOWEST = 0.1  # m/s, of the bounces that are judged
 LAW = 0.001
 
 
-def pair_matrix(with_floor, other):
-    types = len(with_floor) + 1
-    return " ".join(str(with_floor[min(i, j)] if max(i, j) == types - 1 and i != j else other) for i in range(types) for j in range(types))
-
-
-def prepare(folder, grains, velocities=()):
+def prepare(folder: pathlib.Path, grains: list[tuple[int, float, float, float]], velocities: Sequence[tuple[float, float]] = ()) -> None:
     """Writes what the decks include: materials, grains at (type, x, y, z), their velocities (vx, vz), the floor."""
     folder.mkdir(parents=True, exist_ok=True)
-    types = len(NOMINAL) + 1
-    lines = [f"fix modulus all property/global youngsModulus peratomtype {' '.join([str(law.YOUNG)] * types)}",
-             f"fix poisson all property/global poissonsRatio peratomtype {' '.join([str(law.POISSON)] * types)}",
-             f"fix restitution all property/global coefficientRestitution peratomtypepair {types} {pair_matrix(NOMINAL, 0.5)}",
-             f"fix friction all property/global coefficientFriction peratomtypepair {types} {pair_matrix([FRICTION] * len(NOMINAL), 0.5)}"]
-    (folder / "materials.liggghts").write_text("\n".join(lines) + "\n")
+    materials = engine_deck.materials(law.YOUNG, law.POISSON, NOMINAL, [FRICTION] * len(NOMINAL))
+    (folder / "materials.liggghts").write_text(materials)
     (folder / "grains.liggghts").write_text("".join(f"create_atoms {kind} single {x} {y} {z}\n" for kind, x, y, z in grains))
     (folder / "velocities.liggghts").write_text("".join(
         f"group one id {i + 1}\nvelocity one set {vx} 0 {vz}\ngroup one delete\n" for i, (vx, vz) in enumerate(velocities)))
     (folder / "floor.stl").write_text(engine_deck.flat_floor(0.1, 0.1, 0.02))
 
 
-def place(i):
+def place(i: int) -> tuple[float, float]:
     """Off the mesh's nodes and edges, three diameters apart."""
     return round(0.0071 + 0.009 * (i % 10), 6), round(0.0053 + 0.009 * (i // 10), 6)
 
 
-def run_bounces(folder, options):
+def run_bounces(folder: pathlib.Path, options: str) -> tuple[Steps, Columns]:
     prepare(folder, [(kind + 1, *place(3 * kind), law.RADIUS + DROP) for kind in range(len(NOMINAL))])
     engine_deck.run_deck(folder, FOLDER / "bounce.liggghts", {"options": options})
     return engine_deck.read_dump(folder / "bounce.dump")
 
 
-def flights(z, vz):
+def flights(z: Floats, vz: Floats) -> list[float]:
     """Apex heights above the floor of one grain's flights, each from its energy, z - R + v^2/(2g), which a flight keeps."""
     heights, now = [], []
     for height, speed in zip(z - law.RADIUS, vz):
@@ -65,7 +63,7 @@ def flights(z, vz):
     return heights
 
 
-def judge_bounces(run, columns):
+def judge_bounces(run: ValidationCase, columns: Columns) -> None:
     for kind, nominal in enumerate(NOMINAL):
         apex = np.array(flights(columns["z"][:, kind], columns["vz"][:, kind]))
         speed = np.sqrt(2 * law.GRAVITY * apex)
@@ -79,7 +77,7 @@ def judge_bounces(run, columns):
                       because="energy is kept but for the integrator's error; 3e-7 was seen")
 
 
-def run_impacts(folder, options):
+def run_impacts(folder: pathlib.Path, options: str) -> tuple[list[Impact], Columns, Floats, Floats]:
     """Elastic and oblique impacts; the columns of the last moment, and the whole path of the elastic grain (the first)."""
     cases = [(1.0, 0.0)] + [(e, angle) for e in OBLIQUE for angle in ANGLES]
     prepare(folder, [(NOMINAL.index(e) + 1, *place(i), law.RADIUS + 1e-5) for i, (e, _) in enumerate(cases)],
@@ -90,7 +88,7 @@ def run_impacts(folder, options):
     return cases, last, steps * 5e-7, columns["z"][:, 0]
 
 
-def judge_elastic(run, last, time, z):
+def judge_elastic(run: ValidationCase, last: Columns, time: Floats, z: Floats) -> None:
     """Hertz's impact in closed form: duration, largest overlap, no loss."""
     overlap = law.RADIUS - z
     run.check("elastic impact: speed after over before", last["vz"][0] / NORMAL, 1, 1e-3, because="1/1000 of a contact per step")
@@ -103,7 +101,7 @@ def judge_elastic(run, last, time, z):
               because="the lines of the path are 1/100 of a contact apart")
 
 
-def judge_oblique(run, cases, last):
+def judge_oblique(run: ValidationCase, cases: list[Impact], last: Columns) -> None:
     """Against the law at every angle, and against Coulomb and the rigid body where they say it exactly."""
     e, angle = (np.array(values) for values in zip(*cases[1:]))
     vx, vz, spin = last["vx"][1:], last["vz"][1:], last["omegay"][1:]
@@ -130,7 +128,7 @@ def judge_oblique(run, cases, last):
                 "contact would not; the law integrated by itself gives the same")
 
 
-def judge_probes(run):
+def judge_probes(run: ValidationCase) -> None:
     """What `vibrotrough probe-engine` measured with its own decks, against this folder's law."""
     probes = run.probes()
     for row in run.reference():
@@ -142,7 +140,7 @@ def judge_probes(run):
     run.check("probes of the engine that failed", len(failed), 0, 0)
 
 
-def draw(run, columns, times, cases, last):
+def draw(run: ValidationCase, columns: Columns, times: Floats, cases: list[Impact], last: Columns) -> None:
     figure, (left, right) = figure_style.new_figure(1, 2, size=(11.5, 4.6), layout="constrained")
     for kind, nominal in enumerate(NOMINAL[:4]):
         left.plot(times, (columns["z"][:, kind] - law.RADIUS) * 1e3, color=figure_style.COLOURS[kind], ls=figure_style.DASHES[kind],
@@ -176,16 +174,16 @@ def draw(run, columns, times, cases, last):
     figure.savefig(run.figure("impacts.png"), dpi=110)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
-    options = "limitForce off tangential_damping on" if run.wrong else engine_deck.CONTACT_OPTIONS
-    folder = run.runs / ("wrong_twin" if run.wrong else "case")
+    options = "limitForce off tangential_damping on" if run.control else engine_deck.CONTACT_OPTIONS
+    folder = run.own_runs()
     steps, columns = run_bounces(folder / "bounce", options)
     judge_bounces(run, columns)
     cases, last, time, z = run_impacts(folder / "impact", options)
     judge_elastic(run, last, time, z)
     judge_oblique(run, cases, last)
-    if not run.wrong:
+    if not run.control:
         judge_probes(run)
         draw(run, columns, steps * 1e-6, cases, last)
     run.finish()

@@ -1,17 +1,19 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-
 import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 import engine_deck  # noqa: E402
 import figure_style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+
+Floats = NDArray[np.float64]
 
 RADIUS, DENSITY, YOUNG, POISSON, GRAVITY = 0.0015, 1400.0, 5e6, 0.35, 9.81
 ANGLE = math.radians(20)
@@ -20,22 +22,17 @@ TIME_STEP = 5e-6
 TOLERANCE = 2e-3  # of g sin(alpha)
 
 
-def resting_overlap():
+def resting_overlap() -> float:
     """Hertz: 4/3 E* sqrt(R) d^1.5 carries the weight."""
     weight = DENSITY * 4 / 3 * math.pi * RADIUS**3 * GRAVITY * math.cos(ANGLE)
     return (0.75 * weight * 2 * (1 - POISSON**2) / (YOUNG * math.sqrt(RADIUS))) ** (2 / 3)
 
 
-def run_incline(folder):
+def run_incline(folder: pathlib.Path) -> tuple[NDArray[np.int64], dict[str, Floats]]:
     """Steps, and the dumped columns: grain 2 i without rotation, 2 i + 1 with it, for friction i."""
     folder.mkdir(parents=True, exist_ok=True)
-    types = len(FRICTIONS) + 1
-    matrix = " ".join(str(FRICTIONS[min(i, j)] if max(i, j) == types - 1 and i != j else 0.5) for i in range(types) for j in range(types))
-    (folder / "materials.liggghts").write_text(
-        f"fix modulus all property/global youngsModulus peratomtype {' '.join([str(YOUNG)] * types)}\n"
-        f"fix poisson all property/global poissonsRatio peratomtype {' '.join([str(POISSON)] * types)}\n"
-        f"fix restitution all property/global coefficientRestitution peratomtypepair {types} {' '.join(['0.5'] * types**2)}\n"
-        f"fix friction all property/global coefficientFriction peratomtypepair {types} {matrix}\n")
+    materials = engine_deck.materials(YOUNG, POISSON, [0.5] * len(FRICTIONS), FRICTIONS)
+    (folder / "materials.liggghts").write_text(materials)
     lines, height = [], RADIUS - resting_overlap()
     for i in range(len(FRICTIONS)):
         lines += [f"create_atoms {i + 1} single {x} {0.0053 + 0.0071 * i:.6f} {height!r}" for x in (0.0071, 0.0571)]
@@ -43,20 +40,20 @@ def run_incline(folder):
     (folder / "grains.liggghts").write_text("\n".join([*lines, f"group blocked id {blocked}", f"group free id {free}"]) + "\n")
     (folder / "floor.stl").write_text(engine_deck.flat_floor(0.1, 0.1, 0.02))
     engine_deck.run_deck(folder, FOLDER / "incline.liggghts",
-                         {"angle": 20, "types": types, "gx": repr(math.sin(ANGLE)), "gz": repr(-math.cos(ANGLE))})
+                         {"angle": 20, "types": len(FRICTIONS) + 1, "gx": repr(math.sin(ANGLE)), "gz": repr(-math.cos(ANGLE))})
     return engine_deck.read_dump(folder / "incline.dump")
 
 
-def slopes(time, velocities):
+def slopes(time: Floats, velocities: Floats) -> Floats:
     return np.polyfit(time, velocities, 1)[0]
 
 
-def expected(friction, angle, rotates):
+def expected(friction: float, angle: float, rotates: bool) -> float:
     sliding = GRAVITY * (math.sin(angle) - friction * math.cos(angle))
     return max(sliding, 5 / 7 * GRAVITY * math.sin(angle) if rotates else 0.0)
 
 
-def judge(run, columns, time, angle):
+def judge(run: ValidationCase, columns: dict[str, Floats], time: Floats, angle: float) -> tuple[Floats, Floats, Floats]:
     unit = GRAVITY * math.sin(ANGLE)
     blocked, free = (slopes(time, columns["vx"][:, k::2]) for k in (0, 1))
     spin = slopes(time, columns["omegay"][:, 1::2])
@@ -78,7 +75,7 @@ def judge(run, columns, time, angle):
     return blocked, free, spin
 
 
-def judge_rest(run, columns):
+def judge_rest(run: ValidationCase, columns: dict[str, Floats]) -> None:
     """Grains whose friction holds them swing about a place that does not move, by no more than the contact's spring."""
     held = [2 * i for i, mu in enumerate(FRICTIONS) if mu > math.tan(ANGLE)]
     mass = DENSITY * 4 / 3 * math.pi * RADIUS**3
@@ -94,7 +91,7 @@ def judge_rest(run, columns):
                 because="wider ones slip until they are narrow enough; the normal overlap swings a little as well")
 
 
-def draw(run, blocked, free, spin):
+def draw(run: ValidationCase, blocked: Floats, free: Floats, spin: Floats) -> None:
     figure, axes = figure_style.new_figure(size=(7.2, 4.6), layout="constrained")
     unit = GRAVITY * math.sin(ANGLE)
     fine = np.linspace(0, 0.52, 500)
@@ -113,13 +110,13 @@ def draw(run, blocked, free, spin):
     figure.savefig(run.figure("incline.png"), dpi=110)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
-    angle = math.radians(19) if run.wrong else ANGLE
-    steps, columns = run_incline(run.runs / ("wrong_twin" if run.wrong else "case"))
+    angle = math.radians(19) if run.control else ANGLE
+    steps, columns = run_incline(run.own_runs())
     blocked, free, spin = judge(run, columns, steps * TIME_STEP, angle)
     judge_rest(run, columns)
-    if not run.wrong:
+    if not run.control:
         draw(run, blocked, free, spin)
     run.finish()
 

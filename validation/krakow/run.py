@@ -1,17 +1,20 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-
 import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
+from campaign_program import Row  # noqa: E402
 import figure_style  # noqa: E402
-import theory_batch  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+
+Floats = NDArray[np.float64]
+Bands = dict[str, list[Floats]]  # by the slope's name, for each revolution speeds over FRICTIONS
 
 GRAVITY, BETA, ANGLE_ERROR = 9.81, 30.0, 0.5
 AMPLITUDE, AMPLITUDE_ERROR = 1.25e-3, 0.05e-3
@@ -24,19 +27,19 @@ LAYER_COLUMNS = ["revolutions", "friction", "speed_m_per_s", "speed_half_width",
 COLUMNS = ["machine_number", "vibration_angle_deg", "inclination_deg", "friction"]
 
 
-def speeds(run, name, rpm, slope, amplitude, beta=BETA):
+def speeds(run: ValidationCase, rpm: float, slope: float, amplitude: float, beta: float = BETA) -> Floats:
     """Theory's speeds over FRICTIONS, m/s."""
     omega = 2 * math.pi * rpm / 60
     points = [(omega**2 * amplitude / GRAVITY, beta, slope, mu) for mu in FRICTIONS]
-    eta = theory_batch.efficiencies(run, f"{name}_{rpm:g}", COLUMNS, points)
+    eta = run.efficiencies(COLUMNS, points)
     return eta * omega * amplitude * math.cos(math.radians(beta))
 
 
-def in_band(values):
+def in_band(values: Floats) -> Floats:
     return values[(FRICTIONS >= BAND[0]) & (FRICTIONS <= BAND[1])]
 
 
-def friction_for(values, speed):
+def friction_for(values: Floats, speed: float) -> float:
     """The least friction above 0.2 whose speed is that, not a number if none is."""
     above = FRICTIONS >= BAND[0]
     mu, v = FRICTIONS[above], values[above]
@@ -47,17 +50,17 @@ def friction_for(values, speed):
     return float(mu[i] + (speed - v[i]) / (v[i + 1] - v[i]) * (mu[i + 1] - mu[i])) if v[i + 1] != v[i] else float(mu[i])
 
 
-def theory_error(run, row, slope, amplitude, friction):
+def theory_error(run: ValidationCase, row: Row, slope: float, amplitude: float, friction: float) -> float:
     """Relative error of the theory's speed from those of revolutions, amplitude and angles, added in squares."""
     rpm, half = float(row["revolutions"]), (float(row["revolutions"]) - float(row["revolutions_mechanical"])) / 2
     at = int(np.argmin(np.abs(FRICTIONS - friction)))
-    nominal = speeds(run, "nominal", rpm, slope, amplitude)[at]
-    changed = [speeds(run, "rpm", rpm - half, slope, amplitude), speeds(run, "amplitude", rpm, slope, amplitude + AMPLITUDE_ERROR),
-               speeds(run, "slope", rpm, slope + ANGLE_ERROR, amplitude), speeds(run, "beta", rpm, slope, amplitude, BETA + ANGLE_ERROR)]
+    nominal = speeds(run, rpm, slope, amplitude)[at]
+    changed = [speeds(run, rpm - half, slope, amplitude), speeds(run, rpm, slope, amplitude + AMPLITUDE_ERROR),
+               speeds(run, rpm, slope + ANGLE_ERROR, amplitude), speeds(run, rpm, slope, amplitude, BETA + ANGLE_ERROR)]
     return math.sqrt(sum((values[at] / nominal - 1) ** 2 for values in changed))
 
 
-def simulate(run, rows):
+def simulate(run: ValidationCase, rows: list[Row]) -> None:
     """A layer of 3 mm spheres on the laboratory's trough, uphill, at three frictions."""
     frequencies = [f"{row['revolutions']} / minute" for row in rows]
     lines = []
@@ -69,14 +72,15 @@ def simulate(run, rows):
     run.write_table("result.csv", LAYER_COLUMNS, lines)
 
 
-def judge_layer(run, rows, layers):
+def judge_layer(run: ValidationCase, rows: list[Row], layers: list[Row]) -> None:
     """The simulated layer's speeds against the measured ones: is there a friction that gives all three?"""
-    measured, least = np.array([float(row["speed"]) for row in rows]), {}
+    measured = np.array([float(row["speed"]) for row in rows])
+    least: dict[float, tuple[float, float, Floats]] = {}
     for mu in LAYER_FRICTIONS:
         speed = np.array([float(one["speed_m_per_s"]) for one in layers if float(one["friction"]) == mu])
         theory = np.array([float(one["theory_m_per_s"]) for one in layers if float(one["friction"]) == mu])
         least[mu] = (np.abs(speed / measured - 1).max(), np.abs(theory / measured - 1).max(), speed)
-    best, best_theory = (min(least, key=lambda mu: least[mu][i]) for i in (0, 1))
+    best, best_theory = (min(least, key=lambda mu: float(least[mu][i])) for i in (0, 1))
     theories = [float(one["theory_m_per_s"]) for one in layers if float(one["friction"]) == best_theory]
     theory_rise = theories[2] / theories[0]
     run.finding("a simulated layer of 3 mm spheres, uphill, comes nearer to the three speeds than the theory does", least[best][0] < least[best_theory][1],
@@ -86,7 +90,7 @@ def judge_layer(run, rows, layers):
                 f"the simulated layer's by {least[best][2][2] / least[best][2][0]:.1f}, the theory's by {theory_rise:.1f}")
 
 
-def judge_bands(run, rows, bands):
+def judge_bands(run: ValidationCase, rows: list[Row], bands: Bands) -> None:
     """Ours: A is the amplitude and the trough goes up or is level, since then every speed lies in the band."""
     for name in ("uphill", "level"):
         inside = sum(in_band(band).min() <= float(row["speed"]) <= in_band(band).max() for row, band in zip(rows, bands[name]))
@@ -94,7 +98,7 @@ def judge_bands(run, rows, bands):
                   because="the friction is not stated; outside of that range it would not be believable")
 
 
-def judge_findings(run, rows, bands, amplitude):
+def judge_findings(run: ValidationCase, rows: list[Row], bands: Bands, amplitude: float) -> None:
     slowest, band = float(rows[0]["speed"]), in_band(bands["downhill"][0])
     error = theory_error(run, rows[0], SLOPES["downhill"], amplitude, FRICTIONS[np.argmin(bands["downhill"][0])])
     run.finding("the trough of the report (alpha = 2 degrees) goes downhill", False if slowest < band.min() * (1 - max(error, AGREEMENT)) else None,
@@ -112,18 +116,18 @@ def judge_findings(run, rows, bands, amplitude):
                 f"at {gammas[1]:.2f} and {100 * (faster[2] - 1):.0f} % at {gammas[2]:.2f} (uphill; the theory's error from the inputs is {100 * errors[2]:.0f} %)")
 
 
-def draw(run, rows, layers):
+def draw(run: ValidationCase, rows: list[Row], layers: list[Row]) -> None:
     figure, panels = figure_style.new_figure(1, 3, size=(12, 4.2), layout="constrained", sharey=True)
     rpm = [float(row["revolutions"]) for row in rows]
     fine = np.linspace(1230, 1600, 20)
     for axes, (name, slope) in zip(panels, SLOPES.items()):
-        table = np.array([speeds(run, "fine", n, slope, AMPLITUDE) for n in fine])
+        table = np.array([speeds(run, n, slope, AMPLITUDE) for n in fine])
         band = np.array([in_band(values) for values in table])
         axes.fill_between(fine, band.min(axis=1), band.max(axis=1), color=figure_style.COLOURS[0], alpha=0.15, label="theory, friction 0.2 to 0.8")
         for i, mu in enumerate((0.3, 0.45, 0.6)):
             line = table[:, int(np.argmin(np.abs(FRICTIONS - mu)))]
             axes.plot(fine, line, figure_style.DASHES[i], color=figure_style.COLOURS[0], lw=1.2, label=f"\u03bc = {mu}")
-        half = np.array([in_band(speeds(run, "half", n, slope, AMPLITUDE / 2)) for n in fine])
+        half = np.array([in_band(speeds(run, n, slope, AMPLITUDE / 2)) for n in fine])
         axes.fill_between(fine, half.min(axis=1), half.max(axis=1), color=figure_style.COLOURS[3], alpha=0.25, label="if 1.25 mm were the stroke")
         errors = [[(float(row["revolutions"]) - float(row["revolutions_mechanical"])) for row in rows], [0] * 3]
         axes.errorbar(rpm, [float(row["speed"]) for row in rows], yerr=[float(row["speed_error"]) for row in rows], xerr=errors, fmt="o",
@@ -145,17 +149,17 @@ def draw(run, rows, layers):
     figure.savefig(run.figure("krakow.png"), dpi=110)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     rows = run.reference()
     if run.long:
         simulate(run, rows)
     for row in rows:
         run.check(f"{row['revolutions']} rpm: speed is 1 m over the time", 1 / float(row["time"]), float(row["speed"]), 6e-5, because="rounding")
-    amplitude = AMPLITUDE / 2 if run.wrong else AMPLITUDE
-    bands = {name: [speeds(run, name, float(row["revolutions"]), slope, amplitude) for row in rows] for name, slope in SLOPES.items()}
+    amplitude = AMPLITUDE / 2 if run.control else AMPLITUDE
+    bands = {name: [speeds(run, float(row["revolutions"]), slope, amplitude) for row in rows] for name, slope in SLOPES.items()}
     judge_bands(run, rows, bands)
-    if not run.wrong:
+    if not run.control:
         layers = run.table("result.csv")
         judge_findings(run, rows, bands, amplitude)
         judge_layer(run, rows, layers)

@@ -1,5 +1,7 @@
 """The simulations of this case: what is varied on base.toml."""
 
+from typing import Any
+
 FRICTION = 0.23  # of base.toml, grain on trough
 SLOPES = [-0.051, 0.046]
 TANGENTS = [0.25, 0.5, 1.0]
@@ -13,7 +15,7 @@ WHOLE = {"measure.packings": 1, "measure.half_width": 0.0005}
 WIDE = {**WHOLE, "layer.width": "200 mm", "layer.length": "28 mm", "layer.height": "10.5 mm", "measure.max_cycles": 40,
         "output.frames_per_cycle": 10}
 
-CAMPAIGNS = {
+CAMPAIGNS: dict[str, tuple[dict[str, Any], dict[str, list[Any]]]] = {
     "free": ({}, FREE),
     "free_1.5_to_2": ({"measure.packings": 4}, MODERATE),
     "free_near_2.5": ({"measure.packings": 4}, NEAR),

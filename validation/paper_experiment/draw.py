@@ -1,15 +1,19 @@
 """The figures: Figs 9 and 10 of the paper by simulation, and what the layer looks like across and along."""
 
+import numpy as np
+from matplotlib.axes import Axes
+
 import figure_style as style
 import findings
-import numpy as np
 from campaigns import SLOPES, TANGENTS
+from findings import Table, Theory
+from validation_case import ValidationCase
 
 WORDS = {"free": "spheres that roll", "blocked": "grains that cannot rotate"}
 CURVE = np.round(np.arange(0.5, 3.101, 0.02), 3)
 
 
-def efficiency(run, theory, grid):
+def efficiency(run: ValidationCase, theory: Theory, grid: Table) -> None:
     figure, axes = style.new_figure(2, len(SLOPES), size=(10.5, 8), sharex=True, sharey=True, layout="constrained")
     for column, slope in enumerate(SLOPES):
         curves = {tangent: theory.efficiencies([(slope, tangent, gamma) for gamma in CURVE]) for tangent in TANGENTS}
@@ -26,12 +30,12 @@ def efficiency(run, theory, grid):
     axes[0][0].legend(frameon=False, loc="upper left", title="simulation; lines: theory")
     for panel in axes[1]:
         panel.set_xlabel(style.THROW_NUMBER)
-    for row in axes:
-        row[0].set(ylabel=style.EFFICIENCY, ylim=(-0.45, 1.3))
+    for line in axes:
+        line[0].set(ylabel=style.EFFICIENCY, ylim=(-0.45, 1.3))
     figure.savefig(run.figure("efficiency.png"), dpi=120)
 
 
-def points(panel, grid, grains, slope, tangent, i):
+def points(panel: Axes, grid: Table, grains: str, slope: float, tangent: float, i: int) -> None:
     rows = [row for row in grid if row["grains"] == grains and row["tan_inclination"] == slope
             and abs(row["tan_vibration_angle"] - tangent) < 1e-3]
     known = [row for row in rows if row["efficiency"] is not None]
@@ -41,7 +45,7 @@ def points(panel, grid, grains, slope, tangent, i):
                color=style.COLOURS[i], mfc="none", ms=6)
 
 
-def bars(panel, rows, marker, colour, label):
+def bars(panel: Axes, rows: Table, marker: str, colour: str, label: str) -> None:
     """Thin: the 95 % interval, wide because of few packings; thick: from the lowest packing's mean to the highest."""
     gamma = [row["throw_number"] for row in rows]
     panel.errorbar(gamma, [row["efficiency"] for row in rows], [row["half_width"] for row in rows], fmt="none", ecolor=colour,
@@ -51,13 +55,13 @@ def bars(panel, rows, marker, colour, label):
     panel.plot(gamma, [row["efficiency"] for row in rows], marker, color=colour, ms=5, label=label)
 
 
-def cubes(panel, grid, slope):
+def cubes(panel: Axes, grid: Table, slope: float) -> None:
     rows = [row for row in grid if row["grains"] == "cube" and row["tan_inclination"] == slope and row["efficiency"] is not None]
     if rows:
         bars(panel, rows, "X", "black", "cubes, tan β = 0.5")
 
 
-def layer(run, walls, waves, surfaces):
+def layer(run: ValidationCase, walls: Table, waves: Table, surfaces: Table) -> None:
     figure, axes = style.new_figure(1, 3, size=(13, 4), layout="constrained")
     across(axes[0], walls)
     heights(axes[1], waves)
@@ -67,7 +71,7 @@ def layer(run, walls, waves, surfaces):
     figure.savefig(run.figure("layer.png"), dpi=120)
 
 
-def across(panel, walls):
+def across(panel: Axes, walls: Table) -> None:
     for i, (rotation, gamma, wall) in enumerate(findings.profiles(walls)):
         rows = findings.profile_of(walls, rotation, gamma, wall)
         middle = findings.middle_of(walls, rotation, gamma, wall)
@@ -79,7 +83,7 @@ def across(panel, walls):
     panel.legend(frameon=False, fontsize=8, loc="lower right")
 
 
-def heights(panel, waves):
+def heights(panel: Axes, waves: Table) -> None:
     gamma = [row["throw_number"] for row in waves]
     panel.plot(gamma, [row["highest_mm"] for row in waves], "o-", color=style.COLOURS[0], label="strongest wave, at its highest [mm]")
     panel.plot(gamma, [row["turnover"] for row in waves], "s--", color=style.COLOURS[1],
@@ -89,7 +93,7 @@ def heights(panel, waves):
     panel.legend(frameon=False, fontsize=8, loc="upper left")
 
 
-def shapes(panel, surfaces, waves):
+def shapes(panel: Axes, surfaces: Table, waves: Table) -> None:
     numbers = sorted(row["throw_number"] for row in waves)
     for i, gamma in enumerate(numbers[::4][:2]):
         for snapshot in (0, 1):

@@ -2,6 +2,13 @@
 
 import math
 import statistics
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Protocol
+
+from validation_case import ValidationCase
+
+Values = dict[str, Any]  # numbers, texts, and None for what was not measured
+Table = list[Values]
 
 LARGE = 0.15  # of eta: 20 % of it is the half-width that was asked of the means, 20 % of less cannot be told
 HALF_WIDTH = 0.03
@@ -10,18 +17,26 @@ KINDS = [("blocked", "grains that cannot rotate"), ("cube", "cubes of eight sphe
 MODERATE = (1.5, 1.75, 2.0)
 
 
-def is_at(row, grains, tan_inclination, tan_vibration_angle, throw_number):
+class Theory(Protocol):
+    """The point mass on the trough of the experiment."""
+
+    def efficiency(self, tan_inclination: float, tan_vibration_angle: float, throw_number: float, harmonic: str) -> float: ...
+
+    def efficiencies(self, points: Iterable[Sequence[float]]) -> list[float]: ...
+
+
+def is_at(row: Values, grains: str, tan_inclination: float, tan_vibration_angle: float, throw_number: float) -> bool:
     return row["grains"] == grains and all(
         math.isclose(row[key], value, abs_tol=5e-4)
         for key, value in [("tan_inclination", tan_inclination), ("tan_vibration_angle", tan_vibration_angle),
                            ("throw_number", throw_number)])
 
 
-def steady(grid, grains, keep=lambda row: True):
+def steady(grid: Table, grains: str, keep: Callable[[Values], bool] = lambda row: True) -> Table:
     return [row for row in grid if row["grains"] == grains and row["efficiency"] is not None and keep(row)]
 
 
-def slide_conveyors(run, grid):
+def slide_conveyors(run: ValidationCase, grid: Table) -> None:
     for grains, words in KINDS:
         rows = steady(grid, grains, lambda row: row["throw_number"] < 1)
         large = [row for row in rows if abs(row["theory"]) >= LARGE]
@@ -36,7 +51,7 @@ def slide_conveyors(run, grid):
                     + f"; layer - theory from {min(off):+.2f} to {max(off):+.2f}, median {statistics.median(off):+.2f}")
 
 
-def softness(run, grid, stiff):
+def softness(run: ValidationCase, grid: Table, stiff: Table) -> None:
     """Not the paper's: why the blocked layer is a little slower than the theory below throw number 1."""
     at = next((row for row in grid if is_at(row, "blocked", 0.046, 1.0, 0.95)), None)
     if at is None:  # a quick run
@@ -48,21 +63,21 @@ def softness(run, grid, stiff):
                 off[-1] < off[0] / 2, f"layer - theory at tan(alpha) 0.046, tan(beta) 1, Gamma 0.95: {told}")
 
 
-def packings(row):
+def packings(row: Values) -> list[float]:
     """Each packing's own mean."""
     return [float(text) for text in str(row["packings"]).split() if text != "nan"]
 
 
-def best_known(row):
+def best_known(row: Values) -> float:
     """eta, and for a case that is not steady, which has none, the mean of its packings: to leave it out would choose."""
     return row["efficiency"] if row["efficiency"] is not None else statistics.mean(packings(row))
 
 
-def spread(values):
+def spread(values: list[float]) -> float:
     return max(values) - min(values)
 
 
-def spread_over_angles(run, grid):
+def spread_over_angles(run: ValidationCase, grid: Table) -> None:
     for grains, words in [("free", "spheres that roll"), ("blocked", "grains that cannot rotate")]:
         ratios, told = [], []
         for slope in sorted({row["tan_inclination"] for row in grid}):
@@ -80,13 +95,13 @@ def spread_over_angles(run, grid):
                         f"{statistics.mean(ratios):.2f} of the theory's")
 
 
-def near_two_and_a_half(run, grid):
+def near_two_and_a_half(run: ValidationCase, grid: Table) -> None:
     for grains, words in [("free", "spheres that roll"), ("blocked", "grains that cannot rotate")]:
         sides = [steady(grid, grains, lambda row: row["tan_inclination"] * sign > 0 and row["throw_number"] == 2.5) for sign in (-1, 1)]
         if not all(sides):
             continue
         off = [[row["efficiency"] - row["theory"] for row in rows] for rows in sides]
-        decline, incline = (statistics.mean(map(abs, values)) for values in off)
+        decline, incline = (statistics.mean([abs(value) for value in values]) for values in off)
         widths = [row["half_width"] / len(rows) for rows in sides for row in rows]
         width = math.hypot(*widths)
         larger = None if abs(incline - decline) <= width else incline > decline
@@ -96,40 +111,40 @@ def near_two_and_a_half(run, grid):
                     f"size {decline:.2f} and {incline:.2f}, their difference known to {width:.2f}")
 
 
-def signed(values):
+def signed(values: list[float]) -> str:
     return ", ".join(f"{value:+.2f}" for value in values)
 
 
-def gradient(run, grid):
+def gradient(run: ValidationCase, grid: Table) -> None:
     for grains, words in [("blocked", "grains that cannot rotate"), ("free", "spheres that roll")]:
-        told, largest = [], 0
+        told, largest = [], 0.0
         for name, keep in [("below 1", lambda g: g < 1), ("1.25 to 2", lambda g: 1 < g <= 2), ("2.5 and 3", lambda g: g > 2)]:
             values = [row["gradient"] for row in steady(grid, grains, lambda row: keep(row["throw_number"]))
                       if row["gradient"] is not None and not math.isnan(row["gradient"])]
             if values:
                 told.append(f"{name}: {statistics.mean(values):+.3f} (from {min(values):+.3f} to {max(values):+.3f})")
-                largest = max(largest, *map(abs, values))
+                largest = max(largest, *(abs(value) for value in values))
         if told:
             run.finding(f"(d) no vertical gradient of velocity in the layer: {words}", largest < 0.05,
                         f"upper third less lower third, in units of omega r cos(beta), by throw number {'; '.join(told)}")
 
 
-def profile_of(walls, rotation, gamma, wall_friction):
+def profile_of(walls: Table, rotation: str, gamma: float, wall_friction: float) -> Table:
     return [row for row in walls if row["rotation"] == rotation and math.isclose(row["throw_number"], gamma)
             and math.isclose(row["wall_friction"], wall_friction)]
 
 
-def middle_of(walls, rotation, gamma, wall_friction=0.23):
+def middle_of(walls: Table, rotation: str, gamma: float, wall_friction: float = 0.23) -> float:
     """eta more than 40 mm from either wall, over the grains that were seen there."""
     rows = [row for row in profile_of(walls, rotation, gamma, wall_friction) if row["from_mm"] >= 40]
     return sum(row["efficiency"] * row["seen"] for row in rows) / sum(row["seen"] for row in rows) if rows else math.nan
 
 
-def profiles(walls):
+def profiles(walls: Table) -> list[tuple[str, float, float]]:
     return sorted({(row["rotation"], row["throw_number"], row["wall_friction"]) for row in walls})
 
 
-def side_walls(run, walls):
+def side_walls(run: ValidationCase, walls: Table) -> None:
     told, widest = [], 0
     for rotation, gamma, wall in profiles(walls):
         middle = middle_of(walls, rotation, gamma, wall)
@@ -143,7 +158,7 @@ def side_walls(run, walls):
     run.finding("(e) wall friction matters only within millimetres of the walls of a 200 mm trough", widest <= 10, "; ".join(told))
 
 
-def wiggles(run, waves):
+def wiggles(run: ValidationCase, waves: Table) -> None:
     told = [f"{row['throw_number']:g}: {row['highest_mm']:.2f} mm ({row['turnover']:+.2f})" for row in waves]
     low = [row for row in waves if row["throw_number"] <= 1.5]
     if not low:  # a quick run
@@ -157,9 +172,9 @@ def wiggles(run, waves):
                 f"number: {', '.join(told)}. Standing waves at half the frequency, from {first:g} on")
 
 
-def noise(run, theory, grid, noisy):
+def noise(run: ValidationCase, theory: Theory, grid: Table, noisy: Table) -> None:
     harmonics = [f"25,0.2,{phase} deg" for phase in (0, 90, 180, 270)]
-    told, worst = [], 0
+    told, worst = [], 0.0
     plain = dict(zip(NOISY, theory.efficiencies([(-0.051, 0.5, gamma) for gamma in NOISY])))
     for gamma in NOISY:
         clean = plain[gamma]
@@ -171,12 +186,12 @@ def noise(run, theory, grid, noisy):
     for grains, words in KINDS:
         told, sure = [], []
         for row in steady(noisy, grains):
-            clean = next((one for one in steady(grid, grains) if is_at(
+            quiet = next((one for one in steady(grid, grains) if is_at(
                 one, grains, *(row[key] for key in ("tan_inclination", "tan_vibration_angle", "throw_number")))), None)
-            if clean is None:
+            if quiet is None:
                 continue
-            change = row["efficiency"] / clean["efficiency"] - 1
-            width = math.hypot(row["half_width"], clean["half_width"]) / clean["efficiency"]
+            change = row["efficiency"] / quiet["efficiency"] - 1
+            width = math.hypot(row["half_width"], quiet["half_width"]) / quiet["efficiency"]
             told.append(f"{row['throw_number']:g}: {100 * change:+.1f} ± {100 * width:.1f} %")
             if width <= 0.1:
                 sure.append(change)
@@ -186,7 +201,7 @@ def noise(run, theory, grid, noisy):
                         f"by throw number: {', '.join(told)}; judged by those known to 10 %")
 
 
-def shake_test(run, friction):
+def shake_test(run: ValidationCase, friction: Table) -> None:
     blocks = [row for row in friction if row["what"] == "block"]
     layers = [row for row in friction if row["what"] != "block" and row["friction"] is not None]
     text = ", ".join(f"{row['friction_put_in']:g} -> {row['friction']:.4f}" for row in blocks)

@@ -1,14 +1,19 @@
 """The surface of a layer along a long box: how much of it are waves, and do they turn over from cycle to cycle?"""
 
-import csv
+import pathlib
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+import engine_deck
+from engine_deck import Floats
 
 CYCLES = 3  # until the same phase is seen again: a snapshot every 0.3 cycles
 
 
-def snapshots(path):
-    """Steps, middles of the columns [m], grains in them and heights of the surface [m], a row per snapshot."""
+def snapshots(path: pathlib.Path) -> tuple[NDArray[np.int64], Floats, Floats]:
+    """Steps, middles of the columns [m], and heights of the surface [m], a row per snapshot."""
     lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     steps, tables, row = [], [], 0
     while row < len(lines):
@@ -18,18 +23,17 @@ def snapshots(path):
             steps.append(int(lines[row][0]))
             tables.append(table)
         row += 1 + columns
-    tables = np.array(tables)
-    return np.array(steps), tables[0, :, 1], 2 * tables[:, :, 4]  # a column is twice as high as its grains' mean
+    stacked: Floats = np.array(tables)
+    return np.array(steps), stacked[0, :, 1], 2.0 * stacked[:, :, 4]  # a column is twice as high as its grains' mean
 
 
-def displacement(path, steps):
+def displacement(path: pathlib.Path, steps: NDArray[np.int64]) -> Floats:
     """x of the centre of mass [m] at the given steps, from the hundred lines per cycle."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return np.interp(steps, [float(row["step"]) for row in rows], [float(row["x_com"]) for row in rows])
+    table = engine_deck.read_lines(path)
+    return np.interp(steps, table["step"], table["x_com"])
 
 
-def waves(packing, length, steps_per_cycle, discarded):
+def waves(packing: pathlib.Path, length: float, steps_per_cycle: int, discarded: int) -> dict[str, Any]:
     """What the surface along x does after `discarded` cycles, in a dict, lengths in m:
     `all`: amplitude of a sinusoid with the surface's whole variance; of its strongest Fourier component the `wavelength`, the
     `amplitude` (root mean square over all snapshots, and `highest` over those of the phase where it is highest), the `share`
@@ -59,6 +63,6 @@ def waves(packing, length, steps_per_cycle, discarded):
             "x": places, "two": [in_layer(places, deviation[k], x[k] - x[i], length) for k in (i, j)]}
 
 
-def in_layer(places, deviation, moved, length):
+def in_layer(places: Floats, deviation: Floats, moved: float, length: float) -> Floats:
     """The surface at `places` of a frame that has moved with the layer."""
     return np.interp(places + moved, places, deviation, period=length)

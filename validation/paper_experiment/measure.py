@@ -6,20 +6,22 @@ import pathlib
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterator
+
+import numpy as np
+
+from campaign_program import Row, campaign_text
+from campaigns import CAMPAIGNS, QUICK
+from lateral_profile import EDGES, lateral_profile
+from layer_waves import waves
+from validation_case import ValidationCase
+from vibrotrough import File, open_result
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-
-import numpy as np  # noqa: E402
-from campaign_program import campaign_text  # noqa: E402
-from campaigns import CAMPAIGNS, QUICK  # noqa: E402
-from lateral_profile import EDGES, lateral_profile  # noqa: E402
-from layer_waves import waves  # noqa: E402
-from vibrotrough import open_result  # noqa: E402
-
 START = 20  # cycles of start-up that the profiles across and along leave out
 
 
-def cases_of(run, name):
+def cases_of(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.Path, File | None]]:
     """Each case of a campaign: the table's row, its folder and its result.h5."""
     changes, sweep = CAMPAIGNS[name]
     if run.quick:
@@ -30,7 +32,15 @@ def cases_of(run, name):
         yield row, folder, result
 
 
-def measure(run):
+def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.Path, File]]:
+    """Like cases_of(), for campaigns of which every case must have a result."""
+    for row, folder, result in cases_of(run, name):
+        if result is None:
+            sys.exit(f"case {row['case']} of {name} has no result: {row['outcome']}")
+        yield row, folder, result
+
+
+def measure(run: ValidationCase) -> None:
     grid(run, "result.csv", ["free", "free_1.5_to_2", "free_near_2.5", "blocked", "cube"])
     grid(run, "noise.csv", ["noise"])
     walls(run)
@@ -39,7 +49,7 @@ def measure(run):
     shake_test(run)
 
 
-def grid(run, table, names):
+def grid(run: ValidationCase, table: str, names: list[str]) -> None:
     """A row per case; `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta)."""
     rows = []
     for name in names:
@@ -49,7 +59,7 @@ def grid(run, table, names):
                             "gradient", "overlap", "packings", "cycles", "mode", "outcome"], rows)
 
 
-def described(row, result):
+def described(row: Row, result: File | None) -> list[str]:
     inputs = [f"{math.tan(math.radians(float(row[name]))):.4g}" for name in ("inclination_deg", "vibration_angle_deg")]
     inputs.append(f"{float(row['throw_number']):.4g}")
     if result is None:
@@ -66,10 +76,10 @@ def described(row, result):
             row["outcome"]]
 
 
-def walls(run):
+def walls(run: ValidationCase) -> None:
     """Speed over the distance from the side walls, in omega r cos(beta)."""
     rows = []
-    for row, folder, result in cases_of(run, "walls"):
+    for row, folder, result in whole_cases(run, "walls"):
         scale = 2 * math.pi * float(row["amplitude_m"]) * math.cos(math.radians(float(row["vibration_angle_deg"])))
         box = tomllib.loads(str(result["scenario"]))["layer"]
         speed, seen = lateral_profile(folder / "packing-1" / "dump", metres(box["length"]), metres(box["width"]),
@@ -83,15 +93,15 @@ def walls(run):
                                   "seen"], rows)
 
 
-def metres(text):
+def metres(text: object) -> float:
     """A length of a scenario, which a result keeps in SI: a number, or a text with a unit."""
     number, unit = (str(text).split() + ["m"])[:2]
     return float(number) * {"m": 1.0, "mm": 1e-3}[unit]
 
 
-def surface(run):
+def surface(run: ValidationCase) -> None:
     rows, shapes = [], []
-    for row, folder, result in cases_of(run, "waves"):
+    for row, folder, result in whole_cases(run, "waves"):
         length = metres(tomllib.loads(str(result["scenario"]))["layer"]["length"])
         found = waves(folder / "packing-1", length, int(result["packings/steps_per_cycle"][0]), 2 if run.quick else START)
         rows.append([f"{float(row['throw_number']):.4g}", row["efficiency_dem"], row["frequency_hz"],
@@ -104,18 +114,19 @@ def surface(run):
     run.write_table("surfaces.csv", ["throw_number", "snapshot", "x_mm", "deviation_mm"], shapes)
 
 
-def stiffness(run):
-    rows = [[float(result["case/grain_youngs_modulus"]) / 1e6, *described(row, result)[1:6]] for row, _, result in cases_of(run, "stiff")]
+def stiffness(run: ValidationCase) -> None:
+    rows = [[float(result["case/grain_youngs_modulus"]) / 1e6, *described(row, result)[1:6]]
+            for row, _, result in whole_cases(run, "stiff")]
     run.write_table("stiff.csv", ["youngs_modulus_mpa", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency",
                                   "half_width"], rows)
 
 
-def shake_test(run):
+def shake_test(run: ValidationCase) -> None:
     """Friction from the horizontal shake test, for blocks and for layers."""
     rows = []
     text = (FOLDER / "base_block.toml").read_text(encoding="utf-8")
     rows += [["block", *one] for one in frictions(run, "shaken_block", text)]
-    base = tomllib.loads((FOLDER / "base.toml").read_text(encoding="utf-8"))
+    base = run.sections()
     for name in () if run.quick else ("free", "blocked"):
         changes = {**CAMPAIGNS[name][0], "campaign.name": "shaken_" + name}
         layer = campaign_text(base, changes, {"trough.throw_number": [0.8]})
@@ -123,7 +134,7 @@ def shake_test(run):
     run.write_table("friction.csv", ["what", "friction_put_in", "friction", "low", "high", "machine_number", "mode"], rows)
 
 
-def frictions(run, name, text):
+def frictions(run: ValidationCase, name: str, text: str) -> Iterator[list[str]]:
     file, folder = run.runs / f"{name}.toml", run.runs / name
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text, encoding="utf-8")

@@ -2,55 +2,59 @@
 import math
 import pathlib
 import sys
+from collections.abc import Iterable, Sequence
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
+from campaign_program import Row  # noqa: E402
+from campaigns import FREE, FRICTION, GRID, MODERATE, NEAR  # noqa: E402
 import draw  # noqa: E402
 import findings  # noqa: E402
-import theory_batch  # noqa: E402
-from campaigns import FREE, FRICTION, GRID, MODERATE, NEAR  # noqa: E402
 from measure import measure  # noqa: E402
+from findings import Table  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 STEADY = ("finished", "not-precise")
 
 
-class Theory:
-    """The point mass on the experiment's trough; the wrong twin tilts the trough the other way."""
+class PointMass:
+    """The point mass on the experiment's trough; the negative control tilts the trough the other way."""
 
-    def __init__(self, run):
-        self.run, self.sign = run, -1 if run.wrong else 1
+    def __init__(self, run: ValidationCase) -> None:
+        self.run, self.sign = run, -1 if run.control else 1
 
-    def efficiency(self, tan_inclination, tan_vibration_angle, throw_number, harmonic):
+    def efficiency(self, tan_inclination: float, tan_vibration_angle: float, throw_number: float, harmonic: str) -> float:
         words = ["--tan-inclination", self.sign * tan_inclination, "--tan-vibration-angle", tan_vibration_angle,
                  "--throw-number", throw_number, "--friction", FRICTION]
         words += ["--harmonic-along", harmonic, "--harmonic-normal", harmonic]
         return self.run.json("point", *words)["velocity_efficiency"]
 
-    def efficiencies(self, points):
+    def efficiencies(self, points: Iterable[Sequence[float]]) -> list[float]:
         """Of many points (tan_inclination, tan_vibration_angle, throw_number) at once."""
         columns = ["tan_inclination", "tan_vibration_angle", "throw_number", "friction"]
         asked = [(self.sign * slope, tangent, gamma, FRICTION) for slope, tangent, gamma in points]
-        return list(theory_batch.efficiencies(self.run, "theory_points", columns, asked))
+        return list(self.run.efficiencies(columns, asked))
 
 
-def numbers(rows):
-    """Rows with floats for what is a number, None for what was not measured."""
-    for row in rows:
-        for key, text in row.items():
-            try:
-                row[key] = float(text) if text != "" else None
-            except ValueError:
-                pass
-    return rows
+def number(text: str) -> float | str | None:
+    """A float where the text is a number, None where nothing was measured, else the text."""
+    try:
+        return float(text) if text != "" else None
+    except ValueError:
+        return text
 
 
-def main():
+def numbers(rows: list[Row]) -> Table:
+    """The rows of a table with their values as number() gives them."""
+    return [{key: number(text) for key, text in row.items()} for row in rows]
+
+
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         measure(run)
-    theory = Theory(run)
+    theory = PointMass(run)
     grid = numbers(run.table("result.csv"))
     places = [[row[key] for key in ("tan_inclination", "tan_vibration_angle", "throw_number")] for row in grid]
     for row, eta in zip(grid, theory.efficiencies(places)):
@@ -72,11 +76,11 @@ def main():
     run.finish()
 
 
-def size(sweep):
+def size(sweep: dict[str, list[float]]) -> int:
     return math.prod(map(len, sweep.values()))
 
 
-def criteria(run, grid, walls, friction):
+def criteria(run: ValidationCase, grid: Table, walls: Table, friction: Table) -> None:
     for grains, planned in [("blocked", size(GRID)), ("free", sum(map(size, (FREE, MODERATE, NEAR))))]:
         run.check(f"cases with {grains} rotation", sum(row["grains"] == grains for row in grid), planned, 0)
     run.check("cases that failed", sum(row["outcome"] not in (*STEADY, "not-steady") for row in grid), 0, 0)

@@ -4,8 +4,12 @@ Units: the mass, the amplitude r in the direction of vibration and omega are 1, 
 """
 
 import dataclasses
+from collections.abc import Iterable, Sequence
 
 import numpy
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[numpy.float64]
 
 CYCLE = 2 * numpy.pi
 
@@ -30,11 +34,11 @@ class Law:
     tangential_stiffness: float | None = None
 
     @property
-    def damping_ratio(self):
+    def damping_ratio(self) -> float:
         return self.damping / (2 * self.stiffness**0.5)
 
     @property
-    def restitution(self):
+    def restitution(self) -> float:
         """Of a law that does not pull, without gravity: m x'' = -k x - c x' ends when its force does, at x'' = 0. With the rates
         a < b of its two exponentials, e = (a / b)^((b + a) / (b - a)); 1/100 at five times the critical damping."""
         root = (self.damping_ratio**2 - 1) ** 0.5
@@ -42,7 +46,12 @@ class Law:
         return (slow / fast) ** ((fast + slow) / (fast - slow)) if root else float(numpy.exp(-2))
 
 
-def efficiency(pairs, contacts_per_cycle, steps, cycles, start=0):
+def column(values: Iterable[float]) -> Floats:
+    return numpy.array(list(values), dtype=float)
+
+
+def efficiency(pairs: Sequence[tuple[Point, Law]], contacts_per_cycle: int, steps: int, cycles: int,
+               start: ArrayLike = 0) -> Floats:
     """Velocity efficiency of each cycle, shape (cycles, pairs).
 
     @param pairs  (Point, Law) each
@@ -50,7 +59,6 @@ def efficiency(pairs, contacts_per_cycle, steps, cycles, start=0):
     @param start  speed along the trough at phase 0, in omega r, of each pair or of all; the mass begins on the trough
     """
     points, laws = [point for point, _ in pairs], [law for _, law in pairs]
-    column = lambda values: numpy.array(list(values), dtype=float)  # noqa: E731
     gamma, mu = column(p.throw_number for p in points), column(p.friction for p in points)
     beta, alpha = (numpy.arctan(column(p.tan_vibration_angle for p in points)),
                    numpy.arctan(column(p.tan_inclination for p in points)))

@@ -1,27 +1,29 @@
 """Vibrotrough's decks of a block with another contact law written into them, run by the engine."""
 
-import csv
 import pathlib
 import re
 import subprocess
 
+import engine_deck
+from contact_law import Law
+
 SAME = r"(fix\s+\w+ all property/global {name} peratomtypepair (\d)) .*"
 
 
-def set_property(deck, name, value):
+def set_property(deck: str, name: str, value: float) -> str:
     """The engine's property of all pairs of types."""
     return re.sub(SAME.format(name=name), lambda line: f"{line[1]}{f' {value!r}' * int(line[2]) ** 2}", deck)
 
 
-def get_property(deck, name):
-    return float(re.search(SAME.format(name=name).replace(" .*", r" (\S+)"), deck)[3])
+def get_property(deck: str, name: str) -> float:
+    return float(engine_deck.last_group(SAME.format(name=name).replace(" .*", r" (\S+)"), deck))
 
 
-def steps_per_cycle(folder):
-    return int(re.search(r"variable\s+n equal (\d+)", pathlib.Path(folder, "in.liggghts").read_text(encoding="utf-8"))[1])
+def steps_per_cycle(folder: pathlib.Path) -> int:
+    return int(engine_deck.last_group(r"variable\s+n equal (\d+)", (folder / "in.liggghts").read_text(encoding="utf-8")))
 
 
-def edit(deck, law):
+def edit(deck: str, law: Law) -> str:
     """`law`: a contact_law.Law. The deck's own law has k = m / t_c^2 and c = 10 m / t_c."""
     duration = 10 / get_property(deck, "gamman")
     unit = get_property(deck, "kn")  # m / t_c^2
@@ -34,9 +36,8 @@ def edit(deck, law):
     return deck.replace("limitForce on", "limitForce off") if law.pulls else deck
 
 
-def run_decks(folder, law):
+def run_decks(folder: pathlib.Path, law: Law) -> list[float]:
     """Runs both decks in `folder`, unless they were, and returns the centre of mass along the trough at the end of each cycle, m."""
-    folder = pathlib.Path(folder)
     done = folder / "done"
     if not done.exists():
         for name in ("settle.liggghts", "in.liggghts"):
@@ -46,5 +47,4 @@ def run_decks(folder, law):
             with open(path.with_suffix(".out"), "w", encoding="utf-8") as out:
                 subprocess.run(["liggghts", "-in", path.with_suffix(".edited").name], cwd=folder, stdout=out, stderr=out, check=True)
         done.touch()
-    with open(folder / "cycles.csv", encoding="utf-8") as file:
-        return [float(row["x_com"]) for row in csv.DictReader(line for line in file if not line.startswith("#"))]
+    return engine_deck.read_lines(folder / "cycles.csv")["x_com"].tolist()

@@ -5,20 +5,22 @@ import shutil
 import statistics
 import subprocess
 import sys
-import tempfile
+from collections.abc import Sequence
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import contact_law  # noqa: E402
-import edited_decks  # noqa: E402
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 from campaign_program import campaign_text  # noqa: E402
+import contact_law  # noqa: E402
 from contact_law import Law, Point  # noqa: E402
-from validation_case import ValidationCase, read_table, tomllib  # noqa: E402
+import edited_decks  # noqa: E402
+from figure_style import plt  # noqa: E402
+from campaign_program import Row  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
+
+Answer = tuple[float, str]  # velocity efficiency and mode of the theory
+Judged = tuple[Point, float, float, bool]  # efficiency of block and theory, whether a change of mode is near
 
 NUMBERS = [0.5, 0.8, 1.1, 1.3, 1.5, 1.7, 2.0, 2.25, 2.5, 2.75, 3.0]
 TANGENTS, FRICTIONS, SLOPES = [0.25, 0.5, 1.0], [0.18, 0.23], [-0.05, 0.0, 0.05]
@@ -43,29 +45,29 @@ STIFFNESSES = [100, 300, 1000]
 POINT_COLUMNS = ["throw_number", "tan_vibration_angle", "tan_inclination", "friction"]
 
 
-def point_of(row):
+def point_of(row: Row) -> Point:
     return Point(*(float(row[name]) for name in POINT_COLUMNS))
 
 
-def values(point):
+def values(point: Point) -> list[float]:
     return [point.throw_number, point.tan_vibration_angle, point.tan_inclination, point.friction]
 
 
-def deck_changes(point):
+def deck_changes(point: Point) -> dict[str, float | None]:
     return {"trough.throw_number": point.throw_number, "trough.tan_vibration_angle": point.tan_vibration_angle,
             "trough.inclination": None, "trough.tan_inclination": point.tan_inclination, "trough.friction": point.friction}
 
 
 # The simulations.
 
-def simulate(run):
+def simulate(run: ValidationCase) -> None:
     grid(run)
     stiffness(run)
     laws(run)
     starts(run)
 
 
-def grid(run):
+def grid(run: ValidationCase) -> None:
     numbers = [0.8, 2.5] if run.quick else NUMBERS
     tangents, frictions, slopes = ([0.5], [0.23], [0.0]) if run.quick else (TANGENTS, FRICTIONS, SLOPES)
     points = [Point(g, b, a, mu) for a in slopes for mu in frictions for b in tangents for g in numbers]
@@ -77,7 +79,7 @@ def grid(run):
                      for p, r in zip(points, table)])
 
 
-def stiffness(run):
+def stiffness(run: ValidationCase) -> None:
     """Does a stiffer contact bring the block nearer to the theory?"""
     rows = []
     for number, point in enumerate(HARD[:1] if run.quick else HARD):
@@ -88,9 +90,9 @@ def stiffness(run):
     run.write_table("stiffness.csv", POINT_COLUMNS + ["contacts_per_cycle", "efficiency_block", "outcome"], rows)
 
 
-def engine_cycles(run, name, point, law, cycles):
+def engine_cycles(run: ValidationCase, name: str, point: Point, law: Law, cycles: int) -> tuple[list[float], int]:
     """Velocity efficiency of each cycle of the engine with `law` written into the decks, and their steps per cycle."""
-    base = tomllib.loads((FOLDER / "base.toml").read_text(encoding="utf-8"))
+    base = run.sections()
     text = campaign_text(base, {"campaign.name": name, **deck_changes(point), "measure.max_cycles": cycles}, {})
     folder = run.runs / name
     folder.mkdir(parents=True, exist_ok=True)
@@ -109,12 +111,12 @@ def engine_cycles(run, name, point, law, cycles):
     return [(after - before) / unit for before, after in zip(x, x[1:])], edited_decks.steps_per_cycle(folder / "case-001/packing-1")
 
 
-def laws(run):
+def laws(run: ValidationCase) -> None:
     """Other contact laws, by the engine and by an integration of our own."""
     chosen = [(point, law) for law in (LAWS[:2] if run.quick else LAWS) for point in (HARD[:1] if run.quick else HARD)]
     cycles = 20 if run.quick else LAW_CYCLES
     engine = [engine_cycles(run, f"law-{number + 1}", point, law, cycles) for number, (point, law) in enumerate(chosen)]
-    own = {}
+    own: dict[tuple[Point, Law], Any] = {}
     for steps in sorted({steps for _, steps in engine}):
         here = [pair for pair, (_, its_steps) in zip(chosen, engine) if its_steps == steps]
         own.update(zip(here, contact_law.efficiency(here, CONTACTS, steps, cycles)[-KEPT:].T))
@@ -127,7 +129,7 @@ def laws(run):
                                     "spread_of_cycles"], rows)
 
 
-def starts(run):
+def starts(run: ValidationCase) -> None:
     """How long the block remembers its start, from rest and from two speeds."""
     cycles = 20 if run.quick else START_CYCLES
     engine, steps = engine_cycles(run, "start", SLOW, PLASTIC, cycles)
@@ -139,22 +141,16 @@ def starts(run):
 
 # The judgement.
 
-def theories(run, points, restitution=None):
-    """The theory's answers at many points; the wrong twin's friction is 30 % too high."""
-    lines = [",".join(POINT_COLUMNS + ["restitution"])]
-    for index, p in enumerate(points):
-        mu = p.friction * (1.3 if run.wrong else 1)
-        e = restitution[index] if restitution else 0
-        lines.append(",".join(map(repr, [p.throw_number, p.tan_vibration_angle, p.tan_inclination, mu, e])))
-    with tempfile.TemporaryDirectory() as folder:
-        table, answers = pathlib.Path(folder, "points.csv"), pathlib.Path(folder, "answers.csv")
-        table.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        run.theory("batch", table, "--output", answers)
-        rows = read_table(answers)
+def theories(run: ValidationCase, points: Sequence[Point], restitution: list[float] | None = None) -> list[Answer]:
+    """The theory's answers at many points; the negative control's friction is 30 % too high."""
+    factor = 1.3 if run.control else 1.0
+    rows = run.batch([*POINT_COLUMNS, "restitution"],
+                     [[p.throw_number, p.tan_vibration_angle, p.tan_inclination, factor * p.friction, e]
+                      for p, e in zip(points, restitution or [0.0] * len(points))])
     return [(float(row["velocity_efficiency"]), row["mode"]) for row in rows]
 
 
-def near_a_change(around):
+def near_a_change(around: Sequence[Answer]) -> bool:
     """`around`: the theory's answers at SHIFTS of the throw number."""
     if len({mode for _, mode in around}) > 1:
         return True
@@ -162,7 +158,7 @@ def near_a_change(around):
     return max(abs(eta[i] - (eta[0] + (eta[4] - eta[0]) * i / 4)) for i in range(5)) > KNEE
 
 
-def judge_grid(run):
+def judge_grid(run: ValidationCase) -> list[Judged]:
     rows = run.table("result.csv")
     points = [point_of(row) for row in rows]
     shifted = [Point(p.throw_number * (1 + shift), *values(p)[1:]) for p in points for shift in SHIFTS]
@@ -185,13 +181,13 @@ def judge_grid(run):
     return judged
 
 
-def judge_stiffness(run):
+def judge_stiffness(run: ValidationCase) -> dict[float, list[float]]:
     rows = run.table("stiffness.csv")
     answers = theories(run, [point_of(row) for row in rows])
-    errors = {}
+    errors: dict[float, list[float]] = {}
     for row, (theory, _) in zip(rows, answers):
         errors.setdefault(float(row["contacts_per_cycle"]), []).append(float(row["efficiency_block"]) - theory)
-    largest = {contacts: max(map(abs, differences)) for contacts, differences in sorted(errors.items())}
+    largest = {contacts: max(abs(difference) for difference in differences) for contacts, differences in sorted(errors.items())}
     text = ", ".join(f"{value:.4f} at {contacts:g}" for contacts, value in largest.items())
     ordered = list(largest.values())
     run.between("stiffest over softest contact: largest |difference|", ordered[-1] / ordered[0], 0, 0.5,
@@ -201,7 +197,7 @@ def judge_stiffness(run):
     return errors
 
 
-def judge_laws(run):
+def judge_laws(run: ValidationCase) -> dict[str, list[tuple[float, float]]]:
     rows = run.table("contact.csv")
     points = [point_of(row) for row in rows]
     plastic = theories(run, points)
@@ -210,7 +206,7 @@ def judge_laws(run):
     apart = max(abs(float(row["efficiency_engine"]) - float(row["efficiency_integrated"])) for row in steady)
     run.between(f"engine against our own integration, {len(steady)} of {len(rows)} motions that repeat: largest |difference|", apart, 0, 1e-4,
                 "the same law in two codes: only their starts differ")
-    errors = {}
+    errors: dict[str, list[tuple[float, float]]] = {}
     for row, (theory, _), (rebound, _) in zip(rows, plastic, rebounding):
         engine = float(row["efficiency_engine"])
         errors.setdefault(row["law"], []).append((abs(engine - theory), abs(engine - rebound)))
@@ -224,7 +220,7 @@ def judge_laws(run):
     return {PLASTIC.name: best, **errors}
 
 
-def judge_starts(run):
+def judge_starts(run: ValidationCase) -> None:
     rows = run.table("start.csv")
     (theory, _), = theories(run, [SLOW])
     last = {name: float(rows[-1][name]) for name in rows[-1] if name != "cycle"}
@@ -236,7 +232,7 @@ def judge_starts(run):
                 f"{SLOW.tan_inclination}, mu {SLOW.friction}: {text}")
 
 
-def draw(run, judged, stiff, contact):
+def draw(run: ValidationCase, judged: list[Judged], stiff: dict[float, list[float]], contact: dict[str, list[tuple[float, float]]]) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(13, 4), layout="constrained")
     for near, colour, marker, label in [(False, "#0072B2", "o", "away from changes of mode"),
                                         (True, "#D55E00", "x", "near a change of mode or a knee")]:
@@ -254,7 +250,7 @@ def draw(run, judged, stiff, contact):
             point = HARD[index]
             axes[2].loglog(list(stiff), [abs(errors[index]) for errors in stiff.values()], marker, ms=5,
                            label=f"Γ {point.throw_number}, tan β {point.tan_vibration_angle}, tan α {point.tan_inclination}, μ {point.friction}")
-    axes[2].plot(list(stiff), [max(map(abs, errors)) for errors in stiff.values()], "-", color="#999999", lw=1, label="largest of them")
+    axes[2].plot(list(stiff), [max(abs(error) for error in errors) for errors in stiff.values()], "-", color="#999999", lw=1, label="largest of them")
     if FORMER.name in contact:
         axes[2].plot([CONTACTS] * len(contact[FORMER.name]), [plain for plain, _ in contact[FORMER.name]], "k*", ms=7, label="former contact law")
     axes[2].set(xlabel="contacts per cycle", ylabel="|block - theory|")
@@ -262,7 +258,7 @@ def draw(run, judged, stiff, contact):
     figure.savefig(run.figure("block.png"), dpi=120)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         simulate(run)

@@ -1,17 +1,20 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-
 import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
+from campaign_program import Row  # noqa: E402
 import figure_style  # noqa: E402
-import theory_batch  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+
+Floats = NDArray[np.float64]
+Reference = dict[str, tuple[float, float]]  # value and reading error by name
 
 GRAVITY = 9.81
 LIKELY = (0.2, 0.6)  # friction of bulk goods on steel
@@ -22,14 +25,14 @@ LAYER_COLUMNS = ["rotation", "friction", "speed_cm_per_s", "speed_half_width", "
 AGREEMENT = 0.2  # of layers with the theory below throw number 1, Sloot & Kruyt
 
 
-def speeds(run, k, beta, unit, static):
+def speeds(run: ValidationCase, k: float, beta: float, unit: float, static: float) -> Floats:
     """Conveying speeds in cm/s over FRICTIONS; `unit`: omega r cos(beta) in m/s."""
     columns = ["machine_number", "vibration_angle_deg", "friction", "static_friction"]
     points = [(k, beta, mu, static * mu) for mu in FRICTIONS]
-    return 100 * unit * theory_batch.efficiencies(run, f"static_{static:g}_{k:.3f}", columns, points)
+    return 100 * unit * run.efficiencies(columns, points)
 
 
-def simulate(run):
+def simulate(run: ValidationCase) -> None:
     """A layer of 3 mm spheres on the example's machine, with and without rotation."""
     lines = []
     for rotation in ROTATIONS:
@@ -42,7 +45,7 @@ def simulate(run):
     run.write_table("result.csv", LAYER_COLUMNS, lines)
 
 
-def judge_layer(run, reference, layers):
+def judge_layer(run: ValidationCase, reference: Reference, layers: list[Row]) -> None:
     chart, error = reference["speed"]
     texts = [f"{one['rotation']} {float(one['speed_cm_per_s']):.1f} +- {float(one['speed_half_width']):.1f} at mu = {one['friction']}" for one in layers]
     for one in layers:
@@ -53,7 +56,7 @@ def judge_layer(run, reference, layers):
     run.finding("a simulated layer of 3 mm spheres reaches the chart's speed", bool(reached), f"rotation {'; '.join(texts)} cm/s")
 
 
-def judge_machine(run, reference, k, omega, amplitude):
+def judge_machine(run: ValidationCase, reference: Reference, k: float, omega: float, amplitude: float) -> None:
     wanted, error = reference["machine_factor_K"]
     run.check("K = omega^2 r / g, printed as 1.6", k, wanted, error, because="half of the last printed digit")
     wanted, error = reference["acceleration_force"]
@@ -64,7 +67,7 @@ def judge_machine(run, reference, k, omega, amplitude):
         run.check(f"flies at K = {2 * factor:g} (the catalogue: from K = 2 at 30 degrees)", point["mode"].startswith("F"), flies, 0)
 
 
-def judge_speed(run, reference, plain, static):
+def judge_speed(run: ValidationCase, reference: Reference, plain: Floats, static: Floats) -> None:
     chart, error = reference["speed"]
     best = int(plain.argmax())
     run.check("theory's fastest speed over friction, over the chart's 20 cm/s", plain[best] / chart, 1, AGREEMENT,
@@ -79,7 +82,7 @@ def judge_speed(run, reference, plain, static):
                 f"friction alone changes it by a factor {high / low:.1f}; 30 % of slip, 14 cm/s, is friction {slipping:.2f}")
 
 
-def draw(run, reference, plain, static, layers):
+def draw(run: ValidationCase, reference: Reference, plain: Floats, static: Floats, layers: list[Row]) -> None:
     figure, axes = figure_style.new_figure(size=(7.2, 4.4), layout="constrained")
     axes.plot(FRICTIONS, plain, color=figure_style.COLOURS[0], label="theory")
     axes.plot(FRICTIONS, static, "--", color=figure_style.COLOURS[2], label=f"theory, static friction {STATIC:g} times the kinetic")
@@ -99,19 +102,19 @@ def draw(run, reference, plain, static, layers):
     figure.savefig(run.figure("rosta.png"), dpi=110)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         simulate(run)
     reference = {row["name"]: (float(row["value"]), float(row["reading_error"])) for row in run.reference()}
     radius = reference["eccentric_radius"][0] / 1000
-    amplitude = radius / 2 if run.wrong else radius
+    amplitude = radius / 2 if run.control else radius
     omega, beta = 2 * math.pi * reference["revolutions"][0] / 60, reference["rocker_angle"][0]
     k, unit = omega**2 * amplitude / GRAVITY, omega * amplitude * math.cos(math.radians(beta))
     judge_machine(run, reference, k, omega, amplitude)
     plain, static = (speeds(run, k, beta, unit, factor) for factor in (1, STATIC))
     judge_speed(run, reference, plain, static)
-    if not run.wrong:
+    if not run.control:
         layers = run.table("result.csv")
         judge_layer(run, reference, layers)
         draw(run, reference, plain, static, layers)

@@ -5,12 +5,12 @@ import math
 SEARCH = 0.02  # rad: no flight of ours is shorter
 
 
-def gap(phase, duration, gamma):
+def gap(phase: float, duration: float, gamma: float) -> float:
     """Height above the trough `duration` after leaving it at `phase`."""
     return math.sin(phase) + math.cos(phase) * duration - duration**2 / (2 * gamma) - math.sin(phase + duration)
 
 
-def flight(phase, gamma):
+def flight(phase: float, gamma: float) -> float:
     """Duration of the flight that starts at `phase`: the first root of the gap, by bisection to rounding."""
     duration = SEARCH
     while gap(phase, duration, gamma) > 0:
@@ -22,7 +22,7 @@ def flight(phase, gamma):
     return (low + high) / 2
 
 
-def take_off(landing, gamma):
+def take_off(landing: float, gamma: float) -> float:
     """Phase at which the mass leaves: at once when the trough falls away faster than gravity, else when it next does."""
     if math.sin(landing) >= 1 / gamma:
         return landing
@@ -30,7 +30,7 @@ def take_off(landing, gamma):
     return first + 2 * math.pi * math.ceil((landing - first) / (2 * math.pi))
 
 
-def settled_flights(gamma, count=4, skip=400):
+def settled_flights(gamma: float, count: int = 4, skip: int = 400) -> list[float]:
     """Durations of `count` flights in a row, in cycles, after the start has been forgotten."""
     start, durations = math.asin(1 / gamma), []
     for i in range(skip + count):
@@ -41,6 +41,6 @@ def settled_flights(gamma, count=4, skip=400):
     return durations
 
 
-def plateau(n):
+def plateau(n: int) -> tuple[float, float]:
     """Throw numbers between which flights of exactly n cycles follow each other and are stable."""
     return math.sqrt(1 + (math.pi * n) ** 2), math.sqrt(4 + (math.pi * n) ** 2)

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(FOLDER.parent.parent / "postprocess"), str(FOLDER)]
-
-import math  # noqa: E402
+sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import numpy as np  # noqa: E402
 
@@ -19,15 +19,15 @@ EXTRAPOLATION = 1e-3
 
 
 class Solver:
-    def __init__(self, run):
-        self.run, self.factor = run, 1.02 if run.wrong else 1.0
+    def __init__(self, run: ValidationCase) -> None:
+        self.run, self.factor = run, 1.02 if run.control else 1.0
 
-    def point(self, gamma, friction=0.35, tan_beta=0.5, tan_alpha=0.0):
+    def point(self, gamma: float, friction: float = 0.35, tan_beta: float = 0.5, tan_alpha: float = 0.0) -> Any:
         return self.run.json("point", "--throw-number", repr(gamma * self.factor), "--tan-vibration-angle", tan_beta,
                              "--tan-inclination", tan_alpha, "--friction", friction)
 
 
-def judge_flight_numbers(run, solver):
+def judge_flight_numbers(run: ValidationCase, solver: Solver) -> None:
     worst = 0.0
     for gamma in (1.05, 1.2, 1.5, 1.8, 2.0, 2.4, 2.8, 3.1, 3.29):
         duration = exact.flight(math.asin(1 / gamma), gamma)
@@ -35,7 +35,7 @@ def judge_flight_numbers(run, solver):
     run.check("largest deviation of the flight number, Gamma 1.05 to 3.29", worst, 0, SOLVER, because="both solve the same equation")
 
 
-def judge_plateau(run, solver, n):
+def judge_plateau(run: ValidationCase, solver: Solver, n: int) -> None:
     begin, end = exact.plateau(n)
     worst = 0.0
     for part in (0.01, 0.3, 0.6, 0.9):
@@ -53,7 +53,7 @@ def judge_plateau(run, solver, n):
               because="the next term of the series")
 
 
-def begin_by_bisection(solver, n, near):
+def begin_by_bisection(solver: Solver, n: int, near: float) -> float:
     """Throw number near `near` from which the solver's flights last n cycles."""
     low, high = near - 0.03, near + 0.03
     while high - low > EDGE / 4:
@@ -63,7 +63,7 @@ def begin_by_bisection(solver, n, near):
     return (low + high) / 2
 
 
-def end_by_extrapolation(solver, n, near):
+def end_by_extrapolation(solver: Solver, n: int, near: float) -> float:
     """Throw number at which two alternating flights become equal. Their difference d grows as the square root of the
     distance from there: a quadratic in d^2, at d = 0. Nearer the start is forgotten too slowly to find the period."""
     gammas, squares = [near + offset for offset in (0.02, 0.03, 0.04, 0.05)], []
@@ -73,7 +73,7 @@ def end_by_extrapolation(solver, n, near):
     return np.polyfit(squares, gammas, 2)[-1]
 
 
-def judge_doubling(run, solver):
+def judge_doubling(run: ValidationCase, solver: Solver) -> None:
     """Two alternating flights: together two cycles, the longer one as the landing equation says."""
     for gamma in (3.75, 3.8):
         point, flights = solver.point(gamma), exact.settled_flights(gamma)
@@ -82,7 +82,7 @@ def judge_doubling(run, solver):
                   because="both solve the same equation")
 
 
-def judge_no_slip(run, solver):
+def judge_no_slip(run: ValidationCase, solver: Solver) -> None:
     """v = g n^2 cot(beta) / (2 f) in eta: v = eta omega r cos(beta), Gamma = omega^2 r sin(beta) / g."""
     worst, friction = 0.0, 1e4
     for gamma in (1.2, 1.6, 2.0, 2.5, 3.0):
@@ -94,7 +94,7 @@ def judge_no_slip(run, solver):
                 because="what is left of the slip is 1/mu, the trough's amplitude being 1")
 
 
-def draw(run, solver):
+def draw(run: ValidationCase, solver: Solver) -> None:
     gammas = sorted([1.001, 1.02] + [1.05 + 0.05 * i for i in range(119)] + [*exact.plateau(1), *exact.plateau(2)])
     points = [solver.point(gamma) for gamma in gammas]
     figure, (left, right) = figure_style.new_figure(1, 2, size=(11, 4.4), layout="constrained")
@@ -123,7 +123,7 @@ def draw(run, solver):
     figure.savefig(run.figure("flights.png"), dpi=110)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     solver = Solver(run)
     judge_flight_numbers(run, solver)
@@ -131,7 +131,7 @@ def main():
         judge_plateau(run, solver, n)
     judge_doubling(run, solver)
     judge_no_slip(run, solver)
-    if not run.wrong:
+    if not run.control:
         draw(run, solver)
     run.finish()
 

@@ -6,21 +6,25 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 import draw_theory_map  # noqa: E402
+from draw_theory_map import TheoryMap  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+
+Floats = NDArray[np.float64]
 
 FRICTION = 0.35
 
 
-def slide_thresholds(tan_beta, tan_alpha):
+def slide_thresholds(tan_beta: Floats, tan_alpha: float) -> tuple[Floats, Floats]:
     """Throw numbers above which a positive and a negative slide can start from rest, Eqs. 7 and 8."""
     positive = (FRICTION + tan_alpha) * tan_beta / (1 + FRICTION * tan_beta)
     negative = (FRICTION - tan_alpha) * tan_beta / (1 - FRICTION * tan_beta)
     return positive, negative
 
 
-def impossible_cells(theory, tan_alpha):
+def impossible_cells(theory: TheoryMap, tan_alpha: float) -> tuple[int, int]:
     """Cells below Gamma = 1 with a slide that cannot start, and cells at rest where one must."""
     gamma, beta = np.meshgrid(theory.x, np.radians(theory.y))
     positive, negative = slide_thresholds(np.tan(beta), tan_alpha)
@@ -32,7 +36,7 @@ def impossible_cells(theory, tan_alpha):
     return int(slides.sum()), int(rests.sum())
 
 
-def judge(run, name, tan_alpha, friction):
+def judge(run: ValidationCase, name: str, tan_alpha: float, friction: float) -> None:
     path = run.output / f"{name}.h5"
     print(run.theory("map", "--x", f"throw_number=0.3:3.3:{run.points}", "--y", f"vibration_angle_deg=5:60:{run.points}",
                      "--friction", friction, "--tan-inclination", tan_alpha, "--output", path), end="")
@@ -52,9 +56,9 @@ def judge(run, name, tan_alpha, friction):
               because="the solver's error")
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
-    friction = 0.30 if run.wrong else FRICTION
+    friction = 0.30 if run.control else FRICTION
     judge(run, "decline", -0.1, friction)
     judge(run, "incline", 0.1, friction)
     run.finish()

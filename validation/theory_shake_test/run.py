@@ -1,23 +1,20 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
+from matplotlib.axes import Axes  # noqa: E402
 
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
+from figure_style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 STEP = 0.005  # of the curves, in mu
 
 
-def judge_curve(run, axes, k, slope):
+def judge_curve(run: ValidationCase, axes: Axes, k: float, slope: tuple[object, ...]) -> None:
     rows = run.csv("friction", "--machine-number", k, "--friction", "0.02:0.6:117", *slope)
     mu = [float(row["friction"]) for row in rows]
     x = [float(row["max_relative_displacement"]) for row in rows]
@@ -30,9 +27,9 @@ def judge_curve(run, axes, k, slope):
         run.check(f"K = {k:g}: largest mu of the PN mode", mu[slides[-1]], last, STEP, because="a step of the curve")
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
-    slope = ("--tan-inclination", 0.01) if run.wrong else ()
+    slope = ("--tan-inclination", 0.01) if run.control else ()
     figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
     for k in (0.5, 0.67, 1, 1.5, 2, 4):
         judge_curve(run, axes, k, slope)

@@ -1,17 +1,17 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-
+from campaign_program import Row  # noqa: E402
 import draw_theory_map  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 
-def judge_threshold(run, friction, reading):
+def judge_threshold(run: ValidationCase, friction: float, reading: Row) -> None:
     path = run.output / "small_angles.h5"
     run.theory("map", "--x", f"machine_number=0.3:3:{run.points}", "--y", f"vibration_angle_deg=0:10:{run.points}",
                "--friction", friction, "--output", path)
@@ -28,10 +28,10 @@ def judge_threshold(run, friction, reading):
                 f"exactly {exact:.3f}; within the reading error of {reading['reading_error']}")
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     printed = {row["name"]: row for row in run.reference()}
-    friction = 0.30 if run.wrong else 0.35
+    friction = 0.30 if run.control else 0.35
     judge_threshold(run, friction, printed["pn_machine_number_read_off_fig_7"])
     limits = run.json("limits", "--friction", friction, "--tan-inclination", -0.1)
     row = printed["small_angle_efficiency"]

@@ -5,14 +5,11 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from figure_style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 
-def draw(run, entries):
+def draw(run: ValidationCase, entries: list[tuple[str, str, float, float, float]]) -> None:
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True, layout="constrained")
     for panel, gamma in zip(axes, ("1.5", "2.0")):
         here = [entry for entry in entries if float(entry[0]) == float(gamma)]
@@ -28,11 +25,11 @@ def draw(run, entries):
     figure.savefig(run.figure("table_1.png"), dpi=100)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     lines = ["throw_number,tan_inclination,restitution,printed,physics,rule,mode"]
     beyond, entries = 0, []
-    friction = 0.25 if run.wrong else 0.23
+    friction = 0.25 if run.control else 0.23
     for row in run.reference():
         gamma, tan_alpha, e = row["throw_number"], row["tan_inclination"], float(row["restitution"])
         options = ["point", "--throw-number", gamma, "--tan-vibration-angle", 0.25, "--tan-inclination", tan_alpha,

@@ -1,21 +1,17 @@
 #!/usr/bin/python3
+import math
 import pathlib
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import math  # noqa: E402
-
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
+from figure_style import plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 
-def judge_limits(run, limits):
+def judge_limits(run: ValidationCase, limits: dict[str, Any]) -> None:
     printed = {row["name"]: row for row in run.reference()}
     for name in ("throw_number_of_whole_cycle_flight", "best_throw_number_small_angle"):
         row = printed[name]
@@ -32,7 +28,7 @@ def judge_limits(run, limits):
                 f"its own formula cos(delta) gives {exact:.4f}, as does the solver")
 
 
-def draw_traces(run, tangent, gammas):
+def draw_traces(run: ValidationCase, tangent: float, gammas: tuple[float, float]) -> None:
     """Fig. 6; in both motions the mass keeps its velocity: cos(delta) after a flight of one cycle, 1 at the optimum."""
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
     kept = (math.pi / math.sqrt(1 + math.pi**2), 1.0)
@@ -53,7 +49,7 @@ def draw_traces(run, tangent, gammas):
     figure.savefig(run.output / "velocities.png", dpi=100)
 
 
-def draw_optimum(run):
+def draw_optimum(run: ValidationCase) -> None:
     figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
     tangents = [0.001, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
     for mu in (0.2, 0.35, 0.5):
@@ -68,9 +64,9 @@ def draw_optimum(run):
     figure.savefig(run.output / "best_throw_number.png", dpi=100)
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
-    tangent = 0.5 if run.wrong else 1e-6
+    tangent = 0.5 if run.control else 1e-6
     limits = run.json("limits", "--friction", 0.35, "--tan-vibration-angle", tangent)
     judge_limits(run, limits)
     draw_traces(run, tangent, (limits["throw_number_of_whole_cycle_flight"], limits["best_throw_number_small_angle"]))

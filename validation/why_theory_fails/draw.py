@@ -1,12 +1,13 @@
 """The figure that answers why the theory fails."""
 
 import math
+from typing import Protocol
+
+from matplotlib.axes import Axes
 
 import ladder
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from figure_style import plt
+from validation_case import ValidationCase
 
 THEORY, BLOCKED, FREE = "#000000", "#0072B2", "#D55E00"  # Okabe and Ito
 STEPS = [("theory", None, THEORY), ("rigid block", "block", "#999999"), ("one sphere, no rotation", "grain, blocked", BLOCKED),
@@ -14,20 +15,30 @@ STEPS = [("theory", None, THEORY), ("rigid block", "block", "#999999"), ("one sp
          ("layer of cubes, free rotation", "cubes", "#E69F00"), ("layer of spheres, free rotation", "4 deep, free", FREE)]
 
 
-def theory_line(run, *options):
+class Rungs(Protocol):
+    """The measured table by rung and throw number; NaN where there is no number."""
+
+    def number(self, rung: str, gamma: float, column: str = "efficiency") -> float: ...
+
+    def span(self, rung: str, gamma: float) -> tuple[float, float]: ...
+
+    def numbers(self, rung: str) -> list[float]: ...
+
+
+def theory_line(run: ValidationCase, *options: object) -> list[tuple[float, float]]:
     rows = [(g / 100, run.json("point", "--throw-number", g / 100, "--tan-vibration-angle", 0.5, "--friction", 0.23, *options))
             for g in range(140, 311, 5)]
     return [(gamma, row["velocity_efficiency"]) for gamma, row in rows if row["velocity_efficiency"] is not None]
 
 
-def theory_with(run, rungs, rung, gamma):
+def theory_with(run: ValidationCase, rungs: Rungs, rung: str, gamma: float) -> float:
     """The theory with the landing friction measured in a layer."""
     friction = max(rungs.number(rung, gamma, "landing_friction"), 0.0)
     return run.json("point", "--throw-number", gamma, "--tan-vibration-angle", 0.5, "--friction", 0.23, "--landing-friction",
                     f"{friction:.6f}")["velocity_efficiency"]
 
 
-def lines(run, rungs, axes):
+def lines(run: ValidationCase, rungs: Rungs, axes: Axes) -> None:
     plain, smooth = theory_line(run), theory_line(run, "--landing-friction", 0)
     axes.fill_between([g for g, _ in plain], [e for _, e in plain], [e for _, e in smooth], color="#DDDDDD",
                       label="theory, from a landing without friction (top) to μ (bottom)")
@@ -45,12 +56,12 @@ def lines(run, rungs, axes):
     axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.45, -0.14))
 
 
-def steps(rungs, axes, gamma):
+def steps(rungs: Rungs, axes: Axes, gamma: float) -> None:
     for place, (_, rung, colour) in enumerate(STEPS):
         if rung is None:
-            value, width = rungs.number("4 deep, free", gamma, "efficiency_theory"), 0
+            value, width = rungs.number("4 deep, free", gamma, "efficiency_theory"), 0.0
         elif rung == "normal force":
-            value, width = rungs.number("4 deep, free", gamma, "efficiency_normal_force"), 0
+            value, width = rungs.number("4 deep, free", gamma, "efficiency_normal_force"), 0.0
         else:
             value, width = rungs.number(rung, gamma), rungs.number(rung, gamma, "half_width")
             axes.errorbar(value, place, xerr=[[part] for part in rungs.span(rung, gamma)], color="black", lw=3, zorder=3)
@@ -63,7 +74,7 @@ def steps(rungs, axes, gamma):
     axes.set(xlabel="velocity efficiency η", xlim=(0, 1), title=f"Γ = {gamma}")
 
 
-def figure(run, rungs):
+def figure(run: ValidationCase, rungs: Rungs) -> None:
     drawing, axes = plt.subplots(1, 3, figsize=(13, 4.6), layout="constrained", width_ratios=[1.5, 1, 1])
     lines(run, rungs, axes[0])
     for place, gamma in zip(axes[1:], ladder.PAIR):

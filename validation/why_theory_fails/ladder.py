@@ -1,24 +1,28 @@
 """The rungs: from the point mass that the theory speaks of to the layer, one change at a time."""
 
+from typing import Any
+
+Changes = dict[str, Any]
+
 ALL = [1.5, 1.7, 2.0, 2.25, 2.5, 3.0]
 PAIR = [1.7, 2.0]
-BLOCKED = {"grains.rotation": "blocked"}
+BLOCKED: Changes = {"grains.rotation": "blocked"}
 
 
-def grains(count):
+def grains(count: int) -> Changes:
     return {"layer.height": None, "layer.grains": count}
 
 
-def deep(height):
+def deep(height: str) -> Changes:
     return {"layer.height": height}
 
 
-def varied(**keys):
+def varied(**keys: Any) -> Changes:
     return {name.replace("_", ".", 1): value for name, value in keys.items()} | {"measure.packings": 2}
 
 
 # name: (changes of base.toml, throw numbers)
-RUNGS = {
+RUNGS: dict[str, tuple[Changes, list[float]]] = {
     "block": ({"layer.height": None, "layer.block": "point", "measure.packings": 1, "grains.diameter_spread": None}, ALL),
     "grain, blocked": (BLOCKED | grains(1), ALL),
     "grain, free": (grains(1), ALL),
@@ -40,6 +44,5 @@ RUNGS = {
 }
 
 
-def campaign_name(rung):
+def campaign_name(rung: str) -> str:
     return "".join(letter if letter.isalnum() or letter == "." else "-" for letter in rung)
-

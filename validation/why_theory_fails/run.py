@@ -8,8 +8,9 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import draw  # noqa: E402
 import ladder  # noqa: E402
-import vibrotrough  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+import vibrotrough  # noqa: E402
+from campaign_program import Row  # noqa: E402
 
 COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficiency", "half_width", "efficiency_theory", "mode_theory",
            "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome"]
@@ -17,7 +18,7 @@ NAMES = {"efficiency": "efficiency_dem", "half_width": "efficiency_dem_half_widt
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 
 
-def measure(run):
+def measure(run: ValidationCase) -> None:
     rows = []
     for rung, (changes, numbers) in ladder.RUNGS.items():
         table = run.campaign(ladder.campaign_name(rung), changes, {"trough.throw_number": numbers[:1] if run.quick else numbers})
@@ -27,7 +28,7 @@ def measure(run):
         run.write_table("result.csv", COLUMNS, rows)  # after each rung: what there is can be judged
 
 
-def packing_efficiencies(folder, case):
+def packing_efficiencies(folder: pathlib.Path, case: str) -> str:
     """Means of the packings: the case's interval is never narrower than that of its widest single run."""
     path = folder / "cases" / case / "result.h5"
     return " ".join(f"{value:.4f}" for value in vibrotrough.open_result(path)["packings/efficiency"]) if path.exists() else ""
@@ -36,34 +37,34 @@ def packing_efficiencies(folder, case):
 class Rungs:
     """The table by rung and throw number; NaN where there is no number."""
 
-    def __init__(self, rows, swapped):
+    def __init__(self, rows: list[Row], swapped: bool) -> None:
         self.rows = {(self._name(row["rung"], swapped), round(float(row["throw_number"]), 6)): row for row in rows}
 
     @staticmethod
-    def _name(rung, swapped):
+    def _name(rung: str, swapped: bool) -> str:
         if not swapped:
             return rung
         return rung.replace("blocked", "FREE").replace("free", "blocked").replace("FREE", "free")
 
-    def number(self, rung, gamma, column="efficiency"):
+    def number(self, rung: str, gamma: float, column: str = "efficiency") -> float:
         row = self.rows.get((rung, gamma))
         return float(row[column]) if row and row[column] else math.nan
 
-    def span(self, rung, gamma):
+    def span(self, rung: str, gamma: float) -> tuple[float, float]:
         """The lowest and the highest mean of a packing, as distances from the mean of all."""
         row = self.rows.get((rung, gamma))
         values = [float(value) for value in row["packing_efficiencies"].split()] if row else []
         mean = self.number(rung, gamma)
         return (max(mean - min(values), 0), max(max(values) - mean, 0)) if values and not math.isnan(mean) else (0, 0)
 
-    def numbers(self, rung):
+    def numbers(self, rung: str) -> list[float]:
         return sorted(gamma for name, gamma in self.rows if name == rung)
 
-    def step(self, rung, start, gamma):
+    def step(self, rung: str, start: str, gamma: float) -> float:
         return self.number(rung, gamma) - self.number(start, gamma)
 
 
-def judge(run, rungs):
+def judge(run: ValidationCase, rungs: Rungs) -> None:
     theory = {gamma: rungs.number("4 deep, free", gamma, "efficiency_theory") for gamma in ladder.ALL}
     for gamma in GAP:
         run.between(f"the gap: layer of free spheres less theory, Gamma {gamma}",
@@ -90,12 +91,12 @@ def judge(run, rungs):
                     min(b - a for a, b in zip(values, values[1:])), 0, 0.5, "the freer the rotation, the faster")
 
 
-def spread(rungs, names, gamma):
+def spread(rungs: Rungs, names: list[str], gamma: float) -> float:
     values = [rungs.number(name, gamma) for name in names]
     return max(values) - min(values)
 
 
-def findings(run, rungs):
+def findings(run: ValidationCase, rungs: Rungs) -> None:
     elastic = spread(rungs, ["restitution 0.1", "4 deep, free", "restitution 0.9"], 2.0)
     rotation = rungs.step("4 deep, free", "4 deep, blocked", 2.0)
     point = [run.json("point", "--throw-number", 2, "--tan-vibration-angle", 0.5, "--friction", 0.23, "--restitution", e)["velocity_efficiency"]
@@ -114,7 +115,7 @@ def findings(run, rungs):
                 "at 1.7: " + ", ".join(f"{rungs.number(f'{n} deep, free', 1.7):.3f} ({n} diameters)" for n in (2, 4, 8)))
 
 
-def landing(run, rungs):
+def landing(run: ValidationCase, rungs: Rungs) -> None:
     """The theory with the landing friction measured in a layer, for the layer that has a gap and for its control that has none."""
     names = ("4 deep, free", "4 deep, blocked")
     off = {name: [draw.theory_with(run, rungs, name, gamma) - rungs.number(name, gamma) for gamma in GAP] for name in names}
@@ -123,11 +124,11 @@ def landing(run, rungs):
                 "; ".join(f"{name}: off by " + ", ".join(f"{value:+.2f}" for value in values) for name, values in off.items()) + " at 1.5, 1.7, 2.0")
 
 
-def main():
+def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         measure(run)
-    rungs = Rungs(run.table("result.csv"), swapped=run.wrong)
+    rungs = Rungs(run.table("result.csv"), swapped=run.control)
     judge(run, rungs)
     findings(run, rungs)
     draw.figure(run, rungs)

@@ -70,7 +70,7 @@ void add_validate(CLI::App& program, int& exit_code) {
     command->add_option("--python", options->python, "Python with numpy, h5py and matplotlib")
         ->type_name("PATH");
     command->footer(
-        "A case holds when all its criteria do. Each has a wrong twin, a deliberate mistake that its "
+        "A case holds when all its criteria do. Each has a negative control, a deliberate error that its "
         "criteria must "
         "notice.\n"
         "Exit codes: 0 every case holds and every twin was noticed; 1 some do not, or were not; 2 the input "
