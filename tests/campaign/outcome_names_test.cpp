@@ -12,7 +12,7 @@ namespace {
 
 TEST(OutcomeNames, ReadmeHoldsTheReference) {
     EXPECT_NE(core::read_file(README_FILE).find(outcome_reference()), std::string::npos)
-        << "write this into README.md:\n"
+        << "paste this into " << README_FILE << ":\n"
         << outcome_reference();
 }
 
