@@ -31,6 +31,7 @@ WORDS = {
     "restitution": "restitution $e$",
 }
 SMALLEST_LABELLED = 0.004  # of the map's area
+LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directly after a landing"
 
 
 class TheoryMap:
@@ -89,6 +90,7 @@ def draw_modes(theory, axes):
     draw_mode_lines(axes, theory, colors="black", linewidths=1)
     label_regions(axes, theory)
     frame(theory, axes)
+    axes.figure.supxlabel(LETTERS, fontsize=8)
 
 
 def draw_efficiency(theory, axes):
