@@ -33,6 +33,7 @@ WORDS = {
     "restitution": "restitution $e$",
 }
 SMALLEST_LABELLED = 0.004  # of the map's area
+LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directly after a landing"
 
 
 class TheoryMap:
@@ -91,6 +92,7 @@ def draw_modes(theory: TheoryMap, axes: Axes) -> None:
     draw_mode_lines(axes, theory, colors="black", linewidths=1)
     label_regions(axes, theory)
     frame(theory, axes)
+    axes.figure.supxlabel(LETTERS, fontsize=8)
 
 
 def draw_efficiency(theory: TheoryMap, axes: Axes) -> None:

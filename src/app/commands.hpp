@@ -6,6 +6,12 @@ class App;
 
 namespace vibrotrough::app {
 
+/// Explains modes in the help of every command that prints them.
+constexpr char const* mode_letters =
+    "A mode lists the phases of one period in order: F flight, P slide forwards relative to the trough, N "
+    "slide\n"
+    "backwards, R rest; P' and N' are slides that directly follow a landing.\n";
+
 // Each function adds one subcommand to the program: its options, its help, and what it runs, in a file
 // of the same name. What a subcommand runs stores its exit code; errors are thrown and worded by main.
 void add_run(CLI::App& program, int& exit_code);

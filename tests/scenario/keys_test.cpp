@@ -11,10 +11,10 @@
 namespace vibrotrough {
 namespace {
 
-// The reference in the README is the program's own table: a second copy that drifts fails here.
+// The table of keys in src/scenario/README.md is the one that the program prints.
 TEST(Keys, ReadmeHoldsTheReference) {
     EXPECT_NE(core::read_file(README_FILE).find(scenario::key_reference()), std::string::npos)
-        << "write the output of 'vibrotrough keys' into README.md";
+        << "paste the output of 'vibrotrough keys' into " << README_FILE;
 }
 
 // What an error tells people to write must be right.

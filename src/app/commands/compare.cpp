@@ -102,7 +102,8 @@ void add_compare(CLI::App& program, int& exit_code) {
         "to how its grains pass\nfriction on, to 0.05. In colour: yellow where the layer is "
         "faster than the "
         "theory, "
-        "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n"
+        "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n" +
+        std::string(mode_letters) +
         "Exit codes: 0 all well; 2 the input is wrong.\n"
         "Examples: vibrotrough compare runs/demo --csv > demo.csv\n"
         "          vibrotrough compare runs/demo --filter 'throw_number>1.8' --filter 'outcome=finished' "

@@ -73,7 +73,7 @@ void add_validate(CLI::App& program, int& exit_code) {
         "A case holds when all its criteria do. Each has a negative control, a deliberate error that its "
         "criteria must "
         "notice.\n"
-        "Exit codes: 0 every case holds and every twin was noticed; 1 some do not, or were not; 2 the input "
+        "Exit codes: 0 every case holds and every negative control was noticed; 1 some do not, or were not; 2 the input "
         "is "
         "wrong;\n"
         "3 something is missing (Python with its modules, no engine, disk); 130 interrupted.\n"

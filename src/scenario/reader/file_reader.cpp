@@ -139,7 +139,7 @@ class Reader {
         if (Key const* key = find_key(path)) return *key;
         std::string_view const nearest = nearest_key(path);
         fail(where, core::printable(path, 60), "unknown key",
-             nearest.empty() ? "the keys are listed in the README, section 'The campaign file'"
+             nearest.empty() ? "'vibrotrough keys' lists all keys"
                              : fmt::format("did you mean {}?", nearest));
     }
 

@@ -102,6 +102,7 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
         "Example: vibrotrough theory map --x throw_number=0.3:3.3:500 --y vibration_angle_deg=5:60:500 \\\n"
         "           --friction 0.35 --tan-inclination -0.1 --output map.h5\n"
         "Draw it: postprocess/draw_theory_map.py map.h5");
+    command->footer(mode_letters);
     auto const options = std::make_shared<Options>();
     command->add_option("--x", options->x, "First axis, NAME one of " + input_names());
     command->add_option("--y", options->y, "Second axis");

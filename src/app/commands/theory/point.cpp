@@ -133,6 +133,7 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
     add("--layer-height", options->layer_height, "\"12 mm\"");
     add("--layer-width", options->layer_width, "\"200 mm\"");
     command->add_flag("--json", options->json, "Print JSON; angles in omega t, displacements in r cos(beta)");
+    command->footer(mode_letters);
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;
