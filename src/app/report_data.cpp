@@ -1,8 +1,8 @@
 #include "app/report_data.hpp"
 
 #include "app/point_mass.hpp"
-#include "campaign/state/overview.hpp"
 #include "campaign/execute/executors.hpp"
+#include "campaign/state/overview.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "compare/point_mass_csv.hpp"

@@ -26,7 +26,8 @@ void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
 }
 
 /// The effect of side walls is already included in the measured friction.
-void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass, MeasuredFriction const& measured) {
+void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
+                      MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
     row.friction_layer_low = measured.low;
     row.friction_layer_high = measured.high;
@@ -63,8 +64,7 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
     if (record.outcome == "not-steady") return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     row.efficiency_dem_half_width = record.estimate.half_width;
-    if (record.estimate.mean)
-        row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;
+    if (record.estimate.mean) row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;
     row.efficiency_by_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
     row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
 }

@@ -36,7 +36,8 @@ Slides read_slides(prepare::PreparedCase const& prepared, store::PackingRecord c
     int const first = std::max(packing.estimate.discarded, 1);
     int const last = packing.estimate.discarded + packing.estimate.measured;
     double const r = prepared.scenario.trough.amplitude;
-    Slides slides{measure::relative_displacement_ranges(series, first, last), measure::creep_per_cycle(series, first, last) / r};
+    Slides slides{measure::relative_displacement_ranges(series, first, last),
+                  measure::creep_per_cycle(series, first, last) / r};
     for (double& range : slides.ranges) range /= r;
     return slides;
 }

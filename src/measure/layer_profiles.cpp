@@ -238,7 +238,7 @@ Surface layer_surface(std::vector<Snapshot> const& snapshots, ProfileFacts const
         if (phases[phase].empty()) continue;
         for (Bin const& bin : phases[phase].back()->bins) {
             surface.phase.push_back(2 * std::numbers::pi * static_cast<double>(phase) / facts.phases);
-            surface.x.push_back(bin.place);
+            surface.x.push_back(bin.position);
             surface.height.push_back(bin.grains > 0 ? 2 * bin.means[0] : gap);
         }
     }

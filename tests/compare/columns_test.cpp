@@ -119,8 +119,9 @@ TEST(Columns, HaveNamesOfTheirOwnAndMeanings) {
 
 TEST(Columns, KnowWhatIsNotKnown) {
     store::CaseRecord const record = store::sample_record("0123456789ab");
-    Row const known = compare("0123456789ab", record.scenario, record, "", MeasuredFriction{0.2, 0.1, 0.3});
-    Row const open = compare("0123456789ab", record.scenario, {}, "open");
+    Row const known = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "",
+                              MeasuredFriction{0.2, 0.1, 0.3});
+    Row const open = compare("0123456789ab", prepare::prepare_case(record.scenario), {}, "open");
     for (Column const& column : all_columns()) {
         EXPECT_EQ(column.shown(known) == "-", !column.of(known)) << column.name;
         EXPECT_FALSE(column.shown(known).empty()) << column.name;

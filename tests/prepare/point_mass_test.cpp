@@ -78,7 +78,7 @@ TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
 TEST(PointMassMotion, SeesSideWalls) {
     scenario::Scenario const s = scenario("side_wall_friction = 0.3");
     double const expected = 0.23 + 0.5 * 0.3 * 12.0 / 18.0;
-    EXPECT_NEAR(theory::effective_friction(inputs(s).conveyor).kinetic, expected, 1e-12);
+    EXPECT_NEAR(theory::effective_friction(inputs(s).conveyor).kinetic_friction, expected, 1e-12);
     EXPECT_NE(solve(inputs(s)).velocity_efficiency, solve(inputs(scenario(""))).velocity_efficiency);
     // A measured friction includes the walls' effect: the walls are left out.
     EXPECT_EQ(solve(with_friction(inputs(s), 0.23)).velocity_efficiency,

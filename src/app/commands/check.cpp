@@ -122,7 +122,9 @@ void add_check(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
         "check", "Look at a campaign before a second is spent on it, and say what it will cost");
-    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (its keys: vibrotrough keys)")
+    command
+        ->add_option("CAMPAIGN.toml", options->campaign_file,
+                     "The campaign file (its keys: vibrotrough keys)")
         ->required();
     command
         ->add_option("--liggghts", options->engine,

@@ -50,7 +50,9 @@ void add_deck(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
         program.add_subcommand("deck", "Write a campaign's LIGGGHTS decks without running them");
-    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (its keys: vibrotrough keys)")
+    command
+        ->add_option("CAMPAIGN.toml", options->campaign_file,
+                     "The campaign file (its keys: vibrotrough keys)")
         ->required();
     command
         ->add_option("--output", options->output, "Folder for the decks: case-001/packing-1/in.liggghts ...")

@@ -110,7 +110,9 @@ void add_friction_test(CLI::App& program, int& exit_code) {
         "how far it slides, and find the friction with which a point mass slides as far (Sloot & Kruyt "
         "1996,\n"
         "section 6). Grains roll and layers shear, so that this friction is below that of grain on trough.");
-    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (its keys: vibrotrough keys)")
+    command
+        ->add_option("CAMPAIGN.toml", options->campaign_file,
+                     "The campaign file (its keys: vibrotrough keys)")
         ->required();
     command
         ->add_option(

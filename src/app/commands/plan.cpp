@@ -128,7 +128,9 @@ void add_plan(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
         "plan", "Print a campaign's cases, what of them is known already, and what the rest would cost");
-    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (its keys: vibrotrough keys)")
+    command
+        ->add_option("CAMPAIGN.toml", options->campaign_file,
+                     "The campaign file (its keys: vibrotrough keys)")
         ->required();
     command->add_option("--output", options->output, "Folder of the campaign's results; default runs/<name>")
         ->type_name("DIR");

@@ -144,7 +144,9 @@ void add_run(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
         program.add_subcommand("run", "Run every case of a campaign that is not finished");
-    command->add_option("CAMPAIGN.toml", options->campaign_file, "The campaign file (its keys: vibrotrough keys)")
+    command
+        ->add_option("CAMPAIGN.toml", options->campaign_file,
+                     "The campaign file (its keys: vibrotrough keys)")
         ->required();
     command->add_option("--output", options->output, "Folder of the campaign's results; default runs/<name>")
         ->type_name("DIR");

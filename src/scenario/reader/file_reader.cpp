@@ -138,9 +138,9 @@ class Reader {
     Key const& known_key(std::string const& path, Position where) const {
         if (Key const* key = find_key(path)) return *key;
         std::string_view const nearest = nearest_key(path);
-        fail(where, core::printable(path, 60), "unknown key",
-             nearest.empty() ? "'vibrotrough keys' lists all keys"
-                             : fmt::format("did you mean {}?", nearest));
+        fail(
+            where, core::printable(path, 60), "unknown key",
+            nearest.empty() ? "'vibrotrough keys' lists all keys" : fmt::format("did you mean {}?", nearest));
     }
 
     void read_key(std::string const& path, Position where, toml::node const& node) {
