@@ -39,8 +39,10 @@ std::string difference_colour(Row const& row) {
 }
 
 std::string outcome_colour(Row const& row) {
-    bool const waits = row.outcome == "open" || row.outcome == "running" || row.outcome == "interrupted";
-    return row.outcome == "finished" || waits ? "" : "\x1b[31m";
+    auto const outcome = core::outcome_named(row.outcome);  // none while the case has not ended
+    bool const is_fine =
+        !outcome || *outcome == core::Outcome::finished || *outcome == core::Outcome::interrupted;
+    return is_fine ? "" : "\x1b[31m";
 }
 
 std::vector<Column> drive_columns() {

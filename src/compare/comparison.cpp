@@ -61,7 +61,7 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
         *row.cycles_discarded += packing.estimate.discarded;
         *row.wall_s += packing.wall_time;
     }
-    if (record.outcome == "not-steady") return;  // no mean is reported unless the case is steady
+    if (record.outcome == core::Outcome::not_steady) return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     row.efficiency_dem_half_width = record.estimate.half_width;
     if (record.estimate.mean) row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;
@@ -120,7 +120,7 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
     row.friction = trough.friction;
     row.amplitude_m = trough.amplitude;
     row.frequency_hz = trough.frequency;
-    row.outcome = record ? record->outcome : outcome;
+    row.outcome = record ? std::string(name_of(record->outcome)) : outcome;
     add_theory(row, prepared.point_mass);
     if (friction) add_layer_theory(row, prepared.point_mass, *friction);
     if (record) add_measurement(row, *record, prepared.velocity_scale);

@@ -45,10 +45,9 @@ store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::stri
         record.packings.push_back(std::move(packing.record));
     }
     record.estimate = measure::combine(estimates, prepared.scenario.measure.confidence);
-    core::Outcome const outcome = outcome_of(estimates);
-    record.outcome = name_of(outcome);
+    record.outcome = outcome_of(estimates);
     record.layer_mode = common_mode(record.packings);
-    if (outcome == core::Outcome::not_steady) {
+    if (record.outcome == core::Outcome::not_steady) {
         // No mean is reported unless the case is steady; the cycles stay in the record.
         record.estimate.mean.reset();
         record.estimate.half_width.reset();

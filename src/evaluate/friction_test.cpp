@@ -115,7 +115,7 @@ LayerFriction failed_friction_test(prepare::PreparedCase const& prepared, std::s
 LayerFriction evaluate_friction_test(prepare::PreparedCase const& prepared, std::string const& case_id,
                                      store::CaseRecord const& record,
                                      std::filesystem::path const& case_folder) {
-    if (record.outcome == name_of(core::Outcome::not_steady)) {
+    if (record.outcome == core::Outcome::not_steady) {
         return failed_friction_test(prepared, case_id,
                                     "the layer never became steady; allow more cycles (measure.max_cycles)");
     }

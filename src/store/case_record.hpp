@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/outcome.hpp"
 #include "measure/cycle_series.hpp"
 #include "measure/estimate.hpp"
 #include "measure/layer_motion.hpp"
@@ -43,7 +44,7 @@ struct CaseRecord {
     std::string id;
     scenario::Scenario scenario;
     std::string scenario_toml;       ///< to_toml(scenario)
-    std::string outcome;             ///< "finished", "not-steady", "not-precise"
+    core::Outcome outcome;           ///< finished, not_steady or not_precise
     measure::CaseEstimate estimate;  ///< of velocity efficiency
     std::vector<PackingRecord> packings;
     Provenance provenance;

@@ -140,7 +140,8 @@ void check_kind(Hdf5MemoryFileReader const& file, std::filesystem::path const& p
 CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {
     CaseRecord record{};
     for (CaseFact const& fact : case_facts()) {
-        fact.field(record) = file.text_attribute(std::string(fact.entry.name));
+        std::string const text = file.text_attribute(std::string(fact.entry.name));
+        std::visit([&](auto const& field) { from_stored(text, field(record)); }, fact.field);
     }
     auto const text = [&file](Entry const& entry) {
         return file.values<std::string>(std::string(entry.name), Rank::scalar).front();
@@ -178,7 +179,11 @@ std::string result_bytes(CaseRecord const& record) {
     file.attribute("schema_version", result_schema_version);
     file.attribute("campaign", record.scenario.campaign);
     for (CaseFact const& fact : case_facts()) {
-        file.attribute(std::string(fact.entry.name), fact.field(record));
+        std::visit(
+            [&](auto const& field) {
+                file.attribute(std::string(fact.entry.name), to_stored(field(record)));
+            },
+            fact.field);
     }
     auto const put = [&file](Entry const& entry, std::string const& text) {
         file.dataset(std::string(entry.name), std::vector<std::string>{text}, Rank::scalar, entry.units,
@@ -207,7 +212,8 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     auto const put = [&file](Entry const& entry, Values const& values) {
         file.dataset(std::string(entry.name), values, Rank::array, entry.units, entry.meaning);
     };
-    for (CaseFact const& fact : case_facts()) put(fact.entry, stored_values(cases, fact.field));
+    for (CaseFact const& fact : case_facts())
+        std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
     for (CaseValue const& value : case_values()) put(value.entry, stored_values(value, cases));
     return file.bytes();
 }

@@ -321,6 +321,16 @@ void from_stored(std::string const& stored, std::string& value) {
     value = stored;
 }
 
+std::string to_stored(core::Outcome value) {
+    return std::string(name_of(value));
+}
+
+void from_stored(std::string const& stored, core::Outcome& value) {
+    auto const outcome = core::outcome_named(stored);
+    if (!outcome || !has_result(*outcome)) throw Hdf5Error("find an outcome with the name '" + stored + "'");
+    value = *outcome;
+}
+
 void from_stored(std::string const& stored, measure::Verdict& value) {
     value = verdict_of(stored);
 }

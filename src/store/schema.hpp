@@ -61,7 +61,7 @@ auto packing_field(Path path) {
 /// campaign.h5.
 struct CaseFact {
     Entry entry;
-    Field<CaseRecord, std::string> field;
+    std::variant<Field<CaseRecord, std::string>, Field<CaseRecord, core::Outcome>> field;
 };
 
 /// One number of a case: `case/<name>` of result.h5, a column of campaign.h5.
@@ -128,12 +128,15 @@ double to_stored(double value);
 double to_stored(std::optional<double> const& value);
 std::string to_stored(std::string const& value);
 std::string to_stored(measure::Verdict value);
+std::string to_stored(core::Outcome value);
 
 /// The way back from what a file holds. A number that is not finite does not exist.
 void from_stored(int stored, int& value);
 void from_stored(double stored, double& value);
 void from_stored(double stored, std::optional<double>& value);
 void from_stored(std::string const& stored, std::string& value);
+/// @throws Hdf5Error when no outcome with a result has this name
+void from_stored(std::string const& stored, core::Outcome& value);
 /// @throws Hdf5Error when there is no such verdict
 void from_stored(std::string const& stored, measure::Verdict& value);
 

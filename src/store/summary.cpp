@@ -33,6 +33,9 @@ Json to_json(std::string const& value) {
 Json to_json(measure::Verdict value) {
     return static_cast<int>(value);
 }
+Json to_json(core::Outcome value) {
+    return std::string(name_of(value));
+}
 
 void from_json(Json const& json, int& value) {
     value = json.get<int>();
@@ -46,6 +49,11 @@ void from_json(Json const& json, std::optional<double>& value) {
 void from_json(Json const& json, std::string& value) {
     auto const& bytes = json.get_binary();
     value.assign(bytes.begin(), bytes.end());
+}
+void from_json(Json const& json, core::Outcome& value) {
+    auto const outcome = core::outcome_named(json.get<std::string>());
+    if (!outcome) throw core::InputError("a summary of a result holds an unknown outcome");
+    value = *outcome;
 }
 void from_json(Json const& json, measure::Verdict& value) {
     int const number = json.get<int>();
@@ -78,7 +86,8 @@ CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) 
     record.scenario = scenario;
     Json const& facts = summary.at(0);
     std::size_t at = 0;
-    for (CaseFact const& fact : case_facts()) from_json(facts.at(at++), fact.field(record));
+    for (CaseFact const& fact : case_facts())
+        std::visit([&](auto const& field) { from_json(facts.at(at++), field(record)); }, fact.field);
     Json const& estimate = summary.at(1);
     from_json(estimate.at(0), record.estimate.mean);
     from_json(estimate.at(1), record.estimate.half_width);
@@ -95,7 +104,8 @@ CaseRecord summary_of(CaseRecord const& record) {
 
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
     Json facts = Json::array(), packings = Json::array();
-    for (CaseFact const& fact : case_facts()) facts.push_back(to_json(fact.field(record)));
+    for (CaseFact const& fact : case_facts())
+        std::visit([&](auto const& field) { facts.push_back(to_json(field(record))); }, fact.field);
     for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
     Json estimate = Json::array({to_json(record.estimate.mean), to_json(record.estimate.half_width),
                                  to_json(record.estimate.packings)});

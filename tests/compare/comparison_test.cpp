@@ -122,7 +122,7 @@ TEST(Compare, HasTheoryAtTheLayersFriction) {
 
 TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
     store::CaseRecord unsteady = record;
-    unsteady.outcome = "not-steady";
+    unsteady.outcome = core::Outcome::not_steady;
     Row const row = compare("", prepare::prepare_case(record.scenario), unsteady, "");
     EXPECT_EQ(row.outcome, "not-steady");
     EXPECT_FALSE(row.efficiency_dem);

@@ -62,7 +62,7 @@ std::vector<std::string> const measured{"efficiency_dem",
 store::CaseRecord record_at(double degrees, std::string const& outcome) {
     store::CaseRecord record = store::sample_record("0123456789ab");
     record.scenario.trough.vibration_angle = degrees * std::numbers::pi / 180;
-    record.outcome = outcome;
+    record.outcome = core::outcome_named(outcome).value();
     return record;
 }
 

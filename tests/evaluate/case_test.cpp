@@ -38,7 +38,7 @@ class Assemble : public CampaignFolder {
 TEST_F(Assemble, MeasuresWhatTheCyclesSay) {
     write_packings(cycles(60, around(0.5)), cycles(60, around(0.6)));
     store::CaseRecord const record = assembled();
-    EXPECT_EQ(record.outcome, "finished");
+    EXPECT_EQ(record.outcome, core::Outcome::finished);
     ASSERT_EQ(record.packings.size(), 2u);
     auto const& estimate = record.packings[0].estimate;
     // x is written with 15 digits of 0.018 m ... 1 m: 1e-15 of it in a displacement of 0.016 m.
@@ -71,7 +71,7 @@ TEST_F(Assemble, KeepsOnlyTheCyclesNeeded) {
 
 TEST_F(Assemble, SaysWhenTheLayerIsNotSteady) {
     write_packings(cycles(60, ramp), cycles(60, around(0.5)));
-    EXPECT_EQ(assembled().outcome, "not-steady");
+    EXPECT_EQ(assembled().outcome, core::Outcome::not_steady);
     EXPECT_EQ(assembled().packings[0].series.cycles(), 60)
         << "all cycles belong to an answer that was not found";
 }
@@ -79,7 +79,7 @@ TEST_F(Assemble, SaysWhenTheLayerIsNotSteady) {
 TEST_F(Assemble, SaysWhenTheMeanIsNotPrecise) {
     write_packings(cycles(60, around(0.5)), cycles(60, around(0.5, 0.3)));
     store::CaseRecord const record = assembled();
-    EXPECT_EQ(record.outcome, "not-precise");
+    EXPECT_EQ(record.outcome, core::Outcome::not_precise);
     EXPECT_EQ(record.packings[1].series.cycles(), 60);
     EXPECT_GT(record.packings[1].estimate.half_width, scenario.measure.half_width);
     // The case cannot be better known than its worst packing.
@@ -88,7 +88,7 @@ TEST_F(Assemble, SaysWhenTheMeanIsNotPrecise) {
 
 TEST_F(Assemble, NotSteadyOutweighsNotPrecise) {
     write_packings(cycles(60, around(0.5, 0.3)), cycles(60, ramp));
-    EXPECT_EQ(assembled().outcome, "not-steady");
+    EXPECT_EQ(assembled().outcome, core::Outcome::not_steady);
 }
 
 TEST_F(Assemble, SaysWhereItComesFrom) {

@@ -96,7 +96,7 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     return {.id = id,
             .scenario = scenario,
             .scenario_toml = to_toml(scenario),
-            .outcome = "not-precise",
+            .outcome = core::Outcome::not_precise,
             .estimate = {.mean = 0.82, .half_width = 0.127, .packings = 2},
             .packings = {first, second},
             .provenance = {.program_version = "0.1.0",

@@ -6,9 +6,10 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/folder_lock.hpp"
-#include "campaign/state/result_index.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "store/summary.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -48,6 +49,7 @@ struct DrivenCase {
     evaluate::EvaluatedPackings evaluated = {};  ///< measured by this process, until the case has its result
     std::set<int> in_hand = {};                  ///< packings that the executor has
     int counted = 0;                             ///< packings of it in Progress::packings
+    int attempts = 0;                            ///< failed ones of earlier runs
     bool was_repaired = false;                   ///< its packings were found damaged once
     bool has_ended = false;
 };
@@ -66,12 +68,10 @@ class Driver {
         for (PackingActivity& one : executor_.given_before())
             before_.insert_or_assign(one.id, std::move(one));
         for (PlannedCase const& planned : plan_.cases) take_stock(planned);
-        index_.save();
         add_cases();
         submit_orders();
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
         while (!may_leave && !executor_.is_idle()) step();
-        index_.save();
         summary_.interrupted = is_stopping_;
         return summary_;
     }
@@ -91,15 +91,17 @@ class Driver {
     void take_stock(PlannedCase const& planned) {
         DrivenCase& one = cases_.emplace_back(DrivenCase{{&planned, {}, {}, {}}});
         by_id_[planned.id] = &one;
-        if (auto result = index_.find(planned)) {
-            for (auto const& packing : result->packings) progress_.core_time += packing.wall_time;
-            count_result(result->outcome);
-            one.known.result = std::move(result);
+        if (auto found = find_summary(planned)) {
+            if (found->is_from_result) write_summary(planned, found->record);
+            for (auto const& packing : found->record.packings) progress_.core_time += packing.wall_time;
+            count_result(found->record.outcome);
+            one.known.result = std::move(found->record);
             one.has_ended = true;
             return;
         }
         ++progress_.left;
         one.known = know(planned);
+        if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
         progress_.packings_done += static_cast<int>(one.known.finished.size());
         decide(one);
     }
@@ -203,11 +205,10 @@ class Driver {
         try {
             store::CaseRecord const result =
                 finish_case(planned, plan_.engine_version, packings, std::move(one.evaluated));
-            index_.remember(planned, result);
-            one.known.result = index_.find(planned);
+            one.known.result = store::summary_of(result);
             end_case(one);
             count_result(result.outcome);
-            observer_.case_ended(planned, core::outcome_named(result.outcome).value(), {});
+            observer_.case_ended(planned, result.outcome, {});
         } catch (core::InputError const&) {
             if (std::exchange(one.was_repaired, true)) throw;
             for (int const packing : packings) evaluate::remove_marker(planned.packing_folder(packing));
@@ -224,7 +225,8 @@ class Driver {
         one.known.failure = ended.failure;
         executor_.withdraw(planned);
         std::erase_if(orders_, [&](PackingOrder const& order) { return order.planned == &planned; });
-        if (!ended.is_recorded) record_failure(planned, ended.id.packing, *ended.failure, ended.message);
+        if (!ended.is_recorded)
+            record_failure(planned, ended.id.packing, *ended.failure, ended.message, one.attempts);
         end_case(one);
         ++progress_.failed;
         ++summary_.failed;
@@ -238,9 +240,9 @@ class Driver {
         --progress_.left;
     }
 
-    void count_result(std::string const& outcome) {
+    void count_result(core::Outcome outcome) {
         ++progress_.finished;
-        ++(outcome == name_of(core::Outcome::finished) ? summary_.finished : summary_.unsure);
+        ++(outcome == core::Outcome::finished ? summary_.finished : summary_.unsure);
     }
 
     /// Lets the policy add cases, until it wants no more.
@@ -277,7 +279,6 @@ class Driver {
     scenario::RunSettings const& settings_;
     Observer& observer_;
     StopSignals signals_;
-    ResultIndex index_{plan_};
     std::deque<DrivenCase> cases_;
     std::map<std::string, DrivenCase*> by_id_;
     std::map<PackingId, PackingActivity> before_;  ///< what earlier runs gave to the executor

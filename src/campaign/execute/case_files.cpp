@@ -2,10 +2,13 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/file_lock.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -49,15 +52,17 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     store::CaseRecord record =
         evaluate::evaluate_case(*planned.prepared, planned.id, engine_version, std::move(used));
     store::write_result(planned.result_file(), record);
+    write_summary(planned, record);
     std::filesystem::remove(planned.failure_file());
     return record;
 }
 
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
-                    std::string const& message) {
+                    std::string const& message, int attempts_before) {
     FileLock const lock = lock_case(planned);
     auto const before = read_failure(planned);
-    write_failure(planned, {outcome, message, packing, before ? before->attempts + 1 : 1});
+    int const attempts = std::max(attempts_before, before ? before->attempts : 0);
+    write_failure(planned, {outcome, message, packing, attempts + 1});
 }
 
 }  // namespace vibrotrough::campaign

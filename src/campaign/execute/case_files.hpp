@@ -22,8 +22,9 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
                               std::vector<int> const& packings, evaluate::EvaluatedPackings evaluated = {});
 
 /// Writes failure.json for a packing that failed, and counts the attempts.
+/// @param attempts_before  that are known to have failed, when failure.json may have been removed since
 /// @throws core::MissingError when the disk refuses
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
-                    std::string const& message);
+                    std::string const& message, int attempts_before = 0);
 
 }  // namespace vibrotrough::campaign

@@ -86,7 +86,7 @@ WorkResult finish_if_enough(PlannedCase const& planned, std::string const& engin
     if (decision.result.empty())
         return {WorkResult::finished, fmt::format("case {}: other packings are missing", planned.id)};
     auto const result = finish_case(planned, engine_version, decision.result);
-    return {WorkResult::finished, fmt::format("case {}: {}", planned.id, result.outcome)};
+    return {WorkResult::finished, fmt::format("case {}: {}", planned.id, name_of(result.outcome))};
 }
 
 }  // namespace

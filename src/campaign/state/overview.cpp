@@ -1,7 +1,7 @@
 #include "campaign/state/overview.hpp"
 
 #include "campaign/state/case_state.hpp"
-#include "campaign/state/result_index.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -28,8 +28,10 @@ bool has_unfinished_packing(PlannedCase const& planned, std::size_t finished) {
 void add_activity(CaseOverview& overview, Activities const& activities) {
     auto const find = [&](PackingActivity::State state) {
         return std::ranges::find_if(activities, [&](PackingActivity const* one) {
+            // A task that runs although its packing is finished is about to write the case's result.
             return one->state == state &&
-                   !evaluate::read_marker(overview.planned->packing_folder(one->id.packing));
+                   (state == PackingActivity::running ||
+                    !evaluate::read_marker(overview.planned->packing_folder(one->id.packing)));
         });
     };
     constexpr std::array<std::pair<PackingActivity::State, CaseStatus>, 3> alive{
@@ -52,11 +54,12 @@ void add_activity(CaseOverview& overview, Activities const& activities) {
     overview.message = fmt::format("packing {}: {}", (*ended)->id.packing, (*ended)->message);
 }
 
-CaseOverview survey_case(ResultIndex& index, PlannedCase const& planned, bool has_driver) {
-    CaseOverview overview{&planned, CaseStatus::open, {}, {}, 0, index.find(planned)};
-    if (overview.record) {
+CaseOverview survey_case(PlannedCase const& planned, bool has_driver) {
+    CaseOverview overview{&planned, CaseStatus::open, {}, {}, 0, {}};
+    if (auto found = find_summary(planned)) {
+        overview.record = std::move(found->record);
         overview.status = CaseStatus::ended;
-        overview.outcome = core::outcome_named(overview.record->outcome);
+        overview.outcome = overview.record->outcome;
         overview.packings_done = static_cast<int>(overview.record->packings.size());
         return overview;
     }
@@ -107,11 +110,10 @@ std::string_view CaseOverview::label() const {
 std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity) {
     std::map<std::string_view, Activities> by_case;
     for (PackingActivity const& one : activity.packings) by_case[one.id.case_id].push_back(&one);
-    ResultIndex index(plan);
     std::vector<CaseOverview> cases;
     cases.reserve(plan.cases.size());
     for (PlannedCase const& planned : plan.cases) {
-        cases.push_back(survey_case(index, planned, activity.has_driver));
+        cases.push_back(survey_case(planned, activity.has_driver));
         auto const found = by_case.find(planned.id);
         if (found != by_case.end() && !cases.back().record) add_activity(cases.back(), found->second);
     }
@@ -129,12 +131,13 @@ bool is_campaign_file_outdated(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
-    ResultIndex index(plan);
     std::vector<store::CaseRecord> records;
     for (PlannedCase const& planned : plan.cases) {
-        if (auto record = index.find(planned)) records.push_back(std::move(*record));
+        auto found = find_summary(planned);
+        if (!found) continue;
+        if (found->is_from_result) write_summary(planned, found->record);
+        records.push_back(std::move(found->record));
     }
-    index.save();
     store::write_campaign(plan.folder / "campaign.h5", plan.name, records);
 }
 

@@ -1,4 +1,4 @@
-#include "campaign/state/result_index.hpp"
+#include "campaign/state/result_summary.hpp"
 
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -14,23 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ResultIndexTest : public CampaignFolder {
+class ResultSummary : public CampaignFolder {
   protected:
-    ResultIndexTest() {
+    ResultSummary() {
         fs::create_directories(planned.folder);
         store::write_result(planned.result_file(), store::sample_record(planned.id));
     }
-    /// What a fresh look finds, and whether it had to read the result itself.
+    /// What a reader finds, and whether it had to read the result itself. The next one finds a summary.
     std::pair<std::optional<store::CaseRecord>, bool> look() const {
-        ResultIndex index(plan);
-        auto record = index.find(planned);
-        bool const read = index.has_changed();
-        index.save();
-        return {record, read};
+        auto found = find_summary(planned);
+        if (!found) return {std::nullopt, true};
+        if (found->is_from_result) write_summary(planned, found->record);
+        return {std::move(found->record), found->is_from_result};
     }
+    fs::path const file = planned.folder / "summary.cbor";
 };
 
-TEST_F(ResultIndexTest, ReadsEachResultOnce) {
+TEST_F(ResultSummary, ReadsEachResultOnce) {
     EXPECT_TRUE(look().second);
     auto const [record, read] = look();
     EXPECT_FALSE(read);
@@ -45,7 +45,12 @@ TEST_F(ResultIndexTest, ReadsEachResultOnce) {
     EXPECT_TRUE(record->packings[0].series.x.empty()) << "a summary has no cycles";
 }
 
-TEST_F(ResultIndexTest, NoticesADamagedAndARemovedResult) {
+TEST_F(ResultSummary, AQueryWritesNothing) {
+    ASSERT_TRUE(find_summary(planned));
+    EXPECT_FALSE(fs::exists(file));
+}
+
+TEST_F(ResultSummary, NoticesADamagedAndARemovedResult) {
     look();
     std::string const whole = core::read_file(planned.result_file());
     std::string flipped = whole;
@@ -58,9 +63,8 @@ TEST_F(ResultIndexTest, NoticesADamagedAndARemovedResult) {
     EXPECT_FALSE(look().first);
 }
 
-TEST_F(ResultIndexTest, ADamagedIndexIsMadeAnew) {
+TEST_F(ResultSummary, ADamagedSummaryIsReplaced) {
     look();
-    fs::path const file = folder / ".index";
     std::string const whole = core::read_file(file);
     for (std::string const& damaged : {std::string(), whole.substr(0, whole.size() / 2), whole + "x",
                                        "another version\n" + whole, std::string("\xff\xff\xff")}) {
@@ -71,9 +75,8 @@ TEST_F(ResultIndexTest, ADamagedIndexIsMadeAnew) {
     }
 }
 
-TEST_F(ResultIndexTest, AChangedByteIsNoticed) {
+TEST_F(ResultSummary, AChangedByteIsNoticed) {
     look();
-    fs::path const file = folder / ".index";
     std::string const whole = core::read_file(file);
     for (std::size_t position = 0; position < whole.size(); position += 7) {
         std::string damaged = whole;

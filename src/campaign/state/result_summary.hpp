@@ -1,0 +1,28 @@
+#pragma once
+
+#include "campaign/state/plan.hpp"
+#include "store/case_record.hpp"
+
+#include <optional>
+
+namespace vibrotrough::campaign {
+
+// The summary of a result (store::summary_of) in a small file summary.cbor beside result.h5, so that tables
+// of thousands of cases need not read the results themselves. It is written by whatever writes or repairs
+// results, never by a query, and counts only while size, time and inode of result.h5 are what they were when
+// it was written. It may be deleted at any time.
+
+/// A result's summary, and where it came from.
+struct FoundSummary {
+    store::CaseRecord record;
+    bool is_from_result;  ///< result.h5 itself had to be read, because there was no valid summary
+};
+
+/// The case's summary if its result is there and whole. Writes nothing.
+std::optional<FoundSummary> find_summary(PlannedCase const& planned);
+
+/// Writes the summary of the result that is in the case's folder. A disk that refuses is ignored: the next
+/// reader takes the result itself.
+void write_summary(PlannedCase const& planned, store::CaseRecord const& record);
+
+}  // namespace vibrotrough::campaign
