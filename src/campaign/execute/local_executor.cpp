@@ -137,7 +137,7 @@ class LocalExecutor : public Executor {
 
     void start(PackingOrder const& order, int ranks) {
         PlannedCase const& planned = *order.planned;
-        write_scenario(planned.scenario(), planned.folder);
+        write_case_files(planned);
         fs::remove(planned.failure_file());  // the file means that the last attempt failed
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());

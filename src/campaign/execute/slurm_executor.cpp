@@ -82,7 +82,7 @@ class SlurmExecutor : public Executor {
     long submit_array(std::vector<PackingOrder> const& orders) {
         std::vector<PackingId> tasks;
         for (PackingOrder const& order : orders) {
-            write_scenario(order.planned->scenario(), order.planned->folder);
+            write_case_files(*order.planned);
             tasks.push_back(order.id());
         }
         scenario::RunSettings const& settings = inputs_.settings;

@@ -1,5 +1,6 @@
 #include "campaign/state/campaign_folder.hpp"
 
+#include "campaign/state/older_cases.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -41,6 +42,12 @@ void write_scenario(scenario::Scenario const& scenario, fs::path const& folder) 
     core::make_folder(folder);
     write_named_files(scenario, folder);
     core::replace_file(folder / "scenario.toml", to_toml(scenario));
+}
+
+void write_case_files(PlannedCase const& planned) {
+    // First: when the deck and the scenario are written again, they no longer prove the old id.
+    if (planned.id != planned.current_id) write_current_id(planned.folder, planned.current_id);
+    write_scenario(planned.scenario(), planned.folder);
 }
 
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {

@@ -15,6 +15,11 @@ void write_named_files(scenario::Scenario const& scenario, std::filesystem::path
 /// @throws core::MissingError when the disk refuses
 void write_scenario(scenario::Scenario const& scenario, std::filesystem::path const& folder);
 
+/// Writes what a case's folder holds before its first packing is run: the frozen scenario, and for a case
+/// that an older version of the program began, under which id it is known today.
+/// @throws core::MissingError when the disk refuses
+void write_case_files(PlannedCase const& planned);
+
 /// Makes the campaign's folder and freezes the campaign in it: campaign.toml, the engine's version
 /// (engine.json) and its certificate (certificate.json).
 /// @param campaign_file  that the plan was made from

@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 using Files = std::map<std::string, std::string>;
 
+constexpr char const* current_id_file = "current_id.txt";
+
 /// The files of the first packing's deck that lie in its folder.
 Files read_deck(fs::path const& packing_folder) {
     Files names;
@@ -66,10 +68,12 @@ std::optional<std::string> OlderCases::find(std::string const& id, prepare::Prep
     std::error_code missing;
     if (fs::is_directory(folder_ / id, missing)) return {};
     if (!have_read_) read_folders();
-    if (ids_.empty()) return {};
+    if (auto const known = ids_by_current_id_.find(id); known != ids_by_current_id_.end())
+        return known->second;
+    if (ids_by_identity_.empty()) return {};
     std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, 1).files);
-    auto const found = ids_.find(identity(commands, prepared.scenario.measure));
-    return found == ids_.end() ? std::nullopt : std::optional(found->second);
+    auto const found = ids_by_identity_.find(identity(commands, prepared.scenario.measure));
+    return found == ids_by_identity_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void OlderCases::read_folders() {
@@ -78,17 +82,26 @@ void OlderCases::read_folders() {
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
         std::string const name = entry.path().filename().string();
         if (!is_case_id(name) || new_ids_.contains(name)) continue;
+        if (fs::is_regular_file(entry.path() / current_id_file, missing)) {
+            std::string const current = core::read_file(entry.path() / current_id_file);
+            ids_by_current_id_[current.substr(0, current.find('\n'))] = name;
+            continue;
+        }
         if (!fs::is_regular_file(entry.path() / "packing-1" / deck::drive_file, missing)) continue;
         try {
             std::string const toml = core::read_file(entry.path() / "scenario.toml");
             Files const deck = read_deck(entry.path() / "packing-1");
             if (older_id(toml, engine_version_, deck) != name) continue;
             auto const frozen = scenario::read_campaign(entry.path() / "scenario.toml");
-            ids_[identity(deck::digest_of_commands(deck), frozen.cases.front().measure)] = name;
+            ids_by_identity_[identity(deck::digest_of_commands(deck), frozen.cases.front().measure)] = name;
         } catch (core::Error const&) {
             // Damaged: the case is run again under its new id.
         }
     }
+}
+
+void write_current_id(fs::path const& case_folder, std::string const& current_id) {
+    core::write_file_atomically(case_folder / current_id_file, current_id + "\n");
 }
 
 std::string older_packing_key(Files const& settle_files, std::string const& engine_version) {

@@ -16,7 +16,8 @@ namespace vibrotrough::campaign {
 ///
 /// A folder counts when its name is the hash that the old program computed from the very files that lie in it
 /// (scenario.toml, the deck of the first packing) and from the engine's version, and when the commands of
-/// that deck are those of today's deck.
+/// that deck are those of today's deck. As soon as today's program writes into such a folder, it leaves a
+/// file with the current id there, because the deck that proved the old id is replaced.
 class OlderCases {
   public:
     /// Reads nothing before the first case is asked for that has no folder of its own.
@@ -36,9 +37,12 @@ class OlderCases {
     std::string engine_version_;
     std::set<std::string> const& new_ids_;
     bool have_read_ = false;
-    /// Old ids by the digest of the commands and by the measurement plan.
-    std::map<std::string, std::string> ids_;
+    std::map<std::string, std::string> ids_by_current_id_;  ///< of folders that today's program wrote into
+    std::map<std::string, std::string> ids_by_identity_;  ///< by digest of the commands and measurement plan
 };
+
+/// Leaves a case's current id in its old folder. @throws core::MissingError when the disk refuses
+void write_current_id(std::filesystem::path const& case_folder, std::string const& current_id);
 
 /// The key that an older version of the program gave to a settled packing: a hash of the engine's version and
 /// of the deck with its comments.

@@ -20,14 +20,14 @@ class Planner {
     void add(scenario::Scenario const& scenario, std::string const& engine_version) {
         auto prepared = std::make_shared<prepare::PreparedCase const>(preparer_.prepare(scenario));
         std::string id = case_id(*prepared, engine_version);
-        if (ids_.insert(id).second) cases_.push_back({std::move(id), std::move(prepared), {}});
+        if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, id});
     }
 
     /// The cases with their folders. Where a case has none under its id, an older folder may hold it.
     std::deque<PlannedCase> place(fs::path const& folder, std::string const& engine_version) {
         OlderCases older(folder, engine_version, ids_);
         for (PlannedCase& planned : cases_) {
-            if (auto id = older.find(planned.id, *planned.prepared)) planned.id = std::move(*id);
+            if (auto id = older.find(planned.current_id, *planned.prepared)) planned.id = std::move(*id);
             planned.folder = folder / "cases" / planned.id;
         }
         return std::move(cases_);

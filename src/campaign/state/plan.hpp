@@ -19,6 +19,9 @@ struct PlannedCase {
     std::string id;
     std::shared_ptr<prepare::PreparedCase const> prepared;
     std::filesystem::path folder;
+    /// The id that the case would have in a new folder. It differs from `id` only for cases that an older
+    /// version of the program began (older_cases.hpp).
+    std::string current_id;
 
     scenario::Scenario const& scenario() const { return prepared->scenario; }
     std::filesystem::path result_file() const { return folder / "result.h5"; }
