@@ -29,16 +29,16 @@ enum class Comparison {
 
 /// One question to the engine, with the expected and the measured value.
 struct ProbeResult {
-    std::string name;      ///< e.g. "restitution-0.5"
-    std::string question;  ///< one sentence
-    std::string source;    ///< formula or reference of `expected`
-    std::string unit;      ///< "1" for pure numbers
-    Comparison comparison;
-    double expected;
-    double measured;  ///< NaN if the probe could not be evaluated; `problem` says why
-    double tolerance;
-    std::string tolerance_reason;
-    std::string problem;
+    std::string name;              ///< e.g. "restitution-0.5"
+    std::string question;          ///< one sentence
+    std::string source;            ///< formula or reference of `expected`
+    std::string unit;              ///< "1" for pure numbers
+    Comparison comparison;         ///< how `measured` is judged
+    double expected;               ///< by the source
+    double measured;               ///< NaN if the probe could not be evaluated; `problem` says why
+    double tolerance;              ///< largest difference that passes
+    std::string tolerance_reason;  ///< why the tolerance is as large as it is
+    std::string problem;           ///< why there is no answer; empty when there is one
 
     /// The measured value is within the tolerance.
     bool passed() const;
@@ -46,7 +46,7 @@ struct ProbeResult {
 
 /// The results of all probes for one engine binary.
 struct Certificate {
-    EngineIdentity engine;
+    EngineIdentity engine;                          ///< the binary that was probed
     std::string program_version, git_commit, host;  ///< of the program that ran the probes, and its machine
     std::string probed;                             ///< ISO 8601, UTC
     double grain_steps_per_cpu_second = 0;          ///< for a packed layer; 0 if a probe failed

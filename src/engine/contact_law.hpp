@@ -7,9 +7,9 @@ struct ContactMaterial {
     double radius;          ///< m
     double density;         ///< kg/m^3
     double youngs_modulus;  ///< Pa
-    double poisson_ratio;
-    double restitution;  ///< nominal restitution coefficient
-    double friction;
+    double poisson_ratio;   ///< dimensionless
+    double restitution;     ///< nominal restitution coefficient
+    double friction;        ///< coefficient of the sphere on the wall
 };
 
 /// Velocities at the end of an impact.

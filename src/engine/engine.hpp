@@ -13,11 +13,11 @@ namespace vibrotrough::engine {
 
 /// A LIGGGHTS program that has reported its version.
 struct Engine {
-    std::filesystem::path program;
-    std::string version;           ///< as reported by the program, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled
-                                   ///< 2022-01-26-19:42:32 by buildd"
-    int ranks = 1;                 ///< number of MPI processes of each run
-    std::string certificate = {};  ///< JSON of the binary's Certificate; empty if it was not probed
+    std::filesystem::path program;  ///< path of the binary
+    std::string version;            ///< as reported by the program, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled
+                                    ///< 2022-01-26-19:42:32 by buildd"
+    int ranks = 1;                  ///< number of MPI processes of each run
+    std::string certificate = {};   ///< JSON of the binary's Certificate; empty if it was not probed
 };
 
 /// Finds the engine, which is `requested` if given and otherwise `liggghts` on the PATH, and reads its

@@ -54,7 +54,7 @@ struct MovingTrough {
     double amplitude_x, amplitude_z;  ///< m
     double period = 0.05;             ///< s
     int steps = 500;                  ///< per period: the smallest number that a campaign deck uses
-    int grains;
+    int grains;                       ///< number of grains
 };
 
 MovingTrough sliding_trough();  ///< moves in its own plane, under grains that touch it

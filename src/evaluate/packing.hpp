@@ -17,8 +17,8 @@ namespace vibrotrough::evaluate {
 
 /// A packing with all that was measured in it, and how it was run.
 struct EvaluatedPacking {
-    PackingMarker run;
-    store::PackingRecord record;
+    PackingMarker run;            ///< how it was run
+    store::PackingRecord record;  ///< what was measured
 };
 
 /// Packings of one case by number, from 1.
@@ -42,8 +42,8 @@ std::optional<measure::PackingEstimate> estimate_finished(prepare::PreparedCase 
 
 /// Why the outputs of a run cannot be used.
 struct UnusableOutputs {
-    core::Outcome outcome;
-    std::string message;
+    core::Outcome outcome;  ///< what the packing comes to
+    std::string message;    ///< one line for people
 };
 
 /// Evaluates a packing whose engine ended normally: checks that all cycles and phases are there and that the
@@ -62,7 +62,7 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
 
 /// How far an unfinished or failed run has come.
 struct RunExtent {
-    int cycles = 0;
+    int cycles = 0;         ///< written completely
     bool diverged = false;  ///< a number is NaN or infinite, or the layer is faster than 100 times the trough
 };
 

@@ -12,7 +12,7 @@ namespace vibrotrough::evaluate {
 /// What the run of a packing wrote, read and hashed once: the digests are of the very bytes that are
 /// measured.
 struct PackingFiles {
-    std::filesystem::path folder;
+    std::filesystem::path folder;           ///< of the packing
     core::TextFile cycles, phases;          ///< empty when there is no such file
     std::vector<core::TextFile> snapshots;  ///< of profiles and surface, sorted by name
     std::string cycles_sha256;              ///< of cycles.csv; empty without it

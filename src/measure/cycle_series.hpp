@@ -38,9 +38,9 @@ CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int gr
 CycleSeries first_cycles(CycleSeries const& series, int cycles);
 
 /// The weight of the layer from the momentum balance over all cycles, N: the mean force on the trough minus
-/// the change of the layer's momentum per time, W = <F_z> - m (v_z(n) - v_z(0)) / (n T). It is exact up to
-/// the integrator, so that it shows whether the measured force on the trough includes every force that acted
-/// on the layer.
+/// the change of the layer's momentum per time, W = mean(F_z) - m (v_z(n) - v_z(0)) / (n T). It is exact up
+/// to the integrator, so that it shows whether the measured force on the trough includes every force that
+/// acted on the layer.
 /// @param mass    kg, of the layer
 /// @param period  s, of a cycle
 double weight_by_momentum(CycleSeries const& series, double mass, double period);

@@ -23,7 +23,7 @@ struct PackingEstimate {
     int measured;       ///< number of cycles kept
     double correlation_time;  ///< statistical inefficiency g >= 1: the cycles kept are equivalent to measured
                               ///< / g independent ones
-    Verdict verdict;
+    Verdict verdict;          ///< whether the mean may be used
 };
 
 /// The mean over independent packings.
@@ -31,7 +31,7 @@ struct CaseEstimate {
     std::optional<double> mean;  ///< no value when a packing has no cycles, or is not steady (assemble)
     std::optional<double>
         half_width;  ///< of its confidence interval; no value when the interval is unbounded
-    int packings;
+    int packings;    ///< number of packings
 };
 
 /// The required confidence interval.

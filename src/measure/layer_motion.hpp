@@ -65,10 +65,11 @@ struct LayerMotion {
     /// Tangential over normal impulse while the layer lands, and the efficiency of a point mass under the
     /// layer's own normal force; see landing.hpp. No value without landings, and with side walls.
     std::optional<double> landing_friction;
-    std::optional<double> efficiency_by_normal_force;
-    std::optional<double> largest_overlap;        ///< m, of two grains
-    std::optional<double> largest_floor_overlap;  ///< m
-    PhaseCurves curves;
+    std::optional<double> efficiency_by_normal_force;  ///< velocity efficiency of a point mass under the
+                                                       ///< normal force of the layer
+    std::optional<double> largest_overlap;             ///< m, of two grains
+    std::optional<double> largest_floor_overlap;       ///< m
+    PhaseCurves curves;                                ///< mean curves over one period
 };
 
 /// Cycles after which the height above the trough repeats: the first of 2 ... 8 whose squared differences are

@@ -38,8 +38,8 @@ std::vector<Snapshot> parse_snapshots(std::vector<core::TextFile> const& files,
 
 /// The data needed in addition to the snapshots.
 struct ProfileFacts {
-    double density;  ///< kg/m^3, of the material of the grains
-    int steps_per_cycle;
+    double density;       ///< kg/m^3, of the material of the grains
+    int steps_per_cycle;  ///< time steps of the engine per cycle
     int discarded, used;  ///< cycles after number `discarded` up to number `used` are evaluated
     int phases;           ///< snapshots per cycle, evenly spaced
     std::vector<double> trough_z, trough_vx, trough_vz;  ///< m and m/s, of the trough at each of these phases

@@ -8,8 +8,8 @@ namespace vibrotrough::theory {
 
 /// The solutions of a batch.
 struct BatchResult {
-    std::vector<MapPoint> points;  ///< in the order of the inputs
-    double cpu_seconds_per_solution;
+    std::vector<MapPoint> points;     ///< in the order of the inputs
+    double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, s
 };
 
 /// Solves many independent points, each with solve_inputs(), on `jobs` threads (0: all cores).

@@ -46,12 +46,14 @@ struct Conveyor {
     double wall_friction = 0;  ///< friction coefficient between the layer and the two side walls, >= 0
     double wall_pressure_ratio = 0.5;  ///< Janssen's ratio k of horizontal to vertical stress, in [0, 1]
     double height_over_width = 0;      ///< H / W of the layer, >= 0
-    FlightStart flight_start = FlightStart::actual_velocity;
+    FlightStart flight_start = FlightStart::actual_velocity;  ///< velocity with which a flight starts
 };
 
 /// Friction coefficients that account for the floor and the side walls together.
 struct EffectiveFriction {
-    double kinetic_friction, static_friction, landing_friction;
+    double kinetic_friction;  ///< while the mass slides
+    double static_friction;   ///< while it rests
+    double landing_friction;  ///< in the impulse of a landing
 };
 
 /// Includes the friction of the side walls by means of Janssen's stress ratio. The walls carry the horizontal
@@ -64,9 +66,9 @@ EffectiveFriction effective_friction(Conveyor const& conveyor);
 /// An impact at the end of a flight. Velocities are relative to the trough: along it in omega r cos(beta),
 /// normal to it in omega r sin(beta).
 struct Impact {
-    double t;                  ///< rad
-    double approach, rebound;  ///< normal velocities before and after, both >= 0
-    double along_before, along_after;
+    double t;                          ///< rad
+    double approach, rebound;          ///< normal velocities before and after, both >= 0
+    double along_before, along_after;  ///< along the trough, signed
 };
 
 class ConveyorModel;  // the analytic solution of each phase; see detail/conveyor_model.hpp
@@ -87,7 +89,7 @@ struct ConveyorMotion {
     int cycles_followed = 0;      ///< number of cycles averaged over if no period was found
     std::vector<Piece> pieces;    ///< of one period, or of the last cycles followed if no period was found
     std::vector<Impact> impacts;  ///< in the same time span as `pieces`
-    std::shared_ptr<ConveyorModel const> model;
+    std::shared_ptr<ConveyorModel const> model;  ///< evaluates the pieces
 };
 
 /// The long-term motion that develops from a start at rest. The solution is analytic within each phase. The

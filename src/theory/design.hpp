@@ -24,18 +24,18 @@ struct DesignLimits {
     double max_throw_number =
         3.29;                  ///< Gamma: landings become irregular when a flight lasts more than one cycle
     double min_mass_flow = 0;  ///< kg/s, 0: no requirement; needs a layer
-    double gravity = 9.81;
-    double bulk_density = 0, layer_height = 0, layer_width = 0;
+    double gravity = 9.81;     ///< m/s^2
+    double bulk_density = 0, layer_height = 0, layer_width = 0;  ///< kg/m^3, m, m; 0 without a layer
 };
 
 /// A machine within the limits and its conveying speed.
 struct Design {
     double frequency, amplitude, vibration_angle, inclination;  ///< SI, rad
-    double throw_number, machine_number, velocity_efficiency;
-    double conveying_speed;  ///< m/s
-    double mass_flow;        ///< kg/s; 0 without a layer
-    std::string mode;
-    bool feasible;  ///< whether all limits are met; if not, the required mass flow cannot be reached
+    double throw_number, machine_number, velocity_efficiency;   ///< Gamma, K and eta of the point mass
+    double conveying_speed;                                     ///< m/s
+    double mass_flow;                                           ///< kg/s; 0 without a layer
+    std::string mode;  ///< letters of the phases in order, e.g. "FPN"
+    bool feasible;     ///< whether all limits are met; if not, the required mass flow cannot be reached
     /// The limits that restrict the speed, e.g. "machine_number <= 5".
     std::vector<std::string> active_limits;
 };

@@ -18,7 +18,7 @@ struct ShakeTest {
 struct ShakeMotion {
     double max_relative_displacement;  ///< largest displacement relative to the plate in one slide, in
                                        ///< amplitudes r; in [0, 2)
-    std::string mode;
+    std::string mode;                  ///< letters of the phases in order, e.g. "PN"
 };
 
 /// The displacement as a function of friction, as in Fig. 8 (Eq. 10 with Eq. 20 in the PN mode, the solver
@@ -31,15 +31,16 @@ bool rests_within_cycle(std::string const& mode);
 
 /// A point of the forward curve.
 struct ShakePoint {
-    double friction;
-    ShakeMotion motion;
+    double friction;     ///< mu
+    ShakeMotion motion;  ///< at that friction
 };
 
 /// The forward curve at `count` >= 2 equal steps of mu from `from` to `to`, both included.
 std::vector<ShakePoint> shake_curve(ShakeTest const& test, double from, double to, int count);
 
+/// The friction that explains a measured displacement.
 struct FrictionEstimate {
-    double friction;
+    double friction;   ///< mu
     double low, high;  ///< for the displacement plus and minus its uncertainty, respectively
     std::string mode;  ///< at `friction`; in modes other than PN the mass rests between slides and static
                        ///< friction matters

@@ -19,11 +19,11 @@ struct MapAxis {
 
 /// The motion at one point of a map.
 struct MapPoint {
-    double velocity_efficiency;
-    double half_width;  ///< of the confidence interval of eta; 0 when periodic
-    ModeCode mode;
-    int period_cycles;
-    Outcome outcome;
+    double velocity_efficiency;  ///< eta, as in Motion
+    double half_width;           ///< of the confidence interval of eta; 0 when periodic
+    ModeCode mode;               ///< phases of one period; 0 when the motion does not settle
+    int period_cycles;           ///< cycles after which the motion repeats; 0 when it does not settle
+    Outcome outcome;             ///< how the long run ends
 };
 
 /// A segment of the boundary between two modes within one cell of the map; its end points are roots, known to

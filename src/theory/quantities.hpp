@@ -9,12 +9,16 @@ namespace vibrotrough::theory {
 /// The state of a motion at one time. Lengths are in r cos(beta) along the trough and in r sin(beta) normal
 /// to it, time is in 1/omega.
 struct TraceSample {
-    double t;  ///< rad
-    PhaseKind kind;
-    double trough_vx, trough_vy, mass_vx, mass_vy;
-    double trough_ax, trough_ay;
-    double displacement;  ///< of the mass relative to the trough since the start of the trace
-    double gap;           ///< 0 in contact
+    double t;          ///< rad
+    PhaseKind kind;    ///< what the mass does
+    double trough_vx;  ///< velocities in the frame of the ground: along in omega r cos(beta), normal in omega
+                       ///< r sin(beta)
+    double trough_vy;  ///< of the trough, normal
+    double mass_vx;    ///< of the mass, along
+    double mass_vy;    ///< of the mass, normal
+    double trough_ax, trough_ay;  ///< accelerations, in omega^2 r cos(beta) and omega^2 r sin(beta)
+    double displacement;          ///< of the mass relative to the trough since the start of the trace
+    double gap;                   ///< 0 in contact
     double normal_force;  ///< of the trough on the mass, per unit mass, in omega^2 r sin(beta); impacts not
                           ///< included
     double tangential_force;  ///< the same along the trough, in omega^2 r cos(beta)
@@ -31,9 +35,9 @@ TraceSample sample(ConveyorMotion const& motion, double t);
 
 /// A number of a trace and what its column is called: as it is, and after in_si_units().
 struct TraceColumn {
-    char const* name;
-    char const* si_name;
-    double TraceSample::*value;
+    char const* name;            ///< of the dimensionless number
+    char const* si_name;         ///< of the number in SI units
+    double TraceSample::*value;  ///< where it is in a sample
 };
 
 /// All numbers of a trace in the order of a table; `kind` is apart from them.
@@ -70,8 +74,8 @@ struct EngineerQuantities {
     double mass_flow;          ///< kg/s, bulk density * height * width * speed; 0 without a layer
     /// m/s, largest speed of the mass relative to the trough at an impact (grain damage).
     double impact_speed;
-    double normal_impact_speed;  ///< m/s, largest normal component of that speed
-    double impacts_per_cycle;
+    double normal_impact_speed;                             ///< m/s, largest normal component of that speed
+    double impacts_per_cycle;                               ///< mean number of impacts
     double friction_energy;                                 ///< J/kg per cycle (wear)
     double impact_energy;                                   ///< J/kg per cycle
     double trough_work;                                     ///< J/kg per cycle
@@ -89,9 +93,9 @@ std::vector<TraceSample> in_si_units(std::vector<TraceSample> samples, PointMass
 
 /// A number with its name and unit.
 struct NamedQuantity {
-    char const* name;
-    char const* unit;
-    double value;
+    char const* name;  ///< of the quantity
+    char const* unit;  ///< in which it is given
+    double value;      ///< in that unit
 };
 
 /// The quantities in the order of a table; the angular frequency, which is the frequency again, is left out.

@@ -8,7 +8,7 @@ namespace vibrotrough::theory {
 
 /// How eta changes with one input.
 struct Sensitivity {
-    Input input;
+    Input input;        ///< the input that is varied
     double value;       ///< of the input, in its unit
     double derivative;  ///< d eta / d input; at a change of mode the mean of both sides
     double elasticity;  ///< (input / eta) d eta / d input; 0 when eta is 0

@@ -11,9 +11,9 @@ namespace vibrotrough::view {
 /// All grains at one step, in the order of the dump. The engine writes six digits, for which single precision
 /// is sufficient.
 struct GrainFrame {
-    long step = 0;
+    long step = 0;                ///< time step of the engine
     std::array<double, 6> box{};  ///< m, lower and upper bounds of x, y and z
-    std::vector<int> id;
+    std::vector<int> id;          ///< number of each grain
     std::vector<float> position;  ///< m, x y z of each grain
     std::vector<float> velocity;  ///< m/s, x y z of each grain, relative to the ground
     std::vector<float> radius;    ///< m
@@ -24,7 +24,7 @@ struct GrainFrame {
 
 /// Whether a dump was whole.
 enum class DumpState {
-    complete,
+    complete,    ///< all grains were read
     unfinished,  ///< the file is incomplete: the engine is still writing it or was stopped
 };
 

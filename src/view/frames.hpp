@@ -12,10 +12,10 @@ namespace vibrotrough::view {
 
 /// The theory's periodic motion for the same drive, with its pieces and units of length.
 struct TheoryMotion {
-    theory::ConveyorMotion motion;
-    double length_x;            ///< m, unit of length along the trough, r cos(beta)
-    double length_z;            ///< m, unit of length normal to the trough
-    double phase_at_start = 0;  ///< rad, time of the motion (an angle) at t = 0 of the drive
+    theory::ConveyorMotion motion;  ///< in the units of the theory
+    double length_x;                ///< m, unit of length along the trough, r cos(beta)
+    double length_z;                ///< m, unit of length normal to the trough
+    double phase_at_start = 0;      ///< rad, time of the motion (an angle) at t = 0 of the drive
 };
 
 /// The frames of one run and the data needed to interpret them.
@@ -26,8 +26,8 @@ struct FrameSource {
     double angular_frequency;      ///< omega, rad/s
     /// X(t) and Z(t); the displacement of the trough at t is X(t) - X(0) and Z(t) - Z(0).
     scenario::DriveMotion drive;
-    double width;  ///< m, of the layer across the trough
-    std::optional<TheoryMotion> point_mass = {};
+    double width;                                 ///< m, of the layer across the trough
+    std::optional<TheoryMotion> point_mass = {};  ///< nothing when the theory has no periodic motion
     std::string caption;  ///< one line shown in the scene, without Greek letters (ParaView cannot show them);
                           ///< may be empty
 };

@@ -12,10 +12,10 @@ namespace vibrotrough::view {
 
 /// The state of the theory's point mass at one time, in SI units, relative to the ground.
 struct PointMassState {
-    theory::PhaseKind phase;
+    theory::PhaseKind phase;  ///< what the mass does
     double x;    ///< m, displacement along the trough since t = 0, including the motion of the trough
     double gap;  ///< m, height above the trough's surface
-    std::array<double, 3> velocity;
+    std::array<double, 3> velocity;           ///< m/s, x y z
     std::array<double, 3> relative_velocity;  ///< m/s, relative to the trough
 };
 

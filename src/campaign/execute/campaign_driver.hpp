@@ -13,17 +13,17 @@ namespace vibrotrough::campaign {
 
 /// Where a campaign stands.
 struct Progress {
-    int finished = 0;             ///< cases with a result
-    int failed = 0;               ///< cases that failed in this run
-    int running = 0;              ///< packings being simulated
-    int left = 0;                 ///< cases neither finished nor failed, running ones included
-    int packings_done = 0;        ///< of all cases that this run works on, in this run and before
-    int packings = 0;             ///< that these cases need, as far as it is known
-    double elapsed = 0;           ///< s
-    double time_to_go = -1;       ///< s, negative while unknown
-    double core_time = 0;         ///< core seconds spent on results and on what runs now
-    double core_time_to_go = -1;  ///< core seconds, negative while unknown
-    std::vector<RunningPacking> engines;
+    int finished = 0;                     ///< cases with a result
+    int failed = 0;                       ///< cases that failed in this run
+    int running = 0;                      ///< packings being simulated
+    int left = 0;                         ///< cases neither finished nor failed, running ones included
+    int packings_done = 0;                ///< of all cases that this run works on, in this run and before
+    int packings = 0;                     ///< that these cases need, as far as it is known
+    double elapsed = 0;                   ///< s
+    double time_to_go = -1;               ///< s, negative while unknown
+    double core_time = 0;                 ///< core seconds spent on results and on what runs now
+    double core_time_to_go = -1;          ///< core seconds, negative while unknown
+    std::vector<RunningPacking> engines;  ///< the packings that are being simulated
 };
 
 /// Receives what happens during a run, from the thread that runs the campaign.
@@ -31,6 +31,7 @@ class Observer {
   public:
     virtual ~Observer() = default;
     virtual void progressed(Progress const& progress) = 0;  ///< about four times a second
+    /// Called once for each case that ends: with its outcome, and why it failed.
     virtual void case_ended(PlannedCase const& planned, core::Outcome outcome,
                             std::string const& message) = 0;
 };
@@ -44,9 +45,10 @@ struct Summary {
     int again = 0;                        ///< of these, those that an earlier run had handed to it
     int in_queue = 0;                     ///< packings that the executor had from an earlier run
     std::vector<std::string> references;  ///< what the user can follow the packings by, see Executor::submit
-    bool interrupted = false;
+    bool interrupted = false;             ///< a signal stopped the run
 };
 
+/// When run_campaign() returns.
 enum class Until {
     done,       ///< all cases have ended
     submitted,  ///< all packings are handed over, where they go on without this process

@@ -14,15 +14,16 @@ namespace vibrotrough::campaign {
 
 /// A packing that an executor is to run.
 struct PackingOrder {
-    PlannedCase const* planned;
-    int packing;
+    PlannedCase const* planned;  ///< the case
+    int packing;                 ///< its number, from 1
 
+    /// Which packing it is.
     PackingId id() const { return {planned->id, packing}; }
 };
 
 /// A packing that an executor has finished with.
 struct EndedPacking {
-    PackingId id;
+    PackingId id;                          ///< which packing
     std::optional<core::Outcome> failure;  ///< none when the packing is finished and has its marker
     std::string message;                   ///< why it failed
     int cycles = 0;                        ///< simulated
@@ -34,9 +35,9 @@ struct EndedPacking {
 
 /// A packing that is being simulated now, for progress displays.
 struct RunningPacking {
-    PlannedCase const* planned;
-    int packing;
-    int cycles;
+    PlannedCase const* planned;                        ///< the case
+    int packing;                                       ///< its number, from 1
+    int cycles;                                        ///< simulated so far
     std::optional<measure::PackingEstimate> estimate;  ///< of velocity efficiency, from the cycles so far
     double elapsed;                                    ///< s
     double time_to_go;                                 ///< s, negative while unknown

@@ -14,10 +14,10 @@ namespace vibrotrough::campaign {
 
 /// What an executor may need to know. Must outlive the executor.
 struct ExecutorInputs {
-    std::filesystem::path campaign_folder;
-    engine::Engine engine;
-    scenario::RunSettings settings;
-    int cores = 1;  ///< of this machine that may be used
+    std::filesystem::path campaign_folder;  ///< of the campaign's results
+    engine::Engine engine;                  ///< that simulates
+    scenario::RunSettings settings;         ///< of [run] in the campaign file
+    int cores = 1;                          ///< of this machine that may be used
     std::filesystem::path
         program;  ///< the program whose `work` command runs a packing, as compute nodes see it
 };
@@ -26,11 +26,12 @@ struct ExecutorInputs {
 struct ExecutorKind {
     std::string_view name;   ///< the word of run.executor in the campaign file
     std::string_view title;  ///< in messages
-    std::unique_ptr<Executor> (*make)(ExecutorInputs const& inputs);
+    std::unique_ptr<Executor> (*make)(ExecutorInputs const& inputs);  ///< makes an executor of this kind
     /// What this kind still knows of packings of a campaign's folder; nothing where it leaves no traces.
     std::vector<PackingActivity> (*activity)(std::filesystem::path const& campaign_folder);
 };
 
+/// All kinds of executors.
 std::span<ExecutorKind const> executor_kinds();
 
 /// The kind that the campaign file asks for.

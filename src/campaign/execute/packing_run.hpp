@@ -41,8 +41,11 @@ class PackingRun {
     /// Ends the engine soon; `on_end` then reports "interrupted".
     void interrupt();
 
+    /// The case.
     PlannedCase const& planned() const { return planned_; }
+    /// The number of the packing, from 1.
     int packing() const { return packing_; }
+    /// Cycles seen so far.
     int cycles() const { return cycles_; }
 
     /// What was measured, once the packing is finished.

@@ -11,12 +11,13 @@ namespace vibrotrough::campaign {
 
 /// How the work on a packing ended.
 struct WorkResult {
+    /// How the work on a packing can end.
     enum Kind {
-        finished,     ///< the packing is finished, now or before
-        busy,         ///< another process runs it
-        failed,       ///< failure.json says why
-        interrupted,  ///< SIGTERM or SIGINT
-    } kind;
+        finished,         ///< the packing is finished, now or before
+        busy,             ///< another process runs it
+        failed,           ///< failure.json says why
+        interrupted,      ///< SIGTERM or SIGINT
+    } kind;               ///< how it ended
     std::string message;  ///< one line for people
 };
 

@@ -23,7 +23,7 @@ struct Settled {
 };
 
 /// The campaign's settled packings, each made once and used by all cases that share grains, layer and trough:
-/// packings/<key>/, the key a hash of the commands of the settling deck and of the engine's version. Each is
+/// packings/KEY/, the key a hash of the commands of the settling deck and of the engine's version. Each is
 /// made in a folder of its own and appears by rename, so that several drivers may make them at the same time.
 class SettledPackings {
   public:
@@ -32,6 +32,7 @@ class SettledPackings {
                     std::filesystem::path const& campaign_folder);
     ~SettledPackings();
 
+    /// Receives the settled packing, or why there is none.
     using Ready = std::function<void(Settled const&)>;
 
     /// Calls `ready` once, from the context, when the packing is there: soon if it was made before, whole and

@@ -16,13 +16,13 @@ namespace vibrotrough::campaign::slurm {
 
 /// A job array to submit.
 struct Array {
-    std::filesystem::path folder;  ///< working directory: the campaign's folder
-    std::string script;            ///< below `folder`
-    std::string output;            ///< pattern for what the tasks print, below `folder`
-    std::string name;              ///< of the job
-    int tasks;                     ///< indices 0 ... tasks - 1
-    int ranks;                     ///< MPI ranks of each task
-    scenario::SlurmSettings settings;
+    std::filesystem::path folder;      ///< working directory: the campaign's folder
+    std::string script;                ///< below `folder`
+    std::string output;                ///< pattern for what the tasks print, below `folder`
+    std::string name;                  ///< of the job
+    int tasks;                         ///< indices 0 ... tasks - 1
+    int ranks;                         ///< MPI ranks of each task
+    scenario::SlurmSettings settings;  ///< what is asked of Slurm for every task
 };
 
 /// Asks whether Slurm would take the array and could ever start it; it also takes jobs that wait for ever.
@@ -39,8 +39,8 @@ int most_array_tasks();
 
 /// What Slurm knows of one task.
 struct TaskReport {
-    std::string state;  ///< Slurm's name, e.g. "RUNNING", "TIMEOUT"
-    std::string reason;
+    std::string state;   ///< Slurm's name, e.g. "RUNNING", "TIMEOUT"
+    std::string reason;  ///< why it waits, in Slurm's words
 };
 
 /// By array job and index.

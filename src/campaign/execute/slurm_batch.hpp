@@ -11,19 +11,19 @@
 
 namespace vibrotrough::campaign {
 
-/// One job array as its folder DIR/slurm/<number> holds it:
+/// One job array as its folder DIR/slurm/NUMBER holds it:
 ///   tasks.txt               a line "<case id> <packing>" per task, the index from 0
 ///   job.sh                  what every task runs
 ///   batch.json              the job's name, written before it is submitted, and its id, written afterwards
-///   task-<index>.started    written by the job script, atomically
-///   task-<index>.ended      the same: the exit code of `vibrotrough work`
-///   task-<index>.lost       written by `run` when Slurm reports that the task ended without an exit marker
-///   task-<index>.out        what the task printed
+///   task-INDEX.started    written by the job script, atomically
+///   task-INDEX.ended      the same: the exit code of `vibrotrough work`
+///   task-INDEX.lost       written by `run` when Slurm reports that the task ended without an exit marker
+///   task-INDEX.out        what the task printed
 struct Batch {
-    std::filesystem::path folder;
-    std::string name;
-    std::optional<long> job;
-    std::vector<PackingId> tasks;
+    std::filesystem::path folder;  ///< DIR/slurm/NUMBER
+    std::string name;              ///< the job's name in Slurm
+    std::optional<long> job;       ///< the job's id; none before it was submitted
+    std::vector<PackingId> tasks;  ///< the packing of each task, by index
 };
 
 /// Reads the line of a task list. @throws InputError when there is no such line
@@ -37,7 +37,7 @@ struct JobScript {
     std::filesystem::path program;     ///< vibrotrough itself
     int ranks;                         ///< MPI ranks of the engine
     std::optional<double> time_limit;  ///< s, for the packing
-    int retries;
+    int retries;                       ///< of a packing, after a failure that may not happen again
 };
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.
@@ -53,7 +53,7 @@ void remember_job(Batch& batch, long job);
 /// is only known for a while; remember_lost_tasks() keeps it.
 std::vector<PackingActivity> survey_tasks(std::vector<Batch>& batches);
 
-/// Writes what Slurm reports of tasks that died without a marker into markers task-<index>.lost, because
+/// Writes what Slurm reports of tasks that died without a marker into markers task-INDEX.lost, because
 /// Slurm forgets. A disk that refuses is ignored.
 void remember_lost_tasks(std::vector<Batch>& batches);
 

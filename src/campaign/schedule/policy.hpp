@@ -15,7 +15,7 @@ namespace vibrotrough::campaign {
 
 /// What is known of one case when a policy is asked.
 struct KnownCase {
-    PlannedCase const* planned;
+    PlannedCase const* planned;                        ///< the case
     std::map<int, measure::PackingEstimate> finished;  ///< packings, by number
     std::optional<store::CaseRecord> result;           ///< its summary, when the case has a result
     std::optional<core::Outcome> failure;              ///< when it failed

@@ -16,10 +16,10 @@ namespace vibrotrough::campaign {
 
 /// Why a case has no result.
 struct Failure {
-    core::Outcome outcome;
-    std::string message;
-    int packing;
-    int attempts;  ///< how often the case has failed so far
+    core::Outcome outcome;  ///< what the case came to
+    std::string message;    ///< one line for people
+    int packing;            ///< that failed, from 1
+    int attempts;           ///< how often the case has failed so far
 };
 
 /// The failure that failure.json names; none when there is no such file or it is damaged.

@@ -11,7 +11,7 @@ namespace vibrotrough::campaign {
 /// A place from which a cut run of a packing goes on. The engine writes the restart file; the driver seals it
 /// with checkpoint.json once it is complete, and trusts nothing that is not sealed.
 struct Checkpoint {
-    int cycle;
+    int cycle;            ///< the last cycle before the checkpoint
     std::string file;     ///< the restart file in the packing's folder
     std::string started;  ///< ISO 8601, UTC: when the packing's first run started
     double wall_time;     ///< s, of the engine up to here

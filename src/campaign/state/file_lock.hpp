@@ -21,6 +21,7 @@ class FileLock {
     static bool is_held(std::filesystem::path const& path);
 
     ~FileLock();
+    /// Takes over the lock of another object.
     FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&&) = delete;
 

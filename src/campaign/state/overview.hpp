@@ -24,32 +24,33 @@ enum class CaseStatus {
 
 /// What an executor knows of a packing that it was given and that has no marker yet.
 struct PackingActivity {
+    /// Where a packing stands with the executor.
     enum State {
         waiting,  ///< in the executor's queue
         running,
         ended,    ///< the executor is done with it, well or not
         unknown,  ///< the executor does not answer: it may be anything
     };
-    PackingId id;
-    State state;
+    PackingId id;  ///< which packing
+    State state;   ///< where it stands
     /// Of a packing that ended without a word of its own, e.g. core::Outcome::time_limit.
     std::optional<core::Outcome> outcome = {};
-    std::string message = {};
+    std::string message = {};  ///< one line for people
 };
 
 /// What the executors know of a campaign.
 struct Activity {
-    bool has_driver = false;  ///< a program on this machine drives the campaign now
-    std::vector<PackingActivity> packings;
+    bool has_driver = false;                ///< a program on this machine drives the campaign now
+    std::vector<PackingActivity> packings;  ///< what the executors know of packings
 };
 
 /// What is known about one case of a plan.
 struct CaseOverview {
-    PlannedCase const* planned;
-    CaseStatus status;
-    std::optional<core::Outcome> outcome;  ///< of the result or of the failure
-    std::string message;                   ///< why it failed or waits
-    int packings_done;
+    PlannedCase const* planned;               ///< the case
+    CaseStatus status;                        ///< where it stands
+    std::optional<core::Outcome> outcome;     ///< of the result or of the failure
+    std::string message;                      ///< why it failed or waits
+    int packings_done;                        ///< finished packings
     std::optional<store::CaseRecord> record;  ///< its summary (store::summary_of)
 
     /// The outcome's name, else that of the status: open, queued, running, unknown, interrupted.

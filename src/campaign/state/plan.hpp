@@ -17,19 +17,23 @@ struct PlannedCase {
     /// 12 hexadecimal digits of a hash of what the engine will do (the commands of the deck, not its
     /// comments), of the measurement plan and of the engine's version; also the name of `folder`.
     std::string id;
-    std::shared_ptr<prepare::PreparedCase const> prepared;
-    std::filesystem::path folder;
+    std::shared_ptr<prepare::PreparedCase const> prepared;  ///< everything that follows from the scenario
+    std::filesystem::path folder;                           ///< that holds it
     /// The id that the case would have in a new folder. It differs from `id` only for cases that an older
     /// version of the program began (older_cases.hpp).
     std::string current_id;
 
+    /// The scenario of the case.
     scenario::Scenario const& scenario() const { return prepared->scenario; }
+    /// Where the result appears when it is complete.
     std::filesystem::path result_file() const { return folder / "result.h5"; }
+    /// Where a failure is recorded.
     std::filesystem::path failure_file() const { return folder / "failure.json"; }
     /// The certificate of the engine that the campaign was planned with.
     std::filesystem::path certificate_file() const {
         return folder.parent_path().parent_path() / "certificate.json";
     }
+    /// The folder of a packing, numbered from 1.
     std::filesystem::path packing_folder(int packing) const {
         return folder / ("packing-" + std::to_string(packing));
     }
@@ -37,17 +41,18 @@ struct PlannedCase {
 
 /// One packing of one case: the unit that runs on its own anywhere.
 struct PackingId {
-    std::string case_id;
-    int packing;  ///< from 1
+    std::string case_id;  ///< of the case
+    int packing;          ///< from 1
+    /// By case, then by number.
     auto operator<=>(PackingId const&) const = default;
 };
 
 /// A campaign on disk. Cases keep their addresses when others are added.
 struct Plan {
-    std::string name;
-    std::filesystem::path folder;
-    std::string engine_version;
-    std::deque<PlannedCase> cases;
+    std::string name;                               ///< of the campaign
+    std::filesystem::path folder;                   ///< that holds it
+    std::string engine_version;                     ///< of the engine that runs it; part of the ids
+    std::deque<PlannedCase> cases;                  ///< in the order of the campaign file, added ones last
     std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
 };
 

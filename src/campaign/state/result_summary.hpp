@@ -14,8 +14,8 @@ namespace vibrotrough::campaign {
 
 /// A result's summary, and where it came from.
 struct FoundSummary {
-    store::CaseRecord record;
-    bool is_from_result;  ///< result.h5 itself had to be read, because there was no valid summary
+    store::CaseRecord record;  ///< without cycles, curves and decks
+    bool is_from_result;       ///< result.h5 itself had to be read, because there was no valid summary
 };
 
 /// The case's summary if its result is there and whole. Writes nothing.
