@@ -21,11 +21,11 @@ class Checkpoint(EndToEndTest):
         return 0
 
     def begun(self):
-        """The cycle at which the last start of the engine began."""
-        for line in (self.packing() / "engine.out").read_text().splitlines():
-            if line.startswith("VIBROTROUGH BEGIN cycle "):
-                return int(line.split()[-1])
-        return None
+        """The cycle at which the last start of the engine began. (It says so again at each checkpoint.)"""
+        said = (self.packing() / "engine.out").read_text()
+        begins = [line for line in said.splitlines() if line.startswith("VIBROTROUGH BEGIN cycle ")]
+        self.assertTrue(begins, f"{self.table()}\n{said}")
+        return int(begins[0].split()[-1])
 
     def kill_in_the_middle(self, campaign, how=signal.SIGKILL, cycle=10):
         driver = self.start_campaign(campaign)
