@@ -100,7 +100,7 @@ def memory_of_machine():
     raise AssertionError("no MemTotal in /proc/meminfo")
 
 
-def wait_for(question, what, patience=60):
+def wait_for(question, what, patience=300):
     deadline = time.monotonic() + patience
     while not question():
         if time.monotonic() > deadline:
@@ -154,14 +154,14 @@ class PrivateSlurm:
 
     def __exit__(self, *_):
         if "slurmctld" in self.processes:
-            subprocess.run(["scancel", "-u", getpass.getuser()], env=self.environment, capture_output=True, timeout=60)
-            ended = time.monotonic() + 15
+            subprocess.run(["scancel", "-u", getpass.getuser()], env=self.environment, capture_output=True, timeout=300)
+            ended = time.monotonic() + 60
             while self.command("squeue", "-h").stdout.strip() and time.monotonic() < ended:
                 time.sleep(0.2)
         for process in reversed(list(self.processes.values())):
             process.terminate()
             try:
-                process.wait(timeout=20)
+                process.wait(timeout=60)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
@@ -202,7 +202,7 @@ class PrivateSlurm:
                "--innodb-flush-log-at-trx-commit=0"]  # fmt: skip
         # What mariadb-install-db does, which wants another package.
         tables = "CREATE DATABASE mysql;\nUSE mysql;\n" + Path("/usr/share/mysql/mysql_system_tables.sql").read_text()
-        made = subprocess.run([*own, "--bootstrap"], input=tables, capture_output=True, text=True, timeout=60)
+        made = subprocess.run([*own, "--bootstrap"], input=tables, capture_output=True, text=True, timeout=300)
         if made.returncode != 0:
             raise AssertionError((made.stdout + made.stderr)[-2000:])
         self.start(*own, "--bind-address=127.0.0.1", f"--port={self.database_port}", f"--socket={self.folder}/database.sock",
@@ -225,7 +225,7 @@ class PrivateSlurm:
     def stop(self, name):
         process = self.processes.pop(name)
         process.terminate()
-        process.wait(timeout=20)
+        process.wait(timeout=60)
 
     def command(self, *words):
-        return subprocess.run([str(word) for word in words], env=self.environment, capture_output=True, text=True, timeout=60)
+        return subprocess.run([str(word) for word in words], env=self.environment, capture_output=True, text=True, timeout=300)

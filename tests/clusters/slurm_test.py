@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 from private_slurm import PrivateSlurm  # noqa: E402
-from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, wait_until, without_wall_time  # noqa: E402
+from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
 
 SWEEP = {"layer.grains": [60, 70, 80]}
 CHANGES = {"measure.packings": 2}
@@ -65,6 +65,11 @@ class Slurm(EndToEndTest):
                 pass  # ended meanwhile
         return found
 
+    def catch_a_simulation(self, besides=None):
+        """Stops an engine, so that it does not end before the test has done to it what it wants."""
+        found = lambda: next((one for one in self.simulations() if one != besides and pause(one)), None)  # noqa: E731
+        return wait_until(found, "an engine ran")
+
     def status(self):
         return self.ask_json("status")
 
@@ -92,9 +97,9 @@ class Slurm(EndToEndTest):
         self.assertEqual(self.count_submitted(), 6)
 
         # One task dies without its shell, one with it: the first leaves its exit code, of the other Slurm knows.
-        engine = wait_until(self.simulations, "an engine ran")[0]
+        engine = self.catch_a_simulation()
         os.kill(parent_of(engine), signal.SIGKILL)
-        other = wait_until(lambda: [one for one in self.simulations() if one != engine], "another engine ran")[0]
+        other = self.catch_a_simulation(besides=engine)
         work = parent_of(other)
         os.kill(parent_of(work), signal.SIGKILL)
         os.kill(work, signal.SIGKILL)
@@ -147,7 +152,7 @@ class Slurm(EndToEndTest):
         changes = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000}
         campaign = self.write_slurm_campaign(changes=changes, sweep={"layer.grains": [60, 70]})
         job = re.search(r"submitted as job (\d+)\n", self.run_campaign(campaign).stdout)[1]
-        engine = wait_until(self.simulations, "an engine ran")[0]
+        engine = self.catch_a_simulation()
         slurm.command("scancel", f"{job}_1")
         work = parent_of(engine)
         os.kill(parent_of(work), signal.SIGKILL)  # the task's shell: no last word of its own

@@ -6,12 +6,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from trough_program import PATIENCE, PROGRAM, EndToEndTest, fingerprint, wait_until, without_wall_time  # noqa: E402
+from trough_program import PATIENCE, PROGRAM, EndToEndTest, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
 
 SWEEP = {"layer.grains": [60, 70]}
 
@@ -39,6 +38,7 @@ class Trouble(EndToEndTest):
         ballast = place / "ballast"
         driver = self.start_campaign(campaign)
         wait_until(lambda: list(self.output.glob("cases/*/packing-*/packing.json")), "a packing was finished", driver)
+        self.assertTrue(pause(driver.pid), "the campaign was finished before the disk was full")
         try:
             with open(ballast, "wb") as file:
                 while True:
@@ -46,6 +46,7 @@ class Trouble(EndToEndTest):
                     file.flush()
         except OSError:
             pass
+        driver.send_signal(signal.SIGCONT)
         code, output, errors = self.finish(driver)
         # The driver either cannot write down what it knows, and stops, or has said it of each case.
         self.assertIn(code, (1, 3), output + errors)
@@ -152,10 +153,8 @@ class Trouble(EndToEndTest):
         changes = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000}
         campaign = self.write_campaign(changes)
         campaign.write_text(campaign.read_text() + '[run]\ntime_limit = "2 s"\nretries = 3\n')
-        begun = time.monotonic()
-        done = self.call(*self.run_arguments(campaign))
+        done = self.call(*self.run_arguments(campaign))  # without the limit it would run for hours
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
-        self.assertLess(time.monotonic() - begun, 60)
         (failure,) = self.failures()
         self.assertEqual((failure["outcome"], failure["attempts"]), ("time-limit", 1))
         self.assertIn("more time", failure["try_again"])

@@ -5,7 +5,7 @@ import os
 import signal
 import unittest
 
-from trough_program import EndToEndTest, engines_in, fingerprint, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest, engines_in, fingerprint, pause, processes_in, wait_until, without_wall_time
 
 # Three packings and two engines at a time: when a case is finished, the next one has some of its packings.
 SWEEP = {"layer.grains": [60, 70, 80]}
@@ -20,14 +20,22 @@ class Interruption(EndToEndTest):
         self.campaign = self.write_campaign(CHANGES, SWEEP)
 
     def wait_for_the_middle(self, driver):
-        """Until a case is finished, another has a finished packing, and engines run."""
+        """Until a case is finished, another has a finished packing, and engines run; then the driver stands still."""
 
         def in_the_middle():
             whole = {path.parent.name for path in self.results()}
             begun = {name.split("/")[0] for name in self.finished_packings()} - whole
             return whole and begun and engines_in(self.output)
 
-        wait_until(in_the_middle, "a case was finished, another begun, and engines ran", driver)
+        def stopped_in_the_middle():
+            if not in_the_middle() or not pause(driver.pid):
+                return False
+            if in_the_middle():
+                return True
+            driver.send_signal(signal.SIGCONT)
+            return False
+
+        wait_until(stopped_in_the_middle, "a case was finished, another begun, and engines ran", driver)
 
     def finished_packings(self):
         """Names of the packings that have their marker, e.g. "4f.../packing-1"."""
@@ -79,6 +87,7 @@ class Interruption(EndToEndTest):
         driver = self.start_campaign(self.campaign)
         self.wait_for_the_middle(driver)
         os.killpg(driver.pid, signal.SIGINT)  # as a terminal does it
+        driver.send_signal(signal.SIGCONT)
         code, output, errors = self.finish(driver)
         self.assertEqual(processes_in(self.output), {}, "engines outlived their driver")
         self.assertEqual(code, 130, output + errors)
@@ -92,7 +101,7 @@ class Interruption(EndToEndTest):
 
     def test_killed_engine(self):
         driver = self.start_campaign(self.campaign)
-        victim = wait_until(lambda: engines_in(self.output / "cases"), "an engine ran", driver)[0]
+        victim = wait_until(lambda: next(filter(pause, engines_in(self.output / "cases")), None), "an engine ran", driver)
         packing = os.path.relpath(os.readlink(f"/proc/{victim}/cwd"), (self.output / "cases").resolve())
         os.kill(victim, signal.SIGKILL)
         code, output, errors = self.finish(driver)

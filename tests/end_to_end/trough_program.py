@@ -17,7 +17,7 @@ from pathlib import Path
 PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
 
 # A machine may be slow and busy: this is how long one step of a test may take before it counts as hanging, s.
-PATIENCE = 240
+PATIENCE = 600
 
 # 60 soft grains in the smallest box that the program allows (four of the largest diameters, rounded up): about a
 # second per packing.
@@ -74,6 +74,20 @@ def wait_until(question, what, watched=None):
         if time.monotonic() > deadline:
             raise AssertionError(f"waited {PATIENCE} s in vain until {what}")
         time.sleep(0.02)
+
+
+def pause(process):
+    """Stops a process and waits until it stands still; False if it has ended. SIGCONT lets it go on, SIGKILL ends it all the same.
+    A test that is about a moment stays in it, however late the machine gives the test its turn."""
+    try:
+        os.kill(process, signal.SIGSTOP)
+        while True:
+            state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+            if state in "TZX":
+                return state == "T"
+            time.sleep(0.001)
+    except (ProcessLookupError, FileNotFoundError):
+        return False
 
 
 def processes_in(folder):

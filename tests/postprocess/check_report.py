@@ -103,7 +103,7 @@ def check_in_browser(browser, report, work):
     probed.write_text(report.read_text(encoding="utf-8").replace("</body>", PROBE + "</body>"), encoding="utf-8")
     common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
               f"--user-data-dir={work / 'browser'}", "--enable-logging=stderr", "--v=0"]
-    done = subprocess.run([*common, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*common, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=600)
     found = re.search(r'<output id="probe">(.*?)</output>', done.stdout, re.DOTALL)
     assert found, f"the page did not render: {done.stderr[-2000:]}"
     seen = json.loads(html.unescape(found.group(1)))
@@ -115,7 +115,7 @@ def check_in_browser(browser, report, work):
     assert not said, said
     picture = work / "report.png"
     subprocess.run([*common, "--window-size=1200,1600", f"--screenshot={picture}", report.as_uri()], capture_output=True,
-                   timeout=120, check=True)
+                   timeout=600, check=True)
     assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 20000
 
 
