@@ -132,7 +132,7 @@ class SomethingMissing(EndToEndTest):
         for folder in (below, self.campaign):
             for command in ("run", self.campaign, "--liggghts", self.engine), ("deck", self.campaign):
                 done = self.call(*command, "--output", folder)
-                self.assert_one_line_error(done, 3, f"cannot make the folder {folder}", "choose another place")
+                self.assert_one_line_error(done, 3, f"cannot make the folder {folder}", "choose another folder")
         self.assertEqual(self.take_starts(), [])
 
     def test_output_that_does_not_arrive(self):

@@ -105,16 +105,17 @@ TEST(Design, PointsFromASpreadsheet) {
                       "\"15.5 mm\",\"2.5\"\r\n"),
               expected);
     EXPECT_EQ(heights("layer.height;trough.throw_number\n9 mm;2\n15,5 mm;2,5\n"), expected);
-    // A comma within quotes separates nothing: the value is refused whole, where it stands.
+    // A comma within quotes does not separate cells: the whole value is refused with its line.
     std::string const quoted = refusal("layer.height,trough.throw_number\n9 mm,2\n\"15,5 mm\",2.5\n");
     EXPECT_NE(quoted.find("points.csv:3: layer.height: "), std::string::npos) << quoted;
-    EXPECT_NE(quoted.find("',5 mm' is not a unit"), std::string::npos) << quoted;
+    EXPECT_NE(quoted.find("',5 mm' is not a known unit"), std::string::npos) << quoted;
     std::string const ragged = refusal("layer.height,trough.throw_number\n9 mm\n");
-    EXPECT_NE(ragged.find("points.csv:2: has 1 values for 2 columns"), std::string::npos) << ragged;
+    EXPECT_NE(ragged.find("points.csv:2: expected 2 values, one per column, but found 1"), std::string::npos)
+        << ragged;
     std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
-    EXPECT_NE(open.find("points.csv:2: a quote is opened and not closed"), std::string::npos) << open;
-    EXPECT_NE(refusal("").find("points.csv:1: is empty"), std::string::npos);
-    EXPECT_NE(refusal("layer.hight\n9 mm\n").find("points.csv:1:1: layer.hight: is no key"),
+    EXPECT_NE(open.find("points.csv:2: an opening quote has no closing quote"), std::string::npos) << open;
+    EXPECT_NE(refusal("").find("points.csv:1: the file is empty"), std::string::npos);
+    EXPECT_NE(refusal("layer.heigt\n9 mm\n").find("points.csv:1:1: layer.heigt: is no key"),
               std::string::npos);
 }
 
