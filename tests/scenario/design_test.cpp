@@ -115,7 +115,7 @@ TEST(Design, PointsFromASpreadsheet) {
     std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
     EXPECT_NE(open.find("points.csv:2: an opening quote has no closing quote"), std::string::npos) << open;
     EXPECT_NE(refusal("").find("points.csv:1: the file is empty"), std::string::npos);
-    EXPECT_NE(refusal("layer.heigt\n9 mm\n").find("points.csv:1:1: layer.heigt: is no key"),
+    EXPECT_NE(refusal("layer.heigt\n9 mm\n").find("points.csv:1:1: layer.heigt: is not a key"),
               std::string::npos);
 }
 
@@ -196,23 +196,23 @@ TEST(Design, MistakesAreOneLineWithTheirPlace) {
     std::string const head = "campaign.toml:" + std::to_string(line);
     for (auto const& [design, part] : std::vector<std::pair<std::string, std::string>>{
              {"[zip]\n\"trough.friction\" = [0.1, 0.2]\n\"grains.friction\" = [0.4]\n",
-              "zipped lists go in step"},
+              "give zipped lists the same length"},
              {"[zip]\n\"trough.fricton\" = [0.1]\n", "did you mean trough.friction?"},
-             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot vary"},
+             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot be varied"},
              {"[[points]]\n\"trough.friction\" = 9\n", "out of range"},
              {"[[points]]\n\"trough.friction\" = 0.1\n[[points]]\n\"grains.friction\" = 0.1\n",
-              "other keys than"},
-             {"[sweep]\n\"trough.friction\" = [0.1]\n[zip]\n\"trough.friction\" = [0.2]\n", "varies as well"},
-             {"[zip]\n\"trough.throw_number\" = [1]\n\"trough.machine_number\" = [2]\n", "varies as well"},
+              "different keys than"},
+             {"[sweep]\n\"trough.friction\" = [0.1]\n[zip]\n\"trough.friction\" = [0.2]\n", "is also varied"},
+             {"[zip]\n\"trough.throw_number\" = [1]\n\"trough.machine_number\" = [2]\n", "is also varied"},
              {"[sample]\nmethod = \"random\"\ncount = 3\n", "neither \"sobol\" nor"},
              {"[sample]\nmethod = \"sobol\"\n\"trough.friction\" = { from = 0, to = 1 }\n", "count"},
              {"[sample]\nmethod = \"sobol\"\ncount = 3\n\"trough.friction\" = { from = 1, to = 0 }\n",
               "range is empty"},
-             {"[points_from]\nfile = \"../secret.csv\"\n", "no plain name"},
-             {"[points_from]\nfile = \"/etc/passwd\"\n", "no plain name"},
+             {"[points_from]\nfile = \"../secret.csv\"\n", "not the plain name"},
+             {"[points_from]\nfile = \"/etc/passwd\"\n", "not the plain name"},
              {"[points_from]\nfile = \"no_such.csv\"\n", "no_such.csv"},
-             {"[[exclude]]\n\"trough.friction\" = { above = 0 }\n", "leaves no case over"},
-             {"[[exclude]]\n\"trough.friction\" = { over = 0 }\n", "is no bound"},
+             {"[[exclude]]\n\"trough.friction\" = { above = 0 }\n", "all cases are left out"},
+             {"[[exclude]]\n\"trough.friction\" = { over = 0 }\n", "is not a bound"},
          }) {
         std::string const message = refusal(design);
         EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;
