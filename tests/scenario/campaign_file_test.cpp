@@ -67,7 +67,7 @@ TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
     EXPECT_EQ(s.output.frames_per_cycle, 0);
 }
 
-TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
+TEST(CampaignFile, ErrorsNamePositionProblemAndCure) {
     EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = 6")),
               "c.toml:7:13: trough.amplitude: the number 6 has no unit; write amplitude = \"6 mm\"");
     EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = \"6 s\"")),
