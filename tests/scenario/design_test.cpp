@@ -115,7 +115,7 @@ TEST(Design, PointsFromASpreadsheet) {
     std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
     EXPECT_NE(open.find("points.csv:2: an opening quote has no closing quote"), std::string::npos) << open;
     EXPECT_NE(refusal("").find("points.csv:1: the file is empty"), std::string::npos);
-    EXPECT_NE(refusal("layer.heigt\n9 mm\n").find("points.csv:1:1: layer.heigt: is not a key"),
+    EXPECT_NE(refusal("layer.elevation\n9 mm\n").find("points.csv:1:1: layer.elevation: is not a key"),
               std::string::npos);
 }
 
