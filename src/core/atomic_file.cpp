@@ -55,9 +55,9 @@ void sync_folder_of(fs::path const& path) {
     sync_to_disk(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
 }
 
-/// `write` leaves the file as safe as it is to be.
+/// `write` makes the temporary file and syncs it if that is wanted; this function only renames it.
 void write_and_rename(fs::path const& path, std::function<void(fs::path const&)> const& write) {
-    // Machines that share a file system may have processes with the same number.
+    // The host name is needed because machines that share a file system may use the same process number.
     fs::path const temporary =
         path.string() + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
     try {
@@ -76,8 +76,8 @@ void write_and_rename(fs::path const& path, std::function<void(fs::path const&)>
 
 void write_whole(fs::path const& path, fs::path const& temporary, std::string_view content, bool sync) {
     Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-    bool const well = file.is_open() && file.write(content) && (!sync || file.sync()) && file.close();
-    if (!well) {
+    bool const written = file.is_open() && file.write(content) && (!sync || file.sync()) && file.close();
+    if (!written) {
         throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
                                        path.string(), std::strerror(errno)));
     }
@@ -90,7 +90,7 @@ std::string read_file(fs::path const& path) {
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode))
         throw MissingError(fmt::format("cannot open {} (no such file, or not readable)", path.string()));
-    // The size is a guess: the file may grow, and those of the kernel have none.
+    // The reported size is only a hint: the file may grow meanwhile, and files in /proc report a size of 0.
     std::string content(std::max<std::size_t>(static_cast<std::size_t>(status.st_size) + 1, 4096), '\0');
     std::size_t length = 0;
     while (true) {
@@ -114,8 +114,9 @@ void make_folder(fs::path const& path) {
     std::error_code failure;
     fs::create_directories(path, failure);
     if (failure || !fs::is_directory(path)) {
-        throw MissingError(fmt::format("cannot make the folder {} ({}); choose another place or free it",
-                                       path.string(), failure ? failure.message() : "a file is in the way"));
+        throw MissingError(
+            fmt::format("cannot make the folder {} ({}); correct this or choose another folder",
+                        path.string(), failure ? failure.message() : "there is a file of this name"));
     }
 }
 

@@ -7,34 +7,37 @@
 
 namespace vibrotrough::core {
 
-/// Reads a whole file. @throws MissingError when it cannot be opened or read.
+/// The bytes of a whole file. @throws MissingError when it cannot be opened or read
 std::string read_file(std::filesystem::path const& path);
 
-/// A file's content as it was at one moment, and where it came from.
+/// The content of a file at one moment, together with its path.
 struct TextFile {
-    std::filesystem::path path;
-    std::string content;
+    std::filesystem::path path;  ///< as it was given
+    std::string content;         ///< all bytes of the file
 };
 
-/// @throws as read_file
+/// Reads a whole file and keeps its path. @throws MissingError when it cannot be opened or read
 TextFile read_text_file(std::filesystem::path const& path);
 
-/// Makes the folder and its parents. @throws MissingError with the reason (permission, disk, a file in the
-/// way).
+/// Creates the folder and its parents unless they exist.
+/// @throws MissingError with the reason: permission, disk, or a file that has this name
 void make_folder(std::filesystem::path const& path);
 
-/// Lets `write` make a file under a temporary name beside `path`, syncs it to disk and renames it to `path`,
-/// so that `path` is never seen half-written. The temporary file is removed when anything throws.
-/// @throws MissingError when the disk refuses; whatever `write` throws
+/// Calls `write` with the path of a temporary file in the folder of `path`, syncs that file to disk and
+/// renames it to `path`. No reader ever sees a half-written `path`. The temporary file is removed if anything
+/// throws.
+/// @throws MissingError when the file cannot be written, and whatever `write` throws
 void write_atomically(std::filesystem::path const& path,
                       std::function<void(std::filesystem::path const& temporary)> const& write);
 
-/// The same for a text that is already there.
+/// Writes `content` in the same way.
+/// @throws MissingError when the file cannot be written
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 
-/// The same without the sync, which costs more than all else about a small file: never seen half-written
-/// while the machine runs, but perhaps empty after a power cut. For files that are written anew before each
-/// use.
+/// Writes `content` in the same way but does not sync it, because for a small file the sync takes much longer
+/// than the rest. The file is never seen half-written while the machine runs, but it may be empty after a
+/// power cut. Use it for files that are written again before each use.
+/// @throws MissingError when the file cannot be written
 void replace_file(std::filesystem::path const& path, std::string_view content);
 
 }  // namespace vibrotrough::core

@@ -32,11 +32,11 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-std::string place(std::string const& file, int line) {
+std::string position(std::string const& file, int line) {
     return file.empty() ? fmt::format("line {}", line) : fmt::format("{}:{}", file, line);
 }
 
-/// Whether a ';' stands outside quotes on the first line of the text.
+/// ';' if there is one outside quotes on the first line of the text, otherwise ','.
 char find_separator(std::string_view text) {
     bool in_quotes = false;
     for (char const c : text) {
@@ -51,17 +51,17 @@ char find_separator(std::string_view text) {
 }  // namespace
 
 CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
-    : InputError(cure.empty() ? fmt::format("{}: {}", place(file, line), problem)
-                              : fmt::format("{}: {}; {}", place(file, line), problem, cure)),
+    : InputError(cure.empty() ? fmt::format("{}: {}", position(file, line), problem)
+                              : fmt::format("{}: {}; {}", position(file, line), problem, cure)),
       line_(line),
       problem_(problem) {}
 
 CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
     : text_(text), file_(std::move(file)), format_(std::move(format)), columns_(format_.columns) {
     if (text_.size() > format_.most_bytes)
-        fail_at(1, fmt::format("is larger than {} bytes", format_.most_bytes), "give a smaller file");
+        fail_at(1, fmt::format("the file is larger than {} bytes", format_.most_bytes), "use a smaller file");
     if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
-        fail_at(1, "is a UTF-16 text", "save the file as CSV in UTF-8");
+        fail_at(1, "the file is encoded in UTF-16", "save it as CSV in UTF-8");
     if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
     if (columns_.empty()) read_header();
 }
@@ -69,14 +69,14 @@ CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
 void CsvReader::read_header() {
     if (!find_row()) {
         if (format_.growing) return;
-        fail_at(1, "is empty", "write a line of column names first");
+        fail_at(1, "the file is empty", "begin it with a line of column names");
     }
     separator_ =
         find_separator(text_.substr(quoted_ ? at_ : static_cast<std::size_t>(row_.data() - text_.data())));
     if (!quoted_) {
         split_plain(row_);
     } else if (!split_quoted()) {
-        return;  // a growing text whose header is not whole yet
+        return;  // the header of this growing text is not complete yet
     }
     header_line_ = row_line_;
     columns_.assign(cells_.begin(), cells_.end());
@@ -85,17 +85,17 @@ void CsvReader::read_header() {
 
 void CsvReader::check_columns() const {
     if (columns_.size() > format_.most_columns)
-        fail(fmt::format("has more than {} columns", format_.most_columns), "give a smaller table");
+        fail(fmt::format("there are more than {} columns", format_.most_columns), "use a smaller table");
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
         std::string const name = printable(columns_[i], longest_shown);
         if (columns_[i].find_first_of(std::string_view("\0\r", 2)) != std::string::npos)
-            fail(fmt::format("column '{}' has control characters in its name", name),
+            fail(fmt::format("the name of column '{}' contains control characters", name),
                  "save the file as CSV in UTF-8 with line ends of Linux or Windows");
         if (columns_[i].empty())
             fail(fmt::format("column {} has no name", i + 1), "write a name or remove the separator");
         if (!seen.insert(columns_[i]).second)
-            fail(fmt::format("column '{}' is there twice", name), "keep one of the two");
+            fail(fmt::format("column '{}' appears twice", name), "keep one of the two");
     }
 }
 
@@ -114,7 +114,7 @@ bool CsvReader::find_row() {
         bool const comment = format_.comments && line.starts_with('#');
         row_line_ = line_;
         quoted_ = !comment && line.find('"') != std::string_view::npos;
-        if (quoted_) return true;  // may go on beyond the line's end
+        if (quoted_) return true;  // the row may continue on the next line
         at_ = whole ? end + 1 : text_.size();
         ++line_;
         if (comment || (format_.blanks && std::ranges::all_of(line, is_space))) continue;
@@ -135,7 +135,8 @@ void CsvReader::split_plain(std::string_view line) {
     }
 }
 
-/// Reads the cell whose quote is at `at_`, and goes behind its closing quote. False when there is none.
+/// Reads the cell whose opening quote is at `at_` and moves `at_` behind its closing quote. Returns false
+/// when there is no closing quote.
 bool CsvReader::read_quoted_cell(std::string_view& cell) {
     std::size_t const begin = ++at_;
     bool doubled = false;
@@ -167,13 +168,14 @@ void CsvReader::take_plain_cell() {
     if ((end == text_.size() || text_[end] == '\n') && cell.ends_with('\r')) cell.remove_suffix(1);
     if (cell.find('"') != std::string_view::npos)
         fail_at(line_,
-                fmt::format("a quote stands within the cell '{}'", printable(trimmed(cell), longest_shown)),
+                fmt::format("there is a quote within the cell '{}'", printable(trimmed(cell), longest_shown)),
                 "put the whole cell in quotes and double the quotes within it");
     cells_.push_back(trimmed(cell));
     at_ = end;
 }
 
-/// Splits the row at `at_`, which has quotes. False when a growing text does not have all of it yet.
+/// Splits the row that begins at `at_` and has quotes. Returns false when a growing text does not have all of
+/// the row yet.
 bool CsvReader::split_quoted() {
     cells_.clear();
     unescaped_.clear();
@@ -185,13 +187,13 @@ bool CsvReader::split_quoted() {
             if (!read_quoted_cell(cells_.emplace_back())) {
                 at_ = text_.size();
                 if (format_.growing) return false;
-                fail_at(opened, "a quote is opened and not closed", "write the closing quote");
+                fail_at(opened, "an opening quote has no closing quote", "write the closing quote");
             }
             while (at_ < text_.size() && is_space(text_[at_])) ++at_;
             if (text_.substr(at_).starts_with("\r\n")) ++at_;
             if (text_.substr(at_) == "\r") ++at_;
             if (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n')
-                fail_at(line_, "text follows the closing quote of a cell",
+                fail_at(line_, "there is text after the closing quote of a cell",
                         "put the whole cell in quotes and double the quotes within it");
         } else {
             at_ = start;
@@ -212,14 +214,15 @@ bool CsvReader::next() {
         return false;
     }
     if (++rows_ > format_.most_rows)
-        fail(fmt::format("there are more than {} rows", format_.most_rows), "give a smaller table");
+        fail(fmt::format("there are more than {} rows", format_.most_rows), "use a smaller table");
     if (cells_.size() != columns_.size())
-        fail(fmt::format("has {} values for {} columns", cells_.size(), columns_.size()),
+        fail(fmt::format("expected {} values, one per column, but found {}", columns_.size(), cells_.size()),
              "write one value per column");
     return true;
 }
 
-/// Reads the numbers without looking for cells first. False when the row is anything but plain numbers.
+/// Reads the numbers without splitting the row into cells first. Returns false when the row contains anything
+/// but numbers and commas.
 bool CsvReader::parse_numbers(std::span<double> row) const {
     char const* at = row_.data();
     char const* const end = at + row_.size();
@@ -236,7 +239,8 @@ bool CsvReader::parse_numbers(std::span<double> row) const {
 
 bool CsvReader::next(std::span<double> row) {
     if (columns_.empty()) return false;
-    if (row.size() != columns_.size()) throw std::invalid_argument("the row has another number of columns");
+    if (row.size() != columns_.size())
+        throw std::invalid_argument("CsvReader::next: the row must have one element for each column");
     std::size_t const at = at_;
     int const line = line_;
     if (!find_row()) return false;
@@ -255,7 +259,7 @@ double CsvReader::number(std::size_t column) const {
     if (auto const value = csv_number(cells_[column], separator_, format_.numbers)) return *value;
     fail(fmt::format("column {}: '{}' is not a {}number", columns_[column],
                      printable(cells_[column], longest_shown),
-                     format_.numbers == CsvNumbers::finite ? "finite plain " : ""),
+                     format_.numbers == CsvNumbers::finite ? "finite " : ""),
          "write a number such as 0.5");
 }
 
@@ -314,14 +318,14 @@ std::vector<NumberRow> read_number_table(std::string_view text,
                                          std::initializer_list<std::string_view> columns) {
     std::vector<NumberRow> rows;
     try {
-        // A text that ends before its header has no rows, as one that ends right after it.
+        // A blank text has no rows, like a text that holds only the header.
         CsvFormat const format{.comments = true, .blanks = true};
         if (std::ranges::all_of(text, [](char c) { return is_space(c) || c == '\r' || c == '\n'; }))
             return rows;
         CsvReader table(text, "", format);
         if (!table.has_columns(columns))
-            throw std::invalid_argument(
-                fmt::format("line {} is not the header {}", table.header_line(), fmt::join(columns, ",")));
+            throw std::invalid_argument(fmt::format("line {}: this is not the header {}", table.header_line(),
+                                                    fmt::join(columns, ",")));
         std::vector<double> values(columns.size());
         while (table.next(values)) rows.push_back({values, table.line()});
     } catch (CsvError const& error) {

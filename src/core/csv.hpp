@@ -18,9 +18,13 @@ namespace vibrotrough::core {
 /// do" when the text has no file name.
 class CsvError : public InputError {
   public:
+    /// @param file     name of the text; may be empty
+    /// @param line     from 1
+    /// @param problem  what is wrong
+    /// @param cure     what to do about it; may be empty
     CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure);
-    int line() const { return line_; }  ///< in the file, from 1
-    /// What is wrong, without the place and without what to do about it.
+    int line() const { return line_; }  ///< line of the text, from 1
+    /// What is wrong, without file and line and without advice.
     std::string const& problem() const { return problem_; }
 
   private:
@@ -31,20 +35,21 @@ class CsvError : public InputError {
 /// Which numbers a file may hold.
 enum class CsvNumbers {
     finite,  ///< infinities and NaN are refused
-    any,     ///< "inf" and "nan" are numbers, too: an engine that diverges writes them
+    any,     ///< "inf" and "nan" are accepted as well, because a simulation that diverges writes them
 };
 
 /// How a text is to be read. By default it is one header line and then one row per line.
 struct CsvFormat {
-    bool comments = false;  ///< lines that begin with # are skipped
-    bool blanks = false;    ///< lines that hold only spaces are skipped
-    bool growing = false;   ///< a last line without its end is left out: another program is still writing it
-    CsvNumbers numbers = CsvNumbers::finite;
-    std::vector<std::string> columns = {};  ///< names for a text without a header line; commas separate cells
-    std::string_view cure = {};  ///< what to do about any error; without it each error has advice of its own
-    std::size_t most_bytes = std::numeric_limits<std::size_t>::max();
-    std::size_t most_rows = std::numeric_limits<std::size_t>::max();
-    std::size_t most_columns = 1000;
+    bool comments = false;  ///< skip lines that begin with #
+    bool blanks = false;    ///< skip lines that hold only spaces
+    bool growing = false;   ///< leave out a last line without line end, which is still being written
+    CsvNumbers numbers = CsvNumbers::finite;  ///< which numbers are accepted
+    std::vector<std::string> columns = {};    ///< names of the columns of a text without header, with commas
+    std::string_view cure = {};               ///< advice for every error; if empty, each error has its own
+    std::size_t most_bytes = std::numeric_limits<std::size_t>::max();  ///< largest size that is accepted
+    std::size_t most_rows =
+        std::numeric_limits<std::size_t>::max();  ///< largest number of rows, without header
+    std::size_t most_columns = 1000;              ///< largest number of columns
 };
 
 /// Reads a CSV text (RFC 4180) row by row.
@@ -65,32 +70,36 @@ class CsvReader {
 
     /// Names of the columns; empty when a growing text has no whole header line yet.
     std::vector<std::string> const& columns() const { return columns_; }
+    /// Whether the columns are exactly these, in this order.
     bool has_columns(std::span<std::string_view const> names) const;
-    char separator() const { return separator_; }
+    char separator() const { return separator_; }     ///< ',' or ';'
     int header_line() const { return header_line_; }  ///< from 1; 0 when there is no header line
 
-    /// Goes to the next row. Returns false after the last one. @throws CsvError
+    /// Goes to the next row. Returns false after the last one.
+    /// @throws CsvError when the row is malformed or the table has too many rows
     bool next();
-    /// Goes to the next row, all of whose cells are numbers. This is the fast way for large tables.
+    /// Goes to the next row and reads all its cells as numbers. This is the fast way for large tables.
+    /// Returns false after the last row.
     /// @param row  receives the numbers, one for each column
-    /// @throws CsvError
+    /// @throws CsvError when the row is malformed or has a cell that is not a number
+    /// @throws std::invalid_argument when `row` has another length than columns()
     bool next(std::span<double> row);
 
     /// The row's line in the text, from 1; its first line when quotes make it longer.
     int line() const { return row_line_; }
     /// The cells of the row after `next()`, without their quotes.
     std::span<std::string_view const> cells() const { return cells_; }
-    /// The number in a cell. @throws CsvError that names the column
+    /// The number in a cell of the row. @throws CsvError that names the column when the cell is not a number
     double number(std::size_t column) const;
-    /// The same, or nothing when the cell is empty.
+    /// The number in a cell of the row, or nullopt when the cell is empty. @throws CsvError as number()
     std::optional<double> number_if_given(std::size_t column) const;
 
-    /// @throws CsvError at the row's line, with the format's cure or the given one
+    /// Reports a problem of the current row. @throws CsvError with its line and the advice `cure`, unless the
+    /// format has advice for every error
     [[noreturn]] void fail(std::string const& problem, std::string_view cure) const;
 
   private:
     bool find_row();
-    void split_row();
     void split_plain(std::string_view line);
     bool split_quoted();
     bool read_quoted_cell(std::string_view& cell);
@@ -106,7 +115,7 @@ class CsvReader {
     std::vector<std::string> columns_;
     char separator_ = ',';
     int header_line_ = 0;
-    std::size_t at_ = 0;  ///< where the row that is read next begins
+    std::size_t at_ = 0;  ///< index in `text_` at which the next row begins
     int line_ = 1;        ///< the line at `at_`
     int row_line_ = 0;
     std::size_t rows_ = 0;
@@ -116,26 +125,27 @@ class CsvReader {
     std::deque<std::string> unescaped_;  ///< cells of this row that had doubled quotes
 };
 
-/// The number that a cell holds, or nothing. A leading '+' is allowed, other text beside the number is not.
-/// @param separator  of the cells: with ';' the number may have a decimal comma
+/// The number that a cell holds, or nullopt when it does not hold exactly one number. A leading '+' is
+/// allowed.
+/// @param separator  of the cells; if it is ';', the number may have a decimal comma
 std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbers numbers);
 
-/// The cell with a decimal point in the place of a decimal comma: "9,5 mm" becomes "9.5 mm" when ';'
-/// separates the cells. Other text stays as it is.
+/// The cell with a decimal point instead of a decimal comma: "9,5 mm" becomes "9.5 mm" if ';' separates the
+/// cells. Other text stays as it is.
 std::string with_decimal_point(std::string_view cell, char separator);
 
-/// The text as a cell of a CSV file with commas: in quotes when it needs them.
+/// The text as a cell of a CSV file whose cells are separated by commas; in quotes where they are needed.
 std::string csv_cell(std::string_view text);
 
 /// A row of a table of numbers.
 struct NumberRow {
-    std::vector<double> values;
-    int line;  ///< in the text, from 1
+    std::vector<double> values;  ///< one for each column
+    int line;                    ///< line of the text, from 1
 };
 
 /// Reads a small table of finite numbers with exactly these columns. Comment lines that begin with # and
 /// blank lines are skipped. A text without a header has no rows.
-/// @throws std::invalid_argument with the line but no file, because the caller knows where the text is from
+/// @throws std::invalid_argument whose message has the line but not the file, which the caller adds
 std::vector<NumberRow> read_number_table(std::string_view text,
                                          std::initializer_list<std::string_view> columns);
 

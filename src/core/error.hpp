@@ -8,13 +8,16 @@ namespace vibrotrough::core {
 /// What the user can do about an error; `app` turns it into the exit code.
 enum class ErrorKind {
     input,    ///< the user's input is wrong (a campaign file, an option, a damaged folder)
-    missing,  ///< something the program needs is not there (no engine, no disk, no permission)
+    missing,  ///< something that the program needs is missing (an engine, disk space, a permission)
 };
 
-/// An error that a user sees. The message is one line: problem (why), what to do.
+/// An error that a user sees. The message is one line: what happened, why, and what to do.
 class Error : public std::runtime_error {
   public:
+    /// @param kind     what the user can do about it
+    /// @param message  one line without a line end
     Error(ErrorKind kind, std::string const& message) : std::runtime_error(message), kind_(kind) {}
+    /// What the user can do about the error.
     ErrorKind kind() const { return kind_; }
 
   private:
@@ -24,12 +27,14 @@ class Error : public std::runtime_error {
 /// The user's input is wrong.
 class InputError : public Error {
   public:
+    /// @param message  one line without a line end
     explicit InputError(std::string const& message) : Error(ErrorKind::input, message) {}
 };
 
-/// Something the program needs is missing.
+/// Something that the program needs is missing.
 class MissingError : public Error {
   public:
+    /// @param message  one line without a line end
     explicit MissingError(std::string const& message) : Error(ErrorKind::missing, message) {}
 };
 

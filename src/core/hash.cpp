@@ -14,12 +14,12 @@ std::string sha256_hex(std::string_view bytes) {
 
 std::string sha256_hex(std::span<std::string_view const> pieces) {
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> const context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-    bool well = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+    bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
     for (std::string_view const piece : pieces)
-        well = well && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
+        good = good && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int size = 0;
-    if (!well || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1)
+    if (!good || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1)
         throw std::runtime_error("OpenSSL could not compute a SHA-256 digest");
     constexpr std::string_view digits = "0123456789abcdef";
     std::string hex;

@@ -25,17 +25,18 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
 ut_system* unit_system() {
     static std::unique_ptr<ut_system, FreeSystem> const system = [] {
-        ut_set_error_message_handler(ut_ignore);  // we word the errors ourselves
+        ut_set_error_message_handler(ut_ignore);  // the messages of QuantityError replace those of udunits2
         std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(nullptr));
         if (read) {
-            // The database knows "degree" and "arc_degree" but not the abbreviation that engineers write.
+            // The database has "degree" and "arc_degree" but not the abbreviation that engineers write.
             std::unique_ptr<ut_unit, FreeUnit> const degree(ut_get_unit_by_name(read.get(), "arc_degree"));
             ut_map_name_to_unit("deg", UT_ASCII, degree.get());
         }
         return read;
     }();
     if (!system)
-        throw QuantityError("the unit database of udunits2 cannot be read (package libudunits2-data)");
+        throw QuantityError(
+            "the unit database of udunits2 cannot be read; install the package libudunits2-data");
     return system.get();
 }
 
@@ -43,19 +44,20 @@ Unit parse_unit(std::string const& text) {
     return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
 }
 
-/// udunits2 reads whole expressions ("mm 3", "mm @ 2", "seconds since 2000"); a unit of ours is a product of
-/// powers of names, so that a slip of the finger is no other number.
+/// udunits2 accepts whole expressions ("mm 3", "mm @ 2", "seconds since 2000"). Only products of powers of
+/// unit names are accepted here, because with an expression a typing error could silently give another
+/// number.
 void check_unit_text(std::string_view text) {
     static std::regex const unit(
         R"((1 ?|1? ?/ ?)?[^\d\s@()*^/.+-]+((\^|\*\*)?-?\d)?([ .*/]{1,3}[^\d\s@()*^/.+-]+((\^|\*\*)?-?\d)?)*)");
     static std::regex const word(R"((^|\W)(from|since|after|ref)(\W|$))", std::regex::icase);
     std::string const owned(text);
     if (owned.size() > 100 || !std::regex_match(owned, unit) || std::regex_search(owned, word)) {
-        throw QuantityError(fmt::format("'{}' is no plain unit", text));
+        throw QuantityError(fmt::format("'{}' is not a plain unit", text));
     }
 }
 
-/// Whether there is an angle in the unit, such as in "deg" and "rpm".
+/// Whether the unit contains an angle, like "deg" and "rpm".
 bool is_angular(ut_unit const* unit) {
     std::array<char, 256> definition{};
     int const size = ut_format(unit, definition.data(), definition.size(), UT_ASCII | UT_DEFINITION);
@@ -83,18 +85,20 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
     check_unit_text(rest);
     Unit const from = parse_unit((rest.front() == '/' ? "1" : "") + std::string(rest));  // "340 / minute"
-    if (!from) throw QuantityError(fmt::format("'{}' is not a unit that udunits2 knows", rest));
+    if (!from) throw QuantityError(fmt::format("'{}' is not a known unit (of udunits2)", rest));
     Unit const to = parse_unit(unit);
     if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
         throw QuantityError(fmt::format("'{}' cannot be converted to {}", rest, unit));
     }
-    // To udunits2 a radian is a 1, so that "rpm" would become a frequency without its 2 pi, and "5 %" an
-    // angle.
+    // In udunits2 a radian is the number 1. Without this check "rpm" would become a frequency that is wrong
+    // by 2 pi, and "5 %" would become an angle.
     if (is_angular(from.get()) != is_angular(to.get())) {
         throw QuantityError(
             is_angular(to.get())
-                ? fmt::format("'{}' is no unit of an angle", rest)
-                : fmt::format("'{}' is angular, {} is not; 340 turns a minute are 340 / minute", rest, unit));
+                ? fmt::format("'{}' is not a unit of angle", rest)
+                : fmt::format(
+                      "'{}' contains an angle, {} does not; write 340 turns per minute as 340 / minute", rest,
+                      unit));
     }
     std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
     double const result = cv_convert_double(converter.get(), number);

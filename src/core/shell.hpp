@@ -5,8 +5,8 @@
 
 namespace vibrotrough::core {
 
-/// The path as a word for a POSIX shell: in single quotes when it holds anything but plain characters, so
-/// that a command that the program prints can be pasted.
+/// The path as a word of a POSIX shell. It is in single quotes if it contains anything but letters, digits
+/// and harmless punctuation, so that a command that the program prints can be pasted.
 std::string shell_word(std::filesystem::path const& path);
 
 }  // namespace vibrotrough::core

@@ -44,10 +44,10 @@ struct Template::Impl {
 
 Template::Template(std::string_view text, TemplateTags tags) {
     TemplateTags const usual;
-    bool const own_tags = std::tie(tags.begin, tags.end) != std::tie(usual.begin, usual.end);
+    bool const other_tags = std::tie(tags.begin, tags.end) != std::tie(usual.begin, usual.end);
     std::string const whole =
-        own_tags ? fmt::format("{}={} {}={}{}", usual.begin, tags.begin, tags.end, usual.end, text)
-                 : std::string(text);
+        other_tags ? fmt::format("{}={} {}={}{}", usual.begin, tags.begin, tags.end, usual.end, text)
+                   : std::string(text);
     impl_ = std::make_unique<Impl>(Impl{mustache::mustache(whole)});
     if (!impl_->parsed.is_valid()) throw std::logic_error("template: " + impl_->parsed.error_message());
     impl_->parsed.set_custom_escape([](std::string const& value) { return value; });
@@ -64,11 +64,11 @@ std::string Template::render(TemplateData const& data) const {
 
 namespace {
 
-/// The template with its parts, {{> name}}, in their places.
+/// The text of a template in which each tag {{> name}} is replaced by the template of that name.
 std::string with_parts(TemplateTexts const& texts, std::string_view name, int depth = 0) {
     constexpr std::string_view begin = "{{> ", end = "}}";
     constexpr int deepest = 20;
-    if (depth > deepest) throw std::logic_error(fmt::format("template {}: is a part of itself", name));
+    if (depth > deepest) throw std::logic_error(fmt::format("template {}: it includes itself", name));
     std::string text(texts.at(name));
     for (std::size_t start = 0; (start = text.find(begin, start)) != std::string::npos;) {
         std::size_t const stop = text.find(end, start);

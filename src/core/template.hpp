@@ -8,21 +8,25 @@
 
 namespace vibrotrough::core {
 
-/// What a template shows: texts, yes or no, and lists, by name.
+/// The data of a template by name: texts, switches for sections, and lists for repeated sections.
 class TemplateData {
   public:
-    TemplateData();
-    TemplateData(TemplateData const& other);
-    TemplateData(TemplateData&& other) noexcept;
-    TemplateData& operator=(TemplateData other) noexcept;
+    TemplateData();                               ///< Without any name.
+    TemplateData(TemplateData const& other);      ///< Copies all names with their values.
+    TemplateData(TemplateData&& other) noexcept;  ///< `other` may only be assigned or destroyed then.
+    TemplateData& operator=(TemplateData other) noexcept;  ///< Takes over all names with their values.
     ~TemplateData();
 
-    /// Sets a name, or sets it anew: the text in the place of {{name}}.
+    /// Sets the text that replaces the tag `{{name}}`. An earlier value of the name is replaced.
     void set(std::string const& name, std::string const& text);
+    /// Sets the text that replaces the tag `{{name}}`; without this overload a literal would become a bool.
     void set(std::string const& name, char const* text) { set(name, std::string(text)); }
-    /// Whether the section {{#name}}...{{/name}} is there, and {{^name}}...{{/name}} is not.
+    /// Sets whether the section that begins with `{{#name}}` is rendered. The inverted section, which begins
+    /// with
+    /// `{{^name}}`, is rendered otherwise.
     void set(std::string const& name, bool shown);
-    /// The section {{#name}}...{{/name}} is repeated for each element, which sees its own names first.
+    /// Repeats the section that begins with `{{#name}}` once for each element. Within it, the names of the
+    /// element take precedence over the names outside.
     void set(std::string const& name, std::vector<TemplateData> const& list);
 
   private:
@@ -31,21 +35,23 @@ class TemplateData {
     std::unique_ptr<Impl> impl_;
 };
 
-/// What begins and ends a tag. Neither has spaces or an equals sign in it.
+/// The characters that begin and end a tag, without spaces and equals signs.
 struct TemplateTags {
-    std::string_view begin = "{{", end = "}}";
+    std::string_view begin = "{{";  ///< before the name
+    std::string_view end = "}}";    ///< after the name
 };
 
-/// A mustache template, parsed once. Texts are put in as they are: nothing is escaped for HTML, so {{name}}
-/// and {{{name}}} are the same. A name without data is replaced by nothing.
+/// A mustache template, parsed once. Texts are inserted unchanged: nothing is escaped for HTML, so `{{name}}`
+/// and
+/// `{{{name}}}` are the same. A tag whose name has no data is replaced by an empty text.
 class Template {
   public:
-    /// @throws std::logic_error when the text is malformed, such as a section that is not closed
+    /// @throws std::logic_error when the text is malformed, for example when a section is not closed
     explicit Template(std::string_view text, TemplateTags tags = {});
     ~Template();
-    Template(Template&& other) noexcept;
+    Template(Template&& other) noexcept;  ///< `other` may only be destroyed then.
 
-    /// Not for several threads at once.
+    /// The text with `data` in its tags. Several threads must not call it on the same object at once.
     std::string render(TemplateData const& data) const;
 
   private:
@@ -56,10 +62,12 @@ class Template {
 /// Texts of templates by name.
 using TemplateTexts = std::map<std::string_view, std::string_view>;
 
-/// The template of that name, with its parts {{> name}} in their places. It is parsed at its first use in
-/// each thread and kept, because a campaign of ten thousand cases renders the same templates for each case.
+/// The template of that name, in which the tags `{{> name}}` are replaced by the templates that they name. It
+/// is parsed at its first use in each thread and kept, because a campaign of ten thousand cases renders the
+/// same templates for each case.
 /// @param texts  must live as long as the program
-/// @throws std::out_of_range when there is no such template or part, std::logic_error when it is malformed
+/// @throws std::out_of_range when there is no such template or part
+/// @throws std::logic_error when it is malformed or includes itself
 Template const& parsed_template(TemplateTexts const& texts, std::string_view name);
 
 }  // namespace vibrotrough::core

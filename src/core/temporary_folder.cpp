@@ -18,11 +18,12 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose) {
     fs::path const parent = fs::temp_directory_path(failure);
     if (failure) {
         throw MissingError(
-            fmt::format("there is no folder for temporary files ({}); set TMPDIR to one", failure.message()));
+            fmt::format("there is no folder for temporary files ({}); set TMPDIR to a folder that exists",
+                        failure.message()));
     }
     std::string name = (parent / fmt::format("{}-XXXXXX", purpose)).string();
     if (::mkdtemp(name.data()) == nullptr) {
-        throw MissingError(fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another place",
+        throw MissingError(fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another folder",
                                        name, std::strerror(errno)));
     }
     path_ = name;

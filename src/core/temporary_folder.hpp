@@ -5,20 +5,19 @@
 
 namespace vibrotrough::core {
 
-/// A folder of its own for as long as the object lives: made under a name that nobody else has, readable by
-/// its owner only, and removed with all that is in it. Symbolic links in it are removed, and what they point
-/// to stays.
+/// A folder that exists as long as this object. It has a unique name, only its owner can read it, and it is
+/// removed with all its content in the end. Symbolic links in it are removed; their targets stay.
 class TemporaryFolder {
   public:
-    /// @param purpose  begins the folder's name, such as "vibrotrough-probe"
-    /// Makes the folder below TMPDIR, or below /tmp when that is not set.
+    /// Makes the folder below TMPDIR, or below /tmp if that is not set.
+    /// @param purpose  beginning of the folder's name, such as "vibrotrough-probe"
     /// @throws MissingError when the folder cannot be made
     explicit TemporaryFolder(std::string_view purpose = "vibrotrough");
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;
     TemporaryFolder& operator=(TemporaryFolder const&) = delete;
 
-    std::filesystem::path const& path() const { return path_; }
+    std::filesystem::path const& path() const { return path_; }  ///< of the folder
 
   private:
     std::filesystem::path path_;

@@ -6,8 +6,8 @@
 
 namespace vibrotrough::core {
 
-/// Text from outside, fit for one line of a message: bytes that are no printable ASCII become '?', and what
-/// is longer than `longest` bytes is cut and ends in "...".
+/// A text from outside, made suitable for one line of a message: bytes that are not printable ASCII become
+/// '?', and a text longer than `longest` bytes is cut there and ends in "...".
 std::string printable(std::string_view text, std::size_t longest);
 
 }  // namespace vibrotrough::core

@@ -7,7 +7,8 @@ namespace vibrotrough::core {
 /// Version of the program, e.g. "0.1.0".
 std::string_view program_version();
 
-/// Git commit the program was built from, with "-dirty" when the tree had changes; "unknown" outside git.
+/// Git commit from which the program was built, 12 digits, with "-dirty" appended if the sources had
+/// uncommitted changes; "unknown" when it was not built in a git repository.
 std::string_view program_commit();
 
 }  // namespace vibrotrough::core

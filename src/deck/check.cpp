@@ -11,6 +11,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// A finding whose limits are upper limits.
 Finding most(std::string item, std::string key, double measured, double limit, double hard_limit,
              std::string advice) {
     Severity const severity = measured > hard_limit ? Severity::error
@@ -20,6 +21,7 @@ Finding most(std::string item, std::string key, double measured, double limit, d
             false,    limit,           hard_limit,     std::move(advice)};
 }
 
+/// A finding whose limits are lower limits.
 Finding least(std::string item, std::string key, double measured, double limit, double hard_limit,
               std::string advice) {
     Severity const severity = measured < hard_limit           ? Severity::error
@@ -33,20 +35,21 @@ bool is_block(scenario::Scenario const& s) {
     return s.layer.block != scenario::Block::none;
 }
 
-/// What sets the duration of a contact.
+/// The key that determines the duration of a contact.
 char const* stiffness_key(scenario::Scenario const& s) {
     return is_block(s) ? "solver.block_stiffness" : "grains.youngs_modulus";
 }
 
-/// eta was measured to be the same at 10, 20, 30 and 40 % of the Rayleigh time. A contact of fewer than ten
-/// steps is not integrated but guessed (the engine's certificate: e is off by 0.02 at 14 steps).
-void look_at_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+/// eta was measured to be the same at 10, 20, 30 and 40 % of the Rayleigh time. A contact that lasts fewer
+/// than ten steps is not resolved (in the engine's certificate the restitution is off by 0.02 at 14 steps).
+void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
     char const* const key = stiffness_key(s);
     if (!is_block(s)) {
         findings.push_back(most("time step / Rayleigh time", "solver.rayleigh_fraction",
-                                time.rayleigh_fraction, 0.4, 0.8, "lower it: too long a step gains energy"));
+                                time.rayleigh_fraction, 0.4, 0.8,
+                                "lower it: with too long a step the grains gain energy"));
     }
     findings.push_back(most("time step / contact time at twice the trough's speed", key,
                             time.contact_fraction, 0.101, 0.2,
@@ -54,19 +57,19 @@ void look_at_time(std::vector<Finding>& findings, prepare::PreparedCase const& c
     findings.push_back(least("steps per contact at twice the trough's speed", key, 1 / time.contact_fraction,
                              9.9, 5, "lower solver.rayleigh_fraction or soften the grains"));
     findings.push_back(least("steps per cycle", "solver.rayleigh_fraction", time.steps_per_cycle, 500, 100,
-                             "lower it: the drive moves from step to step"));
+                             "lower it, so that the motion of the drive is resolved"));
     findings.push_back(most("steps per cycle, at most", key, time.steps_per_cycle, 1e5, never,
-                            "soften the grains or take larger ones: the run will be long"));
+                            "soften the grains or use larger ones, because the run will take long"));
 }
 
-/// A soft grain saves time steps, but overlaps of some percent change the packing, and above some ten percent
-/// Hertz's law has no meaning. eta changes by 0.03 between E = 1 and 20 MPa where the impact overlap goes
-/// from 8 to 2 % of the diameter.
-void look_at_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+/// Softer grains need fewer time steps, but overlaps of a few percent change the packing, and above about ten
+/// percent Hertz's law is not valid. eta changes by 0.03 between E = 1 and 20 MPa, where the overlap at
+/// impact decreases from 8 to 2 % of the diameter.
+void check_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
     double const diameter = s.grains.diameter;
-    char const* const stiffen = "raise it: the overlap goes with its power -2/3 at rest, -2/5 at impact";
+    char const* const stiffen = "raise it: the overlap scales as E^(-2/3) at rest and as E^(-2/5) at impact";
     findings.push_back(most("overlap under the layer's own weight / diameter", "grains.youngs_modulus",
                             overlap_under(c, bottom_load(c)) / diameter, 0.01, 0.1, stiffen));
     findings.push_back(most("overlap of a grain at impact at twice the trough's speed / diameter",
@@ -74,17 +77,17 @@ void look_at_overlaps(std::vector<Finding>& findings, prepare::PreparedCase cons
                             0.3, stiffen));
 }
 
-/// An impact is meant to be short against what happens between impacts. The layer's collision passes
-/// through it grain by grain: the height in diameters times a grain's contact time.
-void look_at_contact_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+/// An impact should be short compared with what happens between impacts. A collision passes through the layer
+/// grain by grain, which takes the height in diameters times the contact time of a grain.
+void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
     double const speed = time.impact_speed / 2;
     double const contact = impact_duration(c, speed), cycle = 1 / s.trough.frequency;
     double const layers = is_block(s) ? 1 : std::max(1.0, c.layer_height / s.grains.diameter);
     std::string const key = stiffness_key(s);
-    std::string const stiffen =
-        "raise it: contacts are shorter by its power " + std::string(is_block(s) ? "-1" : "-2/5");
+    std::string const stiffen = is_block(s) ? "raise it: the contact time is inversely proportional to it"
+                                            : "raise it: the contact time scales as E^(-2/5)";
     findings.push_back(
         most("contact time at the trough's speed / cycle", key, contact / cycle, 0.02, 0.1, stiffen));
     double const flight = flight_time(c);
@@ -97,34 +100,35 @@ void look_at_contact_time(std::vector<Finding>& findings, prepare::PreparedCase 
 }
 
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
-void look_at_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const diameter = s.grains.diameter;
-    findings.push_back(least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
-                             "lengthen the box: a grain should not meet its own image's neighbours"));
+    findings.push_back(
+        least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
+              "lengthen the box, so that grains do not interact with their own periodic images"));
     findings.push_back(
         least("periodic width / diameter", "layer.width", s.layer.width / diameter, 5, 4, "widen the box"));
     findings.push_back(least("periodic length / layer height", "layer.length",
                              s.layer.length / c.layer_height, 1, 0,
-                             "lengthen the box: waves and convection in the layer need room"));
+                             "lengthen the box, because waves and convection in the layer need space"));
     findings.push_back(least("layer height / diameter", "layer.height", c.layer_height / diameter, 1, 0,
-                             "take more grains: this is no layer but single grains"));
+                             "use more grains, because these do not form a layer"));
 }
 
-/// The periodic mesh moves in the box; its nodes go round.
-void look_at_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+/// The mesh moves through the periodic box; nodes that leave it on one side enter on the other.
+void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const stroke = 2 * s.trough.amplitude * std::cos(s.trough.vibration_angle);
     findings.push_back(most("stroke along the trough / periodic length", "layer.length",
                             stroke / s.layer.length, 1, 2,
-                            "lengthen the box: the mesh moves by more than a whole image of itself"));
+                            "lengthen the box: the mesh moves by more than the length of the box"));
 }
 
-void look_at_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     prepare::TimeGrid const& time = c.time;
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
                              "grains.diameter", steps_between_rebuilds(c, time.impact_speed), 5, 1,
-                             "shorten the time step: grains outrun their neighbour lists"));
+                             "shorten the time step, because grains move out of their neighbour lists"));
     Finding disk = most("disk", "output.frames_per_cycle", expected_bytes(c), 1e10, 1e12,
                         "write fewer frames (output.frames_per_cycle)");
     disk.unit = "byte";
@@ -147,12 +151,12 @@ std::string to_string(Severity severity) {
 
 std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
-    look_at_time(findings, prepared);
-    if (!is_block(prepared.scenario)) look_at_overlaps(findings, prepared);
-    look_at_contact_time(findings, prepared);
-    if (!is_block(prepared.scenario)) look_at_box(findings, prepared);
-    look_at_stroke(findings, prepared);
-    look_at_engine(findings, prepared);
+    check_time_step(findings, prepared);
+    if (!is_block(prepared.scenario)) check_overlaps(findings, prepared);
+    check_contact_time(findings, prepared);
+    if (!is_block(prepared.scenario)) check_box(findings, prepared);
+    check_stroke(findings, prepared);
+    check_engine(findings, prepared);
     return findings;
 }
 

@@ -7,31 +7,33 @@
 
 namespace vibrotrough::deck {
 
+/// How serious a finding is.
 enum class Severity {
     fine,     ///< within its limit
-    warning,  ///< the result may be off, or dear
-    error,    ///< the result will be worthless
+    warning,  ///< the result may be inaccurate or take long to compute
+    error,    ///< the result will be useless
 };
 
-/// One thing that can be known before anything is simulated.
+/// One property of a case that can be checked before anything is simulated.
 struct Finding {
-    Severity severity;
-    std::string item;    ///< what was looked at, in words, e.g. "overlap at impact / diameter"
-    std::string key;     ///< the campaign file's key that changes it most directly
-    double measured;     ///< in `unit`
+    Severity severity;   ///< from `measured` and the limits
+    std::string item;    ///< what was checked, in words, e.g. "periodic length / diameter"
+    std::string key;     ///< the key of the campaign file that changes it most directly
+    double measured;     ///< its value, in `unit`
     std::string unit;    ///< "1" for pure numbers
-    bool at_least;       ///< whether `limit` is a lower one
-    double limit;        ///< beyond it: a warning
-    double hard_limit;   ///< beyond it: an error; infinite (or 0 for a lower one) when there is none
+    bool at_least;       ///< whether the limits are lower limits
+    double limit;        ///< beyond it, the finding is a warning
+    double hard_limit;   ///< beyond it, the finding is an error; infinite, or 0 for a lower limit, if never
     std::string advice;  ///< what to change
 };
 
 /// "fine", "warning" or "error".
 std::string to_string(Severity severity);
 
-/// Looks at everything about a case that a person would look at before spending hours on it: time step, steps
-/// per cycle and contact, overlaps, contact against flight time, the box, neighbour lists, disk. All items
-/// are given, fine ones too, always in the same order. The formulas are in `estimates.hpp`.
+/// Checks what a careful person would check before spending hours of computing on a case: time step, steps
+/// per cycle and per contact, overlaps, contact time against flight time, the box, neighbour lists, disk
+/// space. All findings are returned, including fine ones, in a fixed order. The formulas are in
+/// `estimates.hpp`.
 std::vector<Finding> check(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::deck

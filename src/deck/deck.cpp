@@ -18,7 +18,8 @@ namespace {
 constexpr std::string_view processors_line =
     "\nprocessors      * * 1                      # the floor is shared out, not the height";
 
-/// Tags on lines of their own leave blank lines: one between two parts is enough, none within a comment.
+/// Template tags on lines of their own leave blank lines. This keeps one of them between two parts and none
+/// within a comment.
 std::string tidy(std::string const& text) {
     std::string result;
     int blank = 0;
@@ -55,7 +56,7 @@ std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared)
 
 Deck make_deck(prepare::PreparedCase const& prepared, int packing) {
     if (packing < 1 || packing > 1000)
-        throw std::invalid_argument(fmt::format("no packing number {}", packing));
+        throw std::invalid_argument(fmt::format("make_deck: packing {} is not from 1 to 1000", packing));
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
@@ -98,7 +99,7 @@ void write_files(std::map<std::string, std::string> const& files, std::filesyste
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks) {
     write_files(for_ranks(deck.files, ranks), folder);
-    // The engine makes no folders.
+    // The engine does not make folders.
     if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
 }
 

@@ -11,50 +11,57 @@ namespace vibrotrough::deck {
 /// One packing's input for the engine: a folder in which `liggghts -in settle.liggghts` and then
 /// `liggghts -in in.liggghts` run by hand.
 struct Deck {
-    std::map<std::string, std::string> settle_files;  ///< of the first deck, which knows nothing of the drive
-    std::map<std::string, std::string> files;         ///< of both, name and content
+    std::map<std::string, std::string>
+        settle_files;                          ///< of the first deck, which does not depend on the drive
+    std::map<std::string, std::string> files;  ///< of both decks: content by name
 };
 
-/// Lines that the decks print and the driver looks for.
+/// Line that the deck prints when the run has ended as planned.
 constexpr char const* end_marker = "VIBROTROUGH DONE";
+/// Beginning of the line that a deck prints when it ends the run because of a problem.
 constexpr char const* failure_marker = "VIBROTROUGH FAILED";
+/// Line that the first deck prints when the packing has settled.
 constexpr char const* settled_marker = "VIBROTROUGH SETTLED";
+/// Line that the deck prints before its first cycle.
 constexpr char const* begin_marker = "VIBROTROUGH BEGIN";
 
-constexpr char const* settle_file = "settle.liggghts";
-constexpr char const* drive_file = "in.liggghts";
-constexpr char const* settled_file = "settled.restart";
-constexpr char const* checkpoint_list = "checkpoints.txt";  ///< a line with its cycle per checkpoint
+constexpr char const* settle_file = "settle.liggghts";  ///< Deck that pours and settles the packing.
+constexpr char const* drive_file = "in.liggghts";       ///< Deck that moves the trough.
+constexpr char const* settled_file =
+    "settled.restart";  ///< Settled packing, from the first deck to the second.
+constexpr char const* checkpoint_list =
+    "checkpoints.txt";  ///< List of checkpoints: one line with its cycle each.
 
-/// The file that the deck reads after each cycle, and its two contents.
-constexpr char const* control_file = "control.in";
-constexpr char const* control_go_on = "variable stop equal 0\n";
-constexpr char const* control_stop = "variable stop equal 1\n";
+constexpr char const* control_file = "control.in";  ///< File that the deck reads after each cycle.
+constexpr char const* control_go_on =
+    "variable stop equal 0\n";  ///< Its content while the run is to continue.
+constexpr char const* control_stop = "variable stop equal 1\n";  ///< Its content that ends the run.
 
-/// The deck of packing number `packing` (from 1). Different packings differ by their seeds only.
+/// The deck of packing number `packing` (from 1). The packings of a case differ only in their seeds, and the
+/// first one may write frames.
 /// @throws std::invalid_argument when `packing` is below 1 or above 1000
 Deck make_deck(prepare::PreparedCase const& prepared, int packing);
 
-/// The seed of packing number `packing` (from 1), a prime as the engine wants it.
+/// The seed of packing number `packing` (from 1), a prime as the engine requires.
 int packing_seed(int packing);
 
 /// Name of the restart file that the deck writes after this cycle.
 std::string checkpoint_file(int cycle);
 
-/// The same files for several MPI ranks: each gets a piece of the floor. The engine would cut the box where
-/// its faces are smallest; it is tall and empty above, so that all grains would be one rank's. Files for one
-/// rank are as they were.
+/// The same files for several MPI ranks, each of which gets a part of the floor. The engine would divide the
+/// box where the cut is smallest; because the box is high and mostly empty, one rank would then hold all
+/// grains. Files for one rank stay as they are.
 std::map<std::string, std::string> for_ranks(std::map<std::string, std::string> files, int ranks);
 
-/// The deck for one rank again, from one that for_ranks made.
+/// Reverts for_ranks() in the content of one file.
 std::string for_one_rank(std::string content);
 
-/// Writes files into the folder, which is made.
-/// @throws MissingError when the disk refuses
+/// Writes files into a folder, which is made if necessary.
+/// @throws core::MissingError when the folder or a file cannot be written
 void write_files(std::map<std::string, std::string> const& files, std::filesystem::path const& folder);
 
-/// Writes the deck's files into the folder, which is made.
-/// @throws MissingError when the disk refuses
+/// Writes the files of a deck into a folder, which is made if necessary.
+/// @throws core::MissingError when the folder or a file cannot be written
 void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks = 1);
 
 }  // namespace vibrotrough::deck

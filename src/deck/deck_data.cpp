@@ -1,6 +1,7 @@
 #include "deck/deck_data.hpp"
 
 #include "deck/drive_formula.hpp"
+#include "deck/estimates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +47,8 @@ std::string template_of(prepare::PreparedCase const& n, double diameter, int ind
 std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n, int packing) {
     std::vector<core::TemplateData> list;
     int index = 0;
-    int so_far = 0;  // insert/pack fills the region up to a number; it counts what is there already
-    // Packings have seeds of their own: three primes each for three classes, as many as there are for more.
+    int so_far = 0;  // insert/pack fills the region up to a number, which includes the grains already there
+    // Each packing has its own seeds, one prime per size class and at least three.
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
     for (prepare::ClassCount const& size : n.classes) {
         core::TemplateData entry;
@@ -93,8 +94,8 @@ void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
 }
 
-/// Properties of pairs of types: grain with grain, grain with floor, grain with side wall. The engine wants
-/// them for pairs that never meet as well.
+/// Properties of pairs of types: grain with grain, grain with floor, grain with side wall. The engine
+/// requires values also for pairs that never touch.
 std::string per_pair(int types, double grain, double floor, double wall) {
     std::vector<std::string> values;
     for (int i = 0; i < types; ++i) {
@@ -139,7 +140,8 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("contact_model", wall_model + " " + options);
     data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus));
     data.set("poisson_ratios", repeated(types, s.grains.poisson_ratio));
-    data.set("soft", !block && s.grains.youngs_modulus < 5e6);  // LIGGGHTS asks for a word of consent
+    data.set("soft",
+             !block && s.grains.youngs_modulus < 5e6);  // LIGGGHTS then requires the command soft_particles
     data.set("restitutions",
              per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
     data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));
@@ -202,7 +204,7 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));
 }
 
-/// Where the grains are poured from, and how long that may take.
+/// Where the grains are poured, and how long settling may take.
 void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const walls = s.trough.side_wall_friction.has_value();
@@ -216,10 +218,10 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
              is_body(s) && s.layer.block == scenario::Block::none ? "orientation random " : "");
     data.set("spheres_per_grain", std::to_string(spheres));
     data.set("settle_time_step", text(step));
-    data.set("skin", text(0.3 * diameter));
+    data.set("skin", text(skin_in_diameters * diameter));
     data.set("bottom", text(n.box_bottom));
     data.set("top", text(n.box_top));
-    // Walls stand in the box with room behind them.
+    // The box is wider than the side walls, so that the walls are inside it.
     data.set("box_left", text(walls ? -extent : 0));
     data.set("box_right", text(s.layer.width + (walls ? extent : 0)));
     data.set("fill_left", text(walls ? extent / 2 : 0));

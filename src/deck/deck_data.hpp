@@ -5,10 +5,11 @@
 
 namespace vibrotrough::deck {
 
-/// The engine's seeds are primes above 10000.
+/// A seed as the engine requires it: prime number `index` (from 0) above 10000.
 int seed_number(int index);
 
-/// What both decks show of one packing of a case.
+/// The data of the templates of both decks of one packing.
+/// @param packing  number of the packing, from 1
 core::TemplateData describe(prepare::PreparedCase const& prepared, int packing);
 
 }  // namespace vibrotrough::deck

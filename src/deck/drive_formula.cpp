@@ -10,7 +10,7 @@ constexpr std::size_t harmonics_per_line = 5;
 std::string sine(scenario::DriveTerm const& term, char const* angle) {
     std::string argument =
         term.order == 1 ? fmt::format("v_{}", angle) : fmt::format("{}*v_{}", term.order, angle);
-    // The engine reads no minus sign after a plus.
+    // The engine does not accept a minus sign after a plus sign.
     if (term.phase > 0) argument += fmt::format("+{}", term.phase);
     if (term.phase < 0) argument += fmt::format("-{}", -term.phase);
     return fmt::format("sin({})", argument);

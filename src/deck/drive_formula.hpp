@@ -9,18 +9,20 @@ namespace vibrotrough::deck {
 
 /// A variable of the deck.
 struct Formula {
-    std::string name;
-    std::string expression;
+    std::string name;        ///< without the prefix v_
+    std::string expression;  ///< in the engine's language, m
 };
 
-/// The trough's velocity along one axis in the engine's words: what the mover must be told so that the
-/// position after each step is X(t) - X(0).
+/// The velocity of the trough along one axis as an expression of the engine. The mover adds velocity times
+/// time step, so the velocity is chosen such that the position after each step is exactly X(t) - X(0).
 struct DriveFormula {
-    std::vector<Formula> terms;  ///< variables that `speed` uses: few harmonics each, for the engine's lines
-    std::string speed;           ///< m/s
+    std::vector<Formula> terms;  ///< variables in `speed`, each with few harmonics because lines are limited
+    std::string speed;           ///< expression of the velocity, m/s
 };
 
-/// @param axis  "x" or "z", part of the variables' names
+/// The velocity that belongs to a Fourier series of the displacement.
+/// @param terms  displacement along the axis
+/// @param axis   "x" or "z", part of the names of the variables
 DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
 
 }  // namespace vibrotrough::deck

@@ -11,9 +11,9 @@ std::map<std::string, std::string> phase_sampling(prepare::PreparedCase const& p
     scenario::Scenario const& s = prepared.scenario;
     prepare::TimeGrid const& time = prepared.time;
     double const diameter = s.grains.diameter;
-    // Columns a grain and a half wide, a whole number of them: the last one is not narrower.
+    // A whole number of columns about 1.5 diameters wide, so that the last one is not narrower.
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * diameter)));
-    // A little more than the exact width: rounding must not open one more column at the box's end.
+    // Slightly more than the exact width, so that rounding does not add a column at the end of the box.
     double const column = s.layer.length / columns * (1 + 1e-12);
     return {{"samples_per_cycle", std::to_string(prepare::phases_per_cycle)},
             {"sample_steps", std::to_string(time.steps_per_cycle / prepare::phases_per_cycle)},

@@ -7,12 +7,13 @@
 
 namespace vibrotrough::deck {
 
-/// The layer is cut into bins at this many phases, one after the other: every `profile_stride` of them, so
-/// that each phase has its turn once in `profile_stride` cycles.
+/// Number of phases of a cycle at which the engine averages the layer in bins.
 constexpr int profiles_per_cycle = 10;
+
+/// A snapshot is taken at every third of these phases, so that each phase is reached once in three cycles.
 constexpr int profile_stride = 3;
 
-/// Numbers of the template `phases` by name: how often the layer is looked at within a cycle, and in what
+/// The numbers of the template `phases` by name: how often the layer is sampled within a cycle, and in which
 /// bins. Lengths in m.
 std::map<std::string, std::string> phase_sampling(prepare::PreparedCase const& prepared);
 

@@ -7,8 +7,10 @@
 
 namespace vibrotrough::deck {
 
-/// Renders the input template of that name, e.g. "probes/impact". Other templates are its parts.
-/// @throws std::out_of_range when there is none, std::logic_error when it is malformed
+/// The text of an input template with `data` in its tags.
+/// @param name  path in input_templates/ without ending, e.g. "probes/impact"
+/// @throws std::out_of_range when there is no such template
+/// @throws std::logic_error when it is malformed
 std::string render_template(std::string_view name, core::TemplateData const& data);
 
 }  // namespace vibrotrough::deck

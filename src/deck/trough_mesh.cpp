@@ -18,15 +18,16 @@ std::string facet(Node const& normal, std::array<Node, 3> const& nodes) {
     return text + "    endloop\n  endfacet\n";
 }
 
-/// A rectangle over x in [0, length] and another coordinate in [0, width]; `place` puts (x, other) in space.
-template <typename Place>
+/// A rectangle over x in [0, length] and another coordinate in [0, width]. `node_at` gives the node at (x,
+/// other).
+template <typename NodeAt>
 std::string rectangle(std::string const& name, double length, double width, double edge, Node const& normal,
-                      Place const& place) {
+                      NodeAt const& node_at) {
     int const across = std::max(1, static_cast<int>(std::lround(width / edge)));
     int const along = std::max(1, static_cast<int>(std::lround(length * across / width)));
-    // The last node is the length itself, not a product that rounds beside it.
+    // The last node is exactly at the length, where a product could differ from it by rounding.
     auto const node = [&](int i, int j) {
-        return place(i == along ? length : length * i / along, j == across ? width : width * j / across);
+        return node_at(i == along ? length : length * i / along, j == across ? width : width * j / across);
     };
     std::string text = fmt::format("solid {}\n", name);
     for (int i = 0; i < along; ++i) {

@@ -4,12 +4,13 @@
 
 namespace vibrotrough::deck {
 
-/// An STL of a flat floor 0 <= x <= length, 0 <= y <= width, z = 0, with its outermost nodes exactly on the
-/// ends and elements as near to `edge` long and to isosceles as fits: the engine stops at long thin
-/// triangles.
+/// The STL text of a flat floor 0 <= x <= length, 0 <= y <= width, z = 0 (m). Its outermost nodes are exactly
+/// on the ends. The triangles have legs of about `edge` (m) and nearly equal length, because the engine
+/// refuses long thin triangles.
 std::string flat_trough_stl(double length, double width, double edge);
 
-/// An STL of a side wall 0 <= x <= length, 0 <= z <= height in the plane y, in the same way.
+/// The STL text of a side wall 0 <= x <= length, 0 <= z <= height at this y (m), with triangles of the same
+/// kind.
 std::string side_wall_stl(double length, double height, double y, double edge);
 
 }  // namespace vibrotrough::deck

@@ -9,7 +9,7 @@
 namespace vibrotrough::prepare {
 namespace {
 
-constexpr int lines = 400;  // across, in each direction
+constexpr int lines = 400;  // of integration, along y and along z
 
 /// Integrals over the volume that the spheres cover.
 struct Moments {
@@ -20,7 +20,7 @@ struct Moments {
 
 using Intervals = std::vector<std::pair<double, double>>;
 
-/// Where the line (y, z) is inside any sphere, without overlaps.
+/// The intervals of x in which the line (y, z) is inside at least one sphere, without overlaps.
 void cut(std::vector<scenario::Sphere> const& spheres, double y, double z, Intervals& intervals) {
     intervals.clear();
     for (scenario::Sphere const& s : spheres) {
@@ -84,7 +84,7 @@ Clump scaled_clump(std::vector<scenario::Sphere> spheres, Moments const& m, doub
                  fifth * (xx + zz), -fifth * (m.yz - m.one * y * z), fifth * (xx + yy)},
                 0,
                 std::numeric_limits<double>::infinity()};
-    // Products of inertia that symmetry makes zero are rounding: the engine takes them by their size.
+    // Products of inertia that are zero by symmetry differ from zero by rounding. The engine would use them.
     for (std::size_t const product : {1U, 2U, 4U}) {
         if (std::abs(clump.inertia[product]) < 1e-9 * clump.inertia[0]) clump.inertia[product] = 0;
     }
@@ -99,12 +99,12 @@ Clump scaled_clump(std::vector<scenario::Sphere> spheres, Moments const& m, doub
 
 }  // namespace
 
-/// Moments by the shape's spheres, which stay where they are while any case uses them; clumps by shape and
-/// diameter.
+/// Moments by the address of the shape's spheres, which does not change while a case uses them; clumps by
+/// shape and diameter.
 struct ClumpMaker::Cache {
     struct Shape {
         std::shared_ptr<scenario::ShapeFile const>
-            file;  ///< keeps the spheres alive; none for built-in shapes
+            file;  ///< keeps the spheres alive; nullptr for built-in shapes
         Moments moments;
     };
     std::map<std::vector<scenario::Sphere> const*, Shape> shapes;

@@ -11,28 +11,28 @@
 
 namespace vibrotrough::prepare {
 
-/// A rigid body of overlapping spheres, in the axes of its shape, the centre of mass at 0. Its mass is that
-/// of the volume that the spheres cover: overlaps count once.
+/// A rigid body of overlapping spheres in the axes of its shape, with the centre of mass at the origin. Its
+/// mass is that of the volume that the spheres cover together: overlaps count once.
 struct Clump {
     std::vector<scenario::Sphere> spheres;  ///< m
     double volume;                          ///< m^3
-    std::array<double, 6> inertia;          ///< m^5, per density: xx, xy, xz, yy, yz, zz
-    double bounding_radius;                 ///< m, of the smallest sphere around 0 that holds all
-    double smallest_radius;                 ///< m, of its spheres
+    std::array<double, 6> inertia;          ///< m^5, tensor divided by density: xx, xy, xz, yy, yz, zz
+    double bounding_radius;  ///< m, of the smallest sphere around the origin that holds all spheres
+    double smallest_radius;  ///< m, radius of the smallest of its spheres
 };
 
 /// Makes clumps. Integrating the volume of a shape costs some ten milliseconds, so each shape is integrated
 /// once, and cases with the same shape and diameter share one clump. Not for use by several threads at once.
 class ClumpMaker {
   public:
-    ClumpMaker();
+    ClumpMaker();  ///< Without any shape.
     ~ClumpMaker();
-    ClumpMaker(ClumpMaker&&) noexcept;
-    ClumpMaker& operator=(ClumpMaker&&) noexcept;
+    ClumpMaker(ClumpMaker&&) noexcept;             ///< Takes over the shapes that were integrated.
+    ClumpMaker& operator=(ClumpMaker&&) noexcept;  ///< Takes over the shapes that were integrated.
 
-    /// The clump of the grains' shape with the volume of a sphere of the grains' diameter. Volume and inertia
-    /// are integrated over a grid of 400 x 400 lines along x, exactly along each line: to 1e-4 for the
-    /// built-in shapes.
+    /// The clump of the grains' shape that has the volume of a sphere of the grains' diameter. Volume and
+    /// inertia are integrated over a grid of 400 x 400 lines parallel to x, exactly along each line. The
+    /// error is 1e-4 for the built-in shapes.
     std::shared_ptr<Clump const> clump(scenario::Grains const& grains);
 
     /// A plate of three by three spheres of this diameter (m), whose centres are two diameters apart.

@@ -13,7 +13,8 @@ theory::Inputs plain_inputs(scenario::Trough const& trough) {
     if (trough.given.throw_number) {
         inputs.set(theory::Input::throw_number, *trough.given.throw_number);
     } else {
-        // The machine number also describes a trough that shakes along itself.
+        // Unlike the throw number, the machine number also describes a trough that vibrates along its own
+        // surface.
         inputs.set(theory::Input::machine_number, machine_number(trough));
     }
     inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
@@ -33,8 +34,8 @@ std::optional<scenario::DriveTerm> fundamental(std::vector<scenario::DriveTerm> 
     return {};
 }
 
-/// Terms beside the fundamental, as accelerations in units of `amplitude`, in a time that began `shift` rad
-/// earlier.
+/// The terms other than the fundamental as accelerations in units of `amplitude`, for a time whose zero is
+/// shifted by `shift` rad.
 std::vector<theory::Harmonic> harmonics(std::vector<scenario::DriveTerm> const& terms, double amplitude,
                                         double shift) {
     std::vector<theory::Harmonic> result;
@@ -46,8 +47,8 @@ std::vector<theory::Harmonic> harmonics(std::vector<scenario::DriveTerm> const& 
     return result;
 }
 
-/// The fundamental normal to the trough sets the throw number and the unit normal to the trough; the unit
-/// along it stays r cos(beta), in which the efficiency is expressed.
+/// The fundamental normal to the trough determines the throw number and the unit of length normal to the
+/// trough. The unit along the trough stays r cos(beta), because the efficiency is expressed in it.
 void set_drive(PointMassInputs& inputs, scenario::Trough const& trough, scenario::DriveMotion const& motion) {
     theory::Conveyor& conveyor = inputs.conveyor;
     double const along_unit = trough.amplitude * std::cos(trough.vibration_angle);

@@ -7,8 +7,11 @@
 namespace vibrotrough::prepare {
 namespace {
 
-/// Counts whose running sums are the nearest to the fractions': the mean stays the mean, and a single grain
-/// is of the middle size.
+/// Grains are poured at a low solid fraction, so that random insertion always finds space for them.
+constexpr double poured_solid_fraction = 0.2;
+
+/// Numbers of grains whose running sums are closest to those of the fractions, so that the mean size is kept
+/// and a single grain has the middle size.
 std::vector<ClassCount> count_classes(scenario::Grains const& grains, int count) {
     std::vector<ClassCount> classes;
     double fraction = 0;
@@ -22,7 +25,8 @@ std::vector<ClassCount> count_classes(scenario::Grains const& grains, int count)
     return classes;
 }
 
-/// The smallest of unit, 4 unit, 16 unit ... that is enough: cases that differ by their drives share a box.
+/// The smallest of unit, 4 unit, 16 unit ... that is at least `needed`. Because of these large steps, cases
+/// that differ only in their drives mostly have the same box and can share settled packings.
 double in_powers_of_four(double unit, double needed) {
     while (unit < needed) unit *= 4;
     return unit;
@@ -52,7 +56,6 @@ void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     c.layer_height = layer_height(s);
 }
 
-/// Grains are poured loosely: at a solid fraction of 0.2 random insertion always finds room.
 void prepare_filling(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
     double const ratio = c.clump ? 2 * c.clump->bounding_radius / s.grains.diameter : 1;
@@ -64,20 +67,22 @@ void prepare_filling(PreparedCase& c) {
     c.largest_extent = c.classes.front().diameter * ratio;
     double const width = s.layer.width - (s.trough.side_wall_friction ? c.largest_extent : 0);
     c.fill_bottom = 0.6 * c.largest_extent;
-    c.fill_top = c.fill_bottom + c.largest_extent +
-                 bounding_volume / (0.2 * s.layer.length * std::max(width, 0.2 * s.layer.width));
+    c.fill_top =
+        c.fill_bottom + c.largest_extent +
+        bounding_volume / (poured_solid_fraction * s.layer.length * std::max(width, 0.2 * s.layer.width));
 }
 
 void prepare_time(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
-    // A plate's spheres are as large as single grains.
+    // The spheres of a plate have the diameter of the grains, so only clumps need a radius of their own.
     double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s.grains) / 2;
     StepLimits const limits{radius, c.largest_speed, highest_order(c.motion)};
     c.settle_time_step = settling_time_step(s, limits, c.fill_top);
     c.time = choose_time_step(s, limits);
 }
 
-/// A grain at ten times the height that the trough's largest speed throws it to is still in the box.
+/// The box is so high that it holds a grain at ten times the height that a throw with the trough's largest
+/// speed reaches.
 void prepare_box(PreparedCase& c) {
     double const flight =
         c.largest_speed * c.largest_speed / (2 * scenario::gravity * std::cos(c.scenario.trough.inclination));

@@ -13,13 +13,13 @@ namespace vibrotrough::prepare {
 /// How many grains of one size a layer has.
 struct ClassCount {
     double diameter;  ///< m
-    int count;
+    int count;        ///< number of grains, at least 1
 };
 
-/// Everything that follows from a scenario and that more than one room needs: worked out once, and read by
-/// deck, evaluate, campaign, compare and view. SI units.
+/// Everything that follows from a scenario and that more than one room needs. It is worked out once and read
+/// by deck, evaluate, campaign, compare and view. SI units.
 struct PreparedCase {
-    scenario::Scenario scenario;
+    scenario::Scenario scenario;  ///< the case from which the rest follows
 
     // Drive.
     scenario::DriveMotion motion;  ///< of the trough, as Fourier series
@@ -27,30 +27,30 @@ struct PreparedCase {
     double machine_number;         ///< K, as given where it was given
     double angular_frequency;      ///< omega, rad/s
     double velocity_scale;         ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
-    double largest_speed;          ///< m/s, upper bound of the trough's speed
+    double largest_speed;          ///< m/s, upper bound of the speed of the trough
 
     // Grains and layer.
-    std::vector<ClassCount> classes;     ///< largest first, so that the large ones find room when poured
-    std::shared_ptr<Clump const> clump;  ///< of every grain; none for single spheres
+    std::vector<ClassCount> classes;     ///< largest first, because large grains are the hardest to insert
+    std::shared_ptr<Clump const> clump;  ///< shape of every grain; nullptr for single spheres
     int spheres_per_grain;               ///< 1 without a clump
     double mass;                         ///< kg, of all grains
     double weight;                       ///< N, normal force of the layer at rest: m g cos(alpha)
-    double layer_height;                 ///< m, at rest, as asked for or from the number of grains
+    double layer_height;                 ///< m, at rest, as given or from the number of grains
     double largest_extent;               ///< m, largest diameter of the spheres that enclose the grains
 
     // Time.
-    TimeGrid time;
-    double settle_time_step;  ///< s
+    TimeGrid time;            ///< of the run with the moving trough
+    double settle_time_step;  ///< s, while the packing settles
 
     // Simulation box.
-    double fill_bottom, fill_top;  ///< m, between which grains are poured
-    double box_top, box_bottom;    ///< m
-    double wall_height;            ///< m, of side walls
+    double fill_bottom, fill_top;  ///< m, heights between which grains are poured
+    double box_top, box_bottom;    ///< m, heights of the faces of the box
+    double wall_height;            ///< m, height of side walls
 
     // Theory.
-    PointMassInputs point_mass;
+    PointMassInputs point_mass;  ///< what the theory needs to predict the case
 
-    /// Grain-steps of this many cycles of one packing: spheres times time steps, the unit of cost.
+    /// Grain-steps of a number of cycles of one packing: spheres times time steps, the unit of cost.
     double grain_steps(double cycles) const;
 };
 
@@ -58,6 +58,7 @@ struct PreparedCase {
 /// one case to the next. Not for use by several threads at once.
 class CasePreparer {
   public:
+    /// Works out everything that follows from a scenario.
     /// @throws core::InputError when a cycle would take more than 1e8 time steps
     PreparedCase prepare(scenario::Scenario const& scenario);
 

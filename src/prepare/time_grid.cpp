@@ -16,8 +16,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double fewest_steps = 500;   ///< per cycle
 constexpr double harmonic_steps = 50;  ///< per period of the highest harmonic
 constexpr double most_steps = 1e8;
-constexpr double block_steps = 20;    ///< per contact, 2 per time constant of a landing
-constexpr double block_damping = 10;  ///< m / contact's duration
+constexpr double block_steps = 20;    ///< per contact, which is 2 per time constant of a landing
+constexpr double block_damping = 10;  ///< damping in units of m / duration of the contact
 constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 
 double rayleigh_time(scenario::Scenario const& s, double radius) {

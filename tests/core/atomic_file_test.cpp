@@ -34,7 +34,7 @@ TEST_F(AtomicFile, KeepsTheOldFileWhenTheWriterThrows) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
-TEST_F(AtomicFile, SaysWhatTheDiskRefuses) {
+TEST_F(AtomicFile, FailsOnPathsThatCannotBeUsed) {
     auto const write = [&] { core::write_file_atomically(folder / "no_such" / "x", "content"); };
     EXPECT_THROW(write(), core::MissingError);
     EXPECT_THROW(core::read_file(folder / "none"), core::MissingError);

@@ -27,7 +27,7 @@ std::string error_of(std::string_view text, CsvFormat const& format = {}) {
     return "no error";
 }
 
-/// All rows as numbers by the fast way, or the error.
+/// All rows, read as numbers without cells, or the error.
 std::vector<std::vector<double>> numbers(std::string_view text, CsvFormat const& format = {}) {
     CsvReader table(text, "t.csv", format);
     std::vector<double> row(table.columns().size());
@@ -66,7 +66,7 @@ TEST(Csv, AByteOrderMarkIsSkipped) {
     EXPECT_EQ(read("\xEF\xBB\xBF"
                    "\"a\",b\n1,2\n"),
               (Rows{{"a", "b"}, {"1", "2"}}));
-    EXPECT_EQ(error_of("\xEF\xBB\xBF"), "t.csv:1: is empty; write a line of column names first");
+    EXPECT_EQ(error_of("\xEF\xBB\xBF"), "t.csv:1: the file is empty; begin it with a line of column names");
     EXPECT_NE(error_of(std::string_view("\xFF\xFE"
                                         "a\0\n\0",
                                         6))
@@ -99,14 +99,14 @@ TEST(Csv, TheHeaderDecidesOnTheSeparator) {
               (std::vector<std::vector<double>>{{1.5, 2}, {-0.25, 1500}}));
     EXPECT_EQ(numbers("a;b\n1.5;2\n").front().front(), 1.5) << "a decimal point is right as well";
     EXPECT_EQ(numbers("a;b\n\"1,5\";2\n").front().front(), 1.5);
-    EXPECT_EQ(read("\"a;x\",b\n1,2\n"), (Rows{{"a;x", "b"}, {"1", "2"}})) << "a quoted ; separates nothing";
+    EXPECT_EQ(read("\"a;x\",b\n1,2\n"), (Rows{{"a;x", "b"}, {"1", "2"}})) << "a quoted ; is not a separator";
     EXPECT_EQ(read("# a;b\na,b\n1,2\n", {.comments = true}), (Rows{{"a", "b"}, {"1", "2"}}));
     EXPECT_EQ(read("height, m;width\n1;2\n"), (Rows{{"height, m", "width"}, {"1", "2"}}));
-    EXPECT_EQ(error_of("a,b\n1;2\n"), "t.csv:2: has 1 values for 2 columns; write one value per column");
+    EXPECT_EQ(error_of("a,b\n1;2\n"),
+              "t.csv:2: expected 2 values, one per column, but found 1; write one value per column");
     for (char const* wrong : {"a;b\n1.234,5;2\n", "a;b\n1,2,3;2\n", "a;b\n1,;2\n", "a;b\n,5x;2\n"})
-        EXPECT_NE(number_error_of(wrong).find("is not a finite plain number"), std::string::npos) << wrong;
-    EXPECT_NE(number_error_of("a,b\n\"1,5\",2\n").find("'1,5' is not a finite plain number"),
-              std::string::npos)
+        EXPECT_NE(number_error_of(wrong).find("is not a finite number"), std::string::npos) << wrong;
+    EXPECT_NE(number_error_of("a,b\n\"1,5\",2\n").find("'1,5' is not a finite number"), std::string::npos)
         << "a decimal comma needs ; between the cells";
 }
 
@@ -115,7 +115,8 @@ TEST(Csv, CommentsAndBlankLinesAreSkippedOnRequestOnly) {
     EXPECT_EQ(read(text, {.comments = true, .blanks = true}), (Rows{{"a", "b"}, {"1", "2"}, {"3", "4"}}));
     EXPECT_EQ(read("a\n\n1\n"), (Rows{{"a"}, {""}, {"1"}}));
     EXPECT_EQ(read("a\n#1\n"), (Rows{{"a"}, {"#1"}}));
-    EXPECT_EQ(error_of("a,b\n\n1,2\n"), "t.csv:2: has 1 values for 2 columns; write one value per column");
+    EXPECT_EQ(error_of("a,b\n\n1,2\n"),
+              "t.csv:2: expected 2 values, one per column, but found 1; write one value per column");
 }
 
 TEST(Csv, LinesAreCounted) {
@@ -147,14 +148,15 @@ TEST(Csv, NumbersAreStrict) {
 TEST(Csv, NumberErrorsNameLineAndColumn) {
     for (auto const& text : {"a,speed\n1,2\n3,fast\n", "a,speed\n1,2\n3,\"fast\"\n"})
         EXPECT_EQ(number_error_of(text),
-                  "t.csv:3: column speed: 'fast' is not a finite plain number; write a number such as 0.5");
+                  "t.csv:3: column speed: 'fast' is not a finite number; write a number such as 0.5");
     EXPECT_EQ(number_error_of("a,speed\n1,nan\n", {.cure = "run the case again"}),
-              "t.csv:2: column speed: 'nan' is not a finite plain number; run the case again");
+              "t.csv:2: column speed: 'nan' is not a finite number; run the case again");
     EXPECT_EQ(number_error_of("a,speed\n1,x\n", {.numbers = CsvNumbers::any}),
               "t.csv:2: column speed: 'x' is not a number; write a number such as 0.5");
     EXPECT_EQ(number_error_of("a,b\n1,2,3\n"),
-              "t.csv:2: has 3 values for 2 columns; write one value per column");
-    EXPECT_EQ(number_error_of("a,b\n1\n"), "t.csv:2: has 1 values for 2 columns; write one value per column");
+              "t.csv:2: expected 2 values, one per column, but found 3; write one value per column");
+    EXPECT_EQ(number_error_of("a,b\n1\n"),
+              "t.csv:2: expected 2 values, one per column, but found 1; write one value per column");
     CsvReader table("a,b\n1,\n", "t.csv");
     ASSERT_TRUE(table.next());
     EXPECT_EQ(table.number_if_given(0), 1);
@@ -170,7 +172,7 @@ TEST(Csv, NumberErrorsNameLineAndColumn) {
     }
 }
 
-// The fast way and the way by cells read the same numbers and refuse the same rows.
+// Reading by rows of numbers and reading by cells give the same numbers and refuse the same rows.
 TEST(Csv, BothWaysAgree) {
     for (std::string_view const text :
          {"a,b\n1,2\n\"3\",4\n", "a,b\n+1,2\n", "a,b\n1, 2\n", "a,b\n1,2\r\n", "a,b\n1e999,2\n",
@@ -196,23 +198,24 @@ TEST(Csv, BothWaysAgree) {
 
 TEST(Csv, MalformedQuotesAreRefusedWithTheirLine) {
     EXPECT_EQ(error_of("a,b\n1,2\n\"3,4\n5,6\n"),
-              "t.csv:3: a quote is opened and not closed; write the closing quote");
+              "t.csv:3: an opening quote has no closing quote; write the closing quote");
     EXPECT_EQ(error_of("a,b\n\"x\ny\",\"3\n"),
-              "t.csv:3: a quote is opened and not closed; write the closing quote");
-    EXPECT_NE(error_of("a,b\n\"1\"2,3\n").find("t.csv:2: text follows the closing quote"), std::string::npos);
-    EXPECT_NE(error_of("a,b\n5\" pipe,3\n").find("t.csv:2: a quote stands within the cell '5\" pipe'"),
+              "t.csv:3: an opening quote has no closing quote; write the closing quote");
+    EXPECT_NE(error_of("a,b\n\"1\"2,3\n").find("t.csv:2: there is text after the closing quote"),
               std::string::npos);
-    EXPECT_NE(error_of("a,b\n\"\n\",5\"\n").find("t.csv:3: a quote stands within"), std::string::npos);
-    EXPECT_NE(error_of("a,\"b\n1,2\n").find("t.csv:1: a quote is opened"), std::string::npos);
-    EXPECT_NE(error_of("a,b\n\"1\"\"\n").find("t.csv:2: a quote is opened"), std::string::npos)
-        << "a doubled quote closes nothing";
+    EXPECT_NE(error_of("a,b\n5\" pipe,3\n").find("t.csv:2: there is a quote within the cell '5\" pipe'"),
+              std::string::npos);
+    EXPECT_NE(error_of("a,b\n\"\n\",5\"\n").find("t.csv:3: there is a quote within"), std::string::npos);
+    EXPECT_NE(error_of("a,\"b\n1,2\n").find("t.csv:1: an opening quote"), std::string::npos);
+    EXPECT_NE(error_of("a,b\n\"1\"\"\n").find("t.csv:2: an opening quote"), std::string::npos)
+        << "a doubled quote does not close the cell";
 }
 
 TEST(Csv, MalformedHeadersAreRefused) {
-    EXPECT_EQ(error_of(""), "t.csv:1: is empty; write a line of column names first");
+    EXPECT_EQ(error_of(""), "t.csv:1: the file is empty; begin it with a line of column names");
     EXPECT_EQ(error_of("#\n\n", {.comments = true, .blanks = true}),
-              "t.csv:1: is empty; write a line of column names first");
-    EXPECT_EQ(error_of("a,b,a\n"), "t.csv:1: column 'a' is there twice; keep one of the two");
+              "t.csv:1: the file is empty; begin it with a line of column names");
+    EXPECT_EQ(error_of("a,b,a\n"), "t.csv:1: column 'a' appears twice; keep one of the two");
     EXPECT_EQ(error_of("a,,b\n"), "t.csv:1: column 2 has no name; write a name or remove the separator");
     EXPECT_EQ(error_of("a,b,\n"), "t.csv:1: column 3 has no name; write a name or remove the separator");
     EXPECT_NE(error_of("a\rb\n").find("control characters"), std::string::npos);
@@ -220,17 +223,18 @@ TEST(Csv, MalformedHeadersAreRefused) {
 }
 
 TEST(Csv, SizesHaveLimits) {
-    EXPECT_NE(error_of("a,b\n1,2\n", {.most_bytes = 7}).find("larger than 7 bytes"), std::string::npos);
+    EXPECT_NE(error_of("a,b\n1,2\n", {.most_bytes = 7}).find("the file is larger than 7 bytes"),
+              std::string::npos);
     EXPECT_EQ(error_of("a,b\n1,2\n", {.most_bytes = 8}), "no error");
     EXPECT_EQ(error_of("a\n1\n2\n3\n", {.most_rows = 2}),
-              "t.csv:4: there are more than 2 rows; give a smaller table");
+              "t.csv:4: there are more than 2 rows; use a smaller table");
     EXPECT_EQ(number_error_of("a\n1\n2\n3\n", {.most_rows = 2}),
-              "t.csv:4: there are more than 2 rows; give a smaller table");
+              "t.csv:4: there are more than 2 rows; use a smaller table");
     EXPECT_EQ(error_of("a\n1\n2\n", {.most_rows = 2}), "no error");
     EXPECT_NE(error_of("a,b,c\n", {.most_columns = 2}).find("more than 2 columns"), std::string::npos);
 }
 
-// At every moment of its growth a text gives its whole rows and no error, whatever is in it.
+// However much of a growing text exists, its complete rows are read without an error.
 TEST(Csv, GrowingTextsAreReadAtAnyMoment) {
     std::string const whole = "# SI\na,b\n1,2\n\"3\n3\",\"4\"\"\"\n# more\n5,6\n";
     CsvFormat const format{.comments = true, .growing = true};
@@ -242,7 +246,7 @@ TEST(Csv, GrowingTextsAreReadAtAnyMoment) {
         for (auto const& row : rows) EXPECT_TRUE(row.empty() || row.size() == 2) << size;
     }
     EXPECT_EQ(most, 4u);
-    EXPECT_TRUE(read("\"a", format).front().empty()) << "a header that is not whole yet";
+    EXPECT_TRUE(read("\"a", format).front().empty()) << "a header that is not complete yet";
     EXPECT_TRUE(numbers("a,b\n1,2", {.growing = true}).empty());
 }
 
@@ -250,7 +254,7 @@ TEST(Csv, ColumnsMayBeNamedByTheCaller) {
     CsvFormat const format{.comments = true, .columns = {"step", "x"}};
     EXPECT_EQ(numbers("# title\n1,2\n3,4\n", format), (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
     EXPECT_EQ(number_error_of("1,2\n3,\n", format),
-              "t.csv:2: column x: '' is not a finite plain number; write a number such as 0.5");
+              "t.csv:2: column x: '' is not a finite number; write a number such as 0.5");
     EXPECT_TRUE(numbers("", format).empty());
 }
 
@@ -286,9 +290,9 @@ TEST(Csv, NumberTables) {
     EXPECT_EQ(rows[1].line, 5);
     EXPECT_EQ(read_number_table("x;y\n1,5;2\n", {"x", "y"}).front().values.front(), 1.5);
     EXPECT_TRUE(read_number_table(" \n", {"x", "y"}).empty());
-    EXPECT_EQ(error("y,x\n"), "line 1 is not the header x,y");
-    EXPECT_EQ(error("x,y\n1\n"), "line 2: has 1 values for 2 columns");
-    EXPECT_EQ(error("x,y\n1,inf\n"), "line 2: column y: 'inf' is not a finite plain number");
+    EXPECT_EQ(error("y,x\n"), "line 1: this is not the header x,y");
+    EXPECT_EQ(error("x,y\n1\n"), "line 2: expected 2 values, one per column, but found 1");
+    EXPECT_EQ(error("x,y\n1,inf\n"), "line 2: column y: 'inf' is not a finite number");
 }
 
 }  // namespace

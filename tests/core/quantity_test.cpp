@@ -24,7 +24,7 @@ TEST(Quantity, ReadsUnitsIntoSi) {
     EXPECT_NEAR(core::parse_quantity("  +2.5e-1m ", "m"), 0.25, rounding);
 }
 
-TEST(Quantity, SaysWhatIsWrong) {
+TEST(Quantity, MistakesAreNamed) {
     auto const message = [](char const* text, char const* unit) {
         try {
             core::parse_quantity(text, unit);
@@ -38,19 +38,20 @@ TEST(Quantity, SaysWhatIsWrong) {
     EXPECT_EQ(message("mm", "m"), "'mm' does not begin with a finite number");
     EXPECT_EQ(message("nan m", "m"), "'nan m' does not begin with a finite number");
     EXPECT_EQ(message("inf m", "m"), "'inf m' does not begin with a finite number");
-    EXPECT_EQ(message("6 parrots", "m"), "'parrots' is not a unit that udunits2 knows");
+    EXPECT_EQ(message("6 parrots", "m"), "'parrots' is not a known unit (of udunits2)");
     EXPECT_EQ(message("6 s", "m"), "'s' cannot be converted to m");
-    EXPECT_EQ(message("6 mm; rm", "m"), "'mm; rm' is not a unit that udunits2 knows");
-    // An expression is no unit: 6 mm 3 would be 18 mm.
-    EXPECT_EQ(message("6 mm 3", "m"), "'mm 3' is no plain unit");
-    EXPECT_EQ(message("0.6 10 mm", "m"), "'10 mm' is no plain unit");
-    EXPECT_EQ(message("6 mm @ 2", "m"), "'mm @ 2' is no plain unit");
-    EXPECT_EQ(message("6 mm from 2", "m"), "'mm from 2' is no plain unit");
-    EXPECT_EQ(message("0.05 1", "radian"), "'1' is no plain unit");
-    // A radian is a 1 to udunits2: frequencies would be off by 2 pi.
-    EXPECT_EQ(message("340 rpm", "Hz"), "'rpm' is angular, Hz is not; 340 turns a minute are 340 / minute");
+    EXPECT_EQ(message("6 mm; rm", "m"), "'mm; rm' is not a known unit (of udunits2)");
+    // Expressions are refused: udunits2 would read 6 mm 3 as 18 mm.
+    EXPECT_EQ(message("6 mm 3", "m"), "'mm 3' is not a plain unit");
+    EXPECT_EQ(message("0.6 10 mm", "m"), "'10 mm' is not a plain unit");
+    EXPECT_EQ(message("6 mm @ 2", "m"), "'mm @ 2' is not a plain unit");
+    EXPECT_EQ(message("6 mm from 2", "m"), "'mm from 2' is not a plain unit");
+    EXPECT_EQ(message("0.05 1", "radian"), "'1' is not a plain unit");
+    // In udunits2 a radian is the number 1: frequencies would be wrong by a factor of 2 pi.
+    EXPECT_EQ(message("340 rpm", "Hz"),
+              "'rpm' contains an angle, Hz does not; write 340 turns per minute as 340 / minute");
     EXPECT_NE(message("85 rad/s", "Hz"), "no error");
-    EXPECT_EQ(message("5 %", "radian"), "'%' is no unit of an angle");
+    EXPECT_EQ(message("5 %", "radian"), "'%' is not a unit of angle");
     EXPECT_EQ(message("1e308 km", "mm"), "'1e308 km' is too large");
 }
 

@@ -11,7 +11,7 @@ std::string rendered(std::string_view text, TemplateData const& data, TemplateTa
     return Template(text, tags).render(data);
 }
 
-TEST(Template, TextsArePutInAsTheyAre) {
+TEST(Template, TextsAreInsertedUnchanged) {
     TemplateData data;
     data.set("x", "<a & \"b\">");
     EXPECT_EQ(rendered("1 {{x}} {{{x}}} {{&x}} 2", data), "1 <a & \"b\"> <a & \"b\"> <a & \"b\"> 2");
@@ -46,7 +46,7 @@ TEST(Template, DataIsCopiedWhole) {
     EXPECT_EQ(rendered("{{#list}}{{name}}{{/list}}.", copy), ".");
 }
 
-TEST(Template, TagsMayBeOthers) {
+TEST(Template, OtherTagsMayBeChosen) {
     TemplateData data;
     data.set("SPEED", "\"fast\"");
     EXPECT_EQ(rendered("a = \"@SPEED@\"\nb = f\"{{x}}\"\n", data, {"\"@", "@\""}),
@@ -68,7 +68,7 @@ TEST(Template, MalformedTextsAreRefused) {
     EXPECT_THROW(Template("{{/closed}}"), std::logic_error);
 }
 
-TEST(Template, PartsStandInTheirPlaces) {
+TEST(Template, PartsAreInserted) {
     static TemplateTexts const texts{{"whole", "a\n{{> folder/part}}\n{{> folder/part}}c\n"},
                                      {"folder/part", "{{#shown}}\n{{> inner}}\n{{/shown}}\n"},
                                      {"inner", "b{{x}}"},

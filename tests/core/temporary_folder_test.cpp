@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(TemporaryFolder, IsPrivateAndHasANameOfItsOwn) {
+TEST(TemporaryFolder, IsPrivateAndHasAUniqueName) {
     TemporaryFolder const one("some-purpose"), other("some-purpose");
     EXPECT_NE(one.path(), other.path());
     EXPECT_TRUE(one.path().filename().string().starts_with("some-purpose-"));
@@ -21,7 +21,7 @@ TEST(TemporaryFolder, IsPrivateAndHasANameOfItsOwn) {
     EXPECT_EQ(fs::status(one.path()).permissions(), fs::perms::owner_all);
 }
 
-TEST(TemporaryFolder, GoesWithAllThatIsInIt) {
+TEST(TemporaryFolder, IsRemovedWithItsContent) {
     fs::path path;
     {
         TemporaryFolder const folder;
@@ -43,7 +43,7 @@ TEST(TemporaryFolder, RemovesNothingThroughALink) {
     }
     EXPECT_TRUE(fs::exists(outside.path() / "kept"));
     {
-        // Somebody puts a link in the folder's own place.
+        // The folder itself is replaced by a link.
         TemporaryFolder const folder;
         fs::remove(folder.path());
         fs::create_directory_symlink(outside.path(), folder.path());
@@ -51,13 +51,13 @@ TEST(TemporaryFolder, RemovesNothingThroughALink) {
     EXPECT_TRUE(fs::exists(outside.path() / "kept"));
 }
 
-TEST(TemporaryFolder, MayBeGoneAlready) {
+TEST(TemporaryFolder, MayHaveBeenRemovedBefore) {
     std::optional<TemporaryFolder> folder(std::in_place);
     fs::remove(folder->path());
     EXPECT_NO_THROW(folder.reset());
 }
 
-TEST(TemporaryFolder, SaysWhatIsMissing) {
+TEST(TemporaryFolder, FailsWhereNoFolderCanBeMade) {
     TemporaryFolder const folder;
     char const* const before = std::getenv("TMPDIR");
     std::string const kept = before == nullptr ? "" : before;

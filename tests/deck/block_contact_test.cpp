@@ -38,7 +38,7 @@ Landing land(prepare::BlockContact const& contact, double slip, double friction)
 
 // k = m / t_c^2 and c = 10 m / t_c: rates of a landing (5 -+ sqrt(24)) / t_c = a, b; the force ends at x'' =
 // 0 with e = (a / b)^((b + a) / (b - a)) = 0.00928. The steps are 1/2000 of the fast rate.
-TEST(BlockContact, NextToNothingRebounds) {
+TEST(BlockContact, ReboundsByLessThanOnePercent) {
     Landing const landing = land(prepare::block_contact(block(), 1, 1), 0, 0.23);
     EXPECT_NEAR(landing.rebound, 0.00928, 1e-5);
 }

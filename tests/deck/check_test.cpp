@@ -44,7 +44,7 @@ TEST(Estimates, BottomLoadIsTheColumnsWeight) {
     EXPECT_NEAR(bottom_load(prepared(steep)), bottom_load(prepared(s)) / 2, 1e-12);
 }
 
-// F = 4/3 E* sqrt(R) d^(3/2), here turned round by hand: E* = 5e6 / (2 (1 - 0.35^2)) = 2.849003e6 Pa.
+// F = 4/3 E* sqrt(R) d^(3/2), evaluated by hand with E* = 5e6 / (2 (1 - 0.35^2)) = 2.849003e6 Pa.
 TEST(Estimates, HertzOverlapCarriesTheForce) {
     double const overlap = overlap_under(prepared(scenario()), 1e-3);
     EXPECT_NEAR(4.0 / 3 * 2.849003e6 * std::sqrt(0.0015) * std::pow(overlap, 1.5), 1e-3, 1e-9);

@@ -17,13 +17,13 @@ TEST(Commands, LeaveOutCommentsAndAlignment) {
 }
 
 // In LIGGGHTS a # within quotes is text, and a line that ends in & goes on.
-TEST(Commands, KnowQuotesAndContinuedLines) {
+TEST(Commands, RespectQuotesAndContinuedLines) {
     EXPECT_EQ(commands_of("print \"a # b   c\" # said\n"), "print \"a # b   c\"\n");
     EXPECT_EQ(commands_of("print 'it is \"# 1\"'\n"), "print 'it is \"# 1\"'\n");
     EXPECT_EQ(commands_of("fix a all &  # first\n   nve\nrun 1\n"), "fix a all  nve\nrun 1\n");
 }
 
-TEST(Commands, TellDecksApartThatRunDifferently) {
+TEST(Commands, DifferWhereDecksRunDifferently) {
     EXPECT_NE(commands_of("run 1\n"), commands_of("run 2\n"));
     EXPECT_NE(commands_of("print \"a b\"\n"), commands_of("print \"a  b\"\n"));
 }

@@ -35,7 +35,7 @@ double number_after(std::string const& deck, std::string const& before) {
 }
 
 // m = rho pi / 6 sum d^3 over three classes of equal number.
-TEST(Deck, KnowsItsMassAndWeight) {
+TEST(Deck, MassAndWeightOfThreeClasses) {
     scenario::Scenario const s =
         scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
     prepare::PreparedCase const prepared = prepare::prepare_case(s);
@@ -71,7 +71,8 @@ TEST(Deck, OneSizeIsOneClass) {
     EXPECT_EQ(deck.find("class2"), std::string::npos);
 }
 
-// 36.3 mm / 1.5 / 3 mm = 8 columns, each a hair wider than an eighth, so that rounding opens no ninth.
+// 36.3 mm / 1.5 / 3 mm = 8 columns, each slightly wider than an eighth, so that rounding does not add a
+// ninth.
 TEST(Deck, CutsTheLayerIntoBins) {
     scenario::Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
     std::string const deck = decks(s);
@@ -113,7 +114,7 @@ TEST(Deck, AvoidsTheKnownPitfalls) {
     EXPECT_EQ(decks(scenario()).find("rolling_friction epsd2"), std::string::npos);
 }
 
-// A sweep over drives settles once: the first deck does not know the drive.
+// A sweep over drives settles each packing once, because the first deck does not depend on the drive.
 TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
     auto const settle = [](std::string const& text) {
         return make_deck(prepare::prepare_case(scenario(text)), 1).settle_files;
@@ -163,7 +164,7 @@ TEST(Deck, SideWallsAreMeshesThatMove) {
     EXPECT_NE(text.find("peratomtypepair 3 0.5 0.23 0.3 0.23 0.23 0.3 0.3 0.3 0.3"), std::string::npos);
 }
 
-TEST(Deck, SoftGrainsNeedAWord) {
+TEST(Deck, SoftGrainsNeedAnExtraCommand) {
     EXPECT_EQ(decks(scenario()).find("soft_particles"), std::string::npos);
     std::string const soft = decks(scenario(with("5 MPa", "1 MPa")));
     EXPECT_LT(soft.find("soft_particles  yes"), soft.find("create_box"));

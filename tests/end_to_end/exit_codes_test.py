@@ -34,12 +34,12 @@ class WrongInput(EndToEndTest):
             ("trough.restitution", 0.01, "0.01", "out of range", "above 0.05"),
             ("trough.inclination", "50 deg", '"50 deg"', "out of range", "-45 to 45 deg"),
             ("grains.density", "1400 kg", '"1400 kg"', "cannot be converted to kg/m3"),
-            ("grains.poisson_ratio", "soft", '"soft"', "a text where a plain number belongs"),
+            ("grains.poisson_ratio", "soft", '"soft"', "is a text, but the key needs a plain number"),
             ("layer.grains", 60.5, "60.5", "not a whole number"),
             ("layer.length", "12.5 mm", 'length = "12.5', "4 of the largest grains", '"13.2 mm"'),
             ("measure.confidence", 95, "95", "out of range", "0.5 to 0.9999"),
             ("measure.max_cycles", 7, "7", "out of range"),
-            ("campaign.name", "../up", 'name = "../up"', "is no name"),
+            ("campaign.name", "../up", 'name = "../up"', "is not a valid name"),
         ):
             with self.subTest(key=path, value=value):
                 self.refuse(campaign_text({path: value}), marked, f" {path}: ", *parts)
@@ -51,7 +51,7 @@ class WrongInput(EndToEndTest):
         self.refuse(campaign_text({"trough.friction": None}), "trough]", "trough.friction: is missing")
         self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, grains, block is needed")
         both = campaign_text({"trough.frequency": "13 Hz"})
-        self.refuse(both, "frequency", "trough.throw_number is given as well, on line 7", "keep one of the two")
+        self.refuse(both, "frequency", "trough.throw_number is also given, on line 7", "keep one of the two")
         self.refuse("[campaign\n", "\n", "TOML")
         self.refuse("\n", "\n", "the section [campaign] is missing")
 
@@ -132,7 +132,7 @@ class SomethingMissing(EndToEndTest):
         for folder in (below, self.campaign):
             for command in ("run", self.campaign, "--liggghts", self.engine), ("deck", self.campaign):
                 done = self.call(*command, "--output", folder)
-                self.assert_one_line_error(done, 3, f"cannot make the folder {folder}", "choose another place")
+                self.assert_one_line_error(done, 3, f"cannot make the folder {folder}", "choose another folder")
         self.assertEqual(self.take_starts(), [])
 
     def test_output_that_does_not_arrive(self):

@@ -12,7 +12,7 @@ namespace vibrotrough::prepare {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// The grid of 400 x 400 lines: edges of the outline are seen to half a line in 400.
+// The integration uses 400 x 400 lines, so the edges of the outline are known to half a line in 400.
 constexpr double grid = 2e-4;
 
 scenario::Grains shaped(std::string const& file) {
@@ -45,7 +45,7 @@ TEST(Clump, OfTwoTouchingSpheres) {
     EXPECT_NEAR(clump.inertia[5], clump.inertia[3], 6 * grid * clump.inertia[3]);
 }
 
-// A sphere within another one changes nothing, and two spheres in one place are one.
+// A sphere within another one changes nothing, and two identical spheres count as one.
 TEST(Clump, CountsOverlapsOnce) {
     Clump const one = *ClumpMaker().clump(shaped("0,0,0,1\n")),
                 twice = *ClumpMaker().clump(shaped("0,0,0,1\n0,0,0,1\n0.2,0,0,0.5\n"));
@@ -75,7 +75,7 @@ TEST(Clump, PlateHasNineSpheres) {
     EXPECT_NEAR(plate.smallest_radius, 1.5e-3, grid * 1.5e-3);
 }
 
-// The integration is what costs: the same shape and diameter give the very same clump.
+// The integration is expensive: the same shape and diameter give the same object.
 TEST(Clump, IsMadeOncePerShapeAndDiameter) {
     ClumpMaker clumps;
     scenario::Grains const grains = shaped("0,0,0,1\n1,0,0,1\n");

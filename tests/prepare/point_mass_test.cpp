@@ -29,7 +29,7 @@ TEST(PointMassMotion, OfAPlainDriveIsTheFastSolvers) {
                 theory::solve(inputs(s).conveyor).motion.velocity_efficiency, 1e-9);
 }
 
-// The acceleration that the theory reckons with, -(sin t + sum a sin(k t + phase)) in units of omega^2 r
+// The acceleration that the theory uses, -(sin t + sum a sin(k t + phase)) in units of omega^2 r
 // sin(beta), is that of the drive: X'' of X = sum a_k sin(k t + phase_k).
 void expect_same_acceleration(scenario::Scenario const& s) {
     theory::Conveyor const c = inputs(s).conveyor;

@@ -67,9 +67,9 @@ TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
     EXPECT_EQ(s.output.frames_per_cycle, 0);
 }
 
-TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
+TEST(CampaignFile, ErrorsNamePositionProblemAndCure) {
     EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = 6")),
-              "c.toml:7:13: trough.amplitude: the bare number 6 has no unit; write amplitude = \"6 mm\"");
+              "c.toml:7:13: trough.amplitude: the number 6 has no unit; write amplitude = \"6 mm\"");
     EXPECT_EQ(error_of(with("amplitude = \"6 mm\"", "amplitude = \"6 s\"")),
               "c.toml:7:13: trough.amplitude: 's' cannot be converted to m; write amplitude = \"6 mm\"");
     EXPECT_EQ(error_of(with("amplitude", "amplitud")),
@@ -83,22 +83,23 @@ TEST(CampaignFile, SaysWhereAndWhatIsWrong) {
     EXPECT_EQ(
         error_of(with("friction = 0.23", "friction = -0.23")),
         "c.toml:9:12: trough.friction: -0.23 is out of range; write friction = 0.23, in the range 0 to 5");
-    EXPECT_EQ(
-        error_of(with("friction = 0.23", "friction = \"0.23\"")),
-        "c.toml:9:12: trough.friction: '0.23' is a text where a plain number belongs; write friction = 0.23");
+    EXPECT_EQ(error_of(with("friction = 0.23", "friction = \"0.23\"")),
+              "c.toml:9:12: trough.friction: '0.23' is a text, but the key needs a plain number; write "
+              "friction = 0.23");
     EXPECT_EQ(
         error_of(with("friction = 0.23", "friction = nan")),
         "c.toml:9:12: trough.friction: nan is out of range; write friction = 0.23, in the range 0 to 5");
     EXPECT_EQ(error_of(with("packings = 3", "packings = 3.5")),
               "c.toml:28:12: measure.packings: 3.5 is not a whole number; write packings = 3");
     EXPECT_EQ(error_of(with("throw_number = 2.0", "throw_number = 2.0\nfrequency = \"10 Hz\"")),
-              "c.toml:9:1: trough.frequency: trough.throw_number is given as well, on line 8, and each sets "
+              "c.toml:9:1: trough.frequency: trough.throw_number is also given, on line 8, and both set "
               "the speed of "
               "the drive; keep one of the two");
     EXPECT_EQ(error_of(with("length = \"36 mm\"", "length = \"12 mm\"")),
-              "c.toml:23:1: layer.length: 0.012 m is less than 4 of the largest grains (0.0033 m), so that "
+              "c.toml:23:1: layer.length: 0.012 m is less than 4 diameters of the largest grains (0.0033 m "
+              "each), so that "
               "grains would "
-              "meet their own images; write at least \"13.2 mm\"");
+              "touch their own periodic images; write at least \"13.2 mm\"");
 }
 
 TEST(CampaignFile, SweepsWords) {

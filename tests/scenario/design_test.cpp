@@ -105,16 +105,17 @@ TEST(Design, PointsFromASpreadsheet) {
                       "\"15.5 mm\",\"2.5\"\r\n"),
               expected);
     EXPECT_EQ(heights("layer.height;trough.throw_number\n9 mm;2\n15,5 mm;2,5\n"), expected);
-    // A comma within quotes separates nothing: the value is refused whole, where it stands.
+    // A comma within quotes does not separate cells: the whole value is refused with its line.
     std::string const quoted = refusal("layer.height,trough.throw_number\n9 mm,2\n\"15,5 mm\",2.5\n");
     EXPECT_NE(quoted.find("points.csv:3: layer.height: "), std::string::npos) << quoted;
-    EXPECT_NE(quoted.find("',5 mm' is not a unit"), std::string::npos) << quoted;
+    EXPECT_NE(quoted.find("',5 mm' is not a known unit"), std::string::npos) << quoted;
     std::string const ragged = refusal("layer.height,trough.throw_number\n9 mm\n");
-    EXPECT_NE(ragged.find("points.csv:2: has 1 values for 2 columns"), std::string::npos) << ragged;
+    EXPECT_NE(ragged.find("points.csv:2: expected 2 values, one per column, but found 1"), std::string::npos)
+        << ragged;
     std::string const open = refusal("layer.height,trough.throw_number\n\"9 mm,2\n");
-    EXPECT_NE(open.find("points.csv:2: a quote is opened and not closed"), std::string::npos) << open;
-    EXPECT_NE(refusal("").find("points.csv:1: is empty"), std::string::npos);
-    EXPECT_NE(refusal("layer.hight\n9 mm\n").find("points.csv:1:1: layer.hight: is no key"),
+    EXPECT_NE(open.find("points.csv:2: an opening quote has no closing quote"), std::string::npos) << open;
+    EXPECT_NE(refusal("").find("points.csv:1: the file is empty"), std::string::npos);
+    EXPECT_NE(refusal("layer.elevation\n9 mm\n").find("points.csv:1:1: layer.elevation: is not a key"),
               std::string::npos);
 }
 
@@ -195,23 +196,23 @@ TEST(Design, MistakesAreOneLineWithTheirPlace) {
     std::string const head = "campaign.toml:" + std::to_string(line);
     for (auto const& [design, part] : std::vector<std::pair<std::string, std::string>>{
              {"[zip]\n\"trough.friction\" = [0.1, 0.2]\n\"grains.friction\" = [0.4]\n",
-              "zipped lists go in step"},
+              "give zipped lists the same length"},
              {"[zip]\n\"trough.fricton\" = [0.1]\n", "did you mean trough.friction?"},
-             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot vary"},
+             {"[zip]\n\"campaign.name\" = [\"a\"]\n", "cannot be varied"},
              {"[[points]]\n\"trough.friction\" = 9\n", "out of range"},
              {"[[points]]\n\"trough.friction\" = 0.1\n[[points]]\n\"grains.friction\" = 0.1\n",
-              "other keys than"},
-             {"[sweep]\n\"trough.friction\" = [0.1]\n[zip]\n\"trough.friction\" = [0.2]\n", "varies as well"},
-             {"[zip]\n\"trough.throw_number\" = [1]\n\"trough.machine_number\" = [2]\n", "varies as well"},
+              "different keys than"},
+             {"[sweep]\n\"trough.friction\" = [0.1]\n[zip]\n\"trough.friction\" = [0.2]\n", "is also varied"},
+             {"[zip]\n\"trough.throw_number\" = [1]\n\"trough.machine_number\" = [2]\n", "is also varied"},
              {"[sample]\nmethod = \"random\"\ncount = 3\n", "neither \"sobol\" nor"},
              {"[sample]\nmethod = \"sobol\"\n\"trough.friction\" = { from = 0, to = 1 }\n", "count"},
              {"[sample]\nmethod = \"sobol\"\ncount = 3\n\"trough.friction\" = { from = 1, to = 0 }\n",
               "range is empty"},
-             {"[points_from]\nfile = \"../secret.csv\"\n", "no plain name"},
-             {"[points_from]\nfile = \"/etc/passwd\"\n", "no plain name"},
+             {"[points_from]\nfile = \"../secret.csv\"\n", "not the plain name"},
+             {"[points_from]\nfile = \"/etc/passwd\"\n", "not the plain name"},
              {"[points_from]\nfile = \"no_such.csv\"\n", "no_such.csv"},
-             {"[[exclude]]\n\"trough.friction\" = { above = 0 }\n", "leaves no case over"},
-             {"[[exclude]]\n\"trough.friction\" = { over = 0 }\n", "is no bound"},
+             {"[[exclude]]\n\"trough.friction\" = { above = 0 }\n", "all cases are left out"},
+             {"[[exclude]]\n\"trough.friction\" = { over = 0 }\n", "is not a bound"},
          }) {
         std::string const message = refusal(design);
         EXPECT_TRUE(message.starts_with("campaign.toml:")) << message;

@@ -77,11 +77,10 @@ TEST(Drive, WaveformMistakesAreNamed) {
         }
         return {};
     };
-    EXPECT_EQ(error_of("t,x,z\n"), "line 1 is not the header time_s,x_m,z_m");
-    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,1\n"), "line 2: has 2 values for 3 columns");
-    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,nan\n"),
-              "line 2: column z_m: 'nan' is not a finite plain number");
-    EXPECT_EQ(error_of(samples(7, 0.1)), "7 samples are fewer than 8");
+    EXPECT_EQ(error_of("t,x,z\n"), "line 1: this is not the header time_s,x_m,z_m");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,1\n"), "line 2: expected 3 values, one per column, but found 2");
+    EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,nan\n"), "line 2: column z_m: 'nan' is not a finite number");
+    EXPECT_EQ(error_of(samples(7, 0.1)), "there are 7 samples, but at least 8 are needed");
     EXPECT_NE(error_of(samples(16, 0.2)).find("sample 2 is at 0.0125 s"), std::string::npos);
     EXPECT_NE(error_of(samples(16, 0.1, 0.001)).find("sample 4 is at"), std::string::npos);
     EXPECT_EQ(error_of("time_s,x_m,z_m\n0,0,0\n0.0125,0,0\n0.025,0,0\n0.0375,0,0\n0.05,0,0\n0.0625,0,0\n"

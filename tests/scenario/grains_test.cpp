@@ -91,12 +91,12 @@ TEST(Grains, ShapeFilesAreReadAndTheirMistakesNamed) {
         return {};
     };
     EXPECT_EQ(error_of("# a dumb-bell\nx,y,z,radius\n0,0,0,1\r\n1.5,0,0,1\n"), "");
-    EXPECT_EQ(error_of(""), "no spheres");
-    EXPECT_EQ(error_of("x,y,z\n"), "line 1 is not the header x,y,z,radius");
-    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,1\n0,0,1\n"), "line 3: has 3 values for 4 columns");
-    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,inf\n"),
-              "line 2: column radius: 'inf' is not a finite plain number");
-    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,0\n"), "line 2 has no radius above 0");
+    EXPECT_EQ(error_of(""), "there are no spheres");
+    EXPECT_EQ(error_of("x,y,z\n"), "line 1: this is not the header x,y,z,radius");
+    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,1\n0,0,1\n"),
+              "line 3: expected 4 values, one per column, but found 3");
+    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,inf\n"), "line 2: column radius: 'inf' is not a finite number");
+    EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,0\n"), "line 2: the radius is not above 0");
 }
 
 // A campaign with a shape of its own, from the file beside it.

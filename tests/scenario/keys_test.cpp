@@ -17,7 +17,7 @@ TEST(Keys, ReadmeHoldsTheReference) {
         << "paste the output of 'vibrotrough keys' into " << README_FILE;
 }
 
-// What an error tells people to write must be right.
+// The examples are quoted in errors, so they must be valid.
 TEST(Keys, ExamplesAreInRange) {
     for (scenario::Key const& key : scenario::all_keys()) {
         bool const is_number = key.kind == scenario::KeyKind::quantity ||

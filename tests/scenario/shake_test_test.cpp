@@ -39,7 +39,7 @@ TEST_F(ShakeTestCampaign, ShakesTheSameLayerAlongALevelTrough) {
     EXPECT_EQ(layer_key(test), layer_key(original));
 }
 
-// Drives are swept in vain: one test per layer.
+// Sweeps over the drive do not add cases: there is one test per layer.
 TEST_F(ShakeTestCampaign, KeepsSweepsOverTheLayerOnly) {
     std::string const text = example_campaign + std::string(R"(
 [sweep]
@@ -114,7 +114,7 @@ count = 8
     }
 }
 
-// The theory that is turned around afterwards knows a sinusoid along the trough.
+// The theory by which the friction is determined afterwards is for a sinusoid along the trough.
 TEST_F(ShakeTestCampaign, LeavesOutWhatTheDriveHasBesideItsSinusoid) {
     scenario::Campaign const made =
         made_from(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\""));

@@ -44,7 +44,7 @@ TEST(TheoryTable, SpreadsheetsAreRead) {
     EXPECT_EQ(german.points[0].get(Input::friction), 0.23);
     EXPECT_EQ(german.cells[0][2], "0.23") << "commas separate the cells of the answer";
     EXPECT_NE(error_of("throw_number,tan_vibration_angle,friction\n2,\"0,5\",0.23\n")
-                  .find("in.csv:2: column tan_vibration_angle: '0,5' is not a finite plain number"),
+                  .find("in.csv:2: column tan_vibration_angle: '0,5' is not a finite number"),
               std::string::npos);
 }
 
@@ -55,7 +55,7 @@ TEST(TheoryTable, MistakesAreNamedWithTheirPlace) {
     EXPECT_EQ(error_of("# a\n\nthrow_number,friction\n2,0.3\n"),
               "in.csv:4: point 1: give exactly one of vibration_angle_deg and tan_vibration_angle; write the "
               "value");
-    EXPECT_EQ(error_of(""), "in.csv:1: is empty; write a line of column names first");
+    EXPECT_EQ(error_of(""), "in.csv:1: the file is empty; begin it with a line of column names");
     EXPECT_THROW(read_theory_points("no_such.csv"), core::InputError);
 }
 

@@ -254,7 +254,7 @@ TEST_F(TheoryFiles, BatchReadsSpreadsheets) {
         plain);
     std::ofstream(path("in.csv")) << head << "\"2,5\",0.5,0,0.23\n";
     expect_refused("batch " + path("in.csv") + " --output " + path("out.csv"),
-                   "in.csv:2: column throw_number: '2,5' is not a finite plain number");
+                   "in.csv:2: column throw_number: '2,5' is not a finite number");
 }
 
 TEST_F(TheoryFiles, BatchRefusesWrongTables) {
@@ -263,15 +263,15 @@ TEST_F(TheoryFiles, BatchRefusesWrongTables) {
     write("throw_number,colour\n2,red\n");
     expect_refused(command, "column 'colour'");
     write("throw_number,tan_vibration_angle,friction\n2,0.5\n");
-    expect_refused(command, "2 values for 3 columns");
+    expect_refused(command, "expected 3 values, one per column, but found 2");
     write("throw_number,tan_vibration_angle,friction\n2,half,0.3\n");
-    expect_refused(command, "'half' is not a finite plain number");
+    expect_refused(command, "'half' is not a finite number");
     write("throw_number,friction\n2,0.3\n");
     expect_refused(command, "vibration_angle");
     write("throw_number,tan_vibration_angle,friction\n2,0.5,0.3\n-1,0.5,0.3\n");
     expect_refused(command, "point 2");
     write("");
-    expect_refused(command, "is empty");
+    expect_refused(command, "the file is empty");
     expect_refused("batch " + path("none.csv") + " --output " + path("out.csv"), "cannot be read");
     expect_refused("batch " + path("in.csv"), "--output is missing");
 }

@@ -64,7 +64,7 @@ DriveMotion drive_motion(Trough const& trough) {
     if (along != 0) motion.along.push_back({1, along, trough.along_phase});
     if (normal != 0) motion.normal.push_back({1, normal, 0});
     for (DriveHarmonic const& harmonic : trough.harmonics) {
-        // X'' = -a sin(k t + phase) is X = a / k^2 sin(k t + phase).
+        // Integrating X'' = -a sin(k t + phase) twice gives X = a / k^2 sin(k t + phase).
         double const ratio = harmonic.ratio / (static_cast<double>(harmonic.order) * harmonic.order);
         if (along != 0) motion.along.push_back({harmonic.order, along * ratio, harmonic.phase});
         if (normal != 0) motion.normal.push_back({harmonic.order, normal * ratio, harmonic.phase});
@@ -92,7 +92,7 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file) {
     std::vector<Sample> const samples = read_samples(file.content);
     if (samples.size() < fewest_samples) {
         throw std::invalid_argument(
-            fmt::format("{} samples are fewer than {}", samples.size(), fewest_samples));
+            fmt::format("there are {} samples, but at least {} are needed", samples.size(), fewest_samples));
     }
     DriveMotion motion{fourier(samples, 1), fourier(samples, 2)};
     double largest = 0;
@@ -114,9 +114,9 @@ void check_samples(Waveform const& waveform, double period) {
         double const expected = spacing * static_cast<double>(i);
         if (std::abs(waveform.times[i] - expected) <= 1e-3 * spacing) continue;
         throw std::invalid_argument(
-            fmt::format("sample {} is at {:.6g} s; {} even samples of one cycle of {:.6g} s have it at "
-                        "{:.6g} s (the next cycle's first sample is left out)",
-                        i + 1, waveform.times[i], waveform.times.size(), period, expected));
+            fmt::format("sample {} is at {:.6g} s instead of {:.6g} s; {} samples must divide one cycle of "
+                        "{:.6g} s evenly (without the first sample of the next cycle)",
+                        i + 1, waveform.times[i], expected, waveform.times.size(), period));
     }
 }
 

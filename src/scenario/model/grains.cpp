@@ -27,7 +27,7 @@ std::vector<SizeClass> three_classes(Grains const& grains) {
     return {{d * (1 + s), 1.0 / 3}, {d, 1.0 / 3}, {d * (1 - s), 1.0 / 3}};
 }
 
-/// Mean of d^3 between a and b, each diameter as frequent: (b^4 - a^4) / (4 (b - a)).
+/// The mean of d^3 over diameters that are equally frequent between a and b is (b^4 - a^4) / (4 (b - a)).
 std::vector<SizeClass> uniform_classes(Grains const& grains) {
     std::vector<SizeClass> classes;
     double const least = grains.diameter * (1 - grains.diameter_spread);
@@ -82,7 +82,7 @@ std::vector<Sphere> cube_spheres() {
     return spheres;
 }
 
-/// A rod twice as long as thick.
+/// Three spheres in a row that overlap: a rod twice as long as thick.
 std::vector<Sphere> rod_spheres() {
     return {{-0.5, 0, 0, 0.5}, {0, 0, 0, 0.5}, {0.5, 0, 0, 0.5}};
 }
@@ -90,12 +90,13 @@ std::vector<Sphere> rod_spheres() {
 std::vector<Sphere> read_spheres(std::string_view text) {
     std::vector<Sphere> spheres;
     for (auto const& [values, line] : core::read_number_table(text, {"x", "y", "z", "radius"})) {
-        if (!(values[3] > 0)) throw std::invalid_argument(fmt::format("line {} has no radius above 0", line));
+        if (!(values[3] > 0))
+            throw std::invalid_argument(fmt::format("line {}: the radius is not above 0", line));
         spheres.push_back({values[0], values[1], values[2], values[3]});
     }
     if (spheres.size() > most_spheres)
-        throw std::invalid_argument(fmt::format("more than {} spheres", most_spheres));
-    if (spheres.empty()) throw std::invalid_argument("no spheres");
+        throw std::invalid_argument(fmt::format("there are more than {} spheres", most_spheres));
+    if (spheres.empty()) throw std::invalid_argument("there are no spheres");
     return spheres;
 }
 

@@ -13,16 +13,19 @@ namespace vibrotrough::scenario {
 /// Acceleration of gravity used by theory, decks and tables, m/s^2.
 constexpr double gravity = 9.81;
 
-/// Solid fraction of a settled layer whose height is twice that of its centre of mass. Measured: 500 spheres
-/// of 2.7 to 3.3 mm with friction 0.5 on 36 mm x 18 mm settle to a centre of mass at 9.58 mm, which is 0.581.
+/// Solid fraction of a settled layer, if its height is taken as twice the height of its centre of mass.
+/// Measured: 500 spheres of 2.7 to 3.3 mm with friction 0.5 on 36 mm x 18 mm settle to a centre of mass
+/// at 9.58 mm, which gives 0.581.
 constexpr double settled_solid_fraction = 0.58;
 
-/// Numbers of the drive as the user gave them, where they are not the ones that Trough holds. They are kept
-/// so that a throw number of 2 stays 2 in every deck, table and file instead of being computed back from the
-/// frequency. Whoever changes a Trough's angles, amplitude or frequency clears them.
+/// Numbers of the drive as the user gave them, where Trough holds a derived number instead. They are kept so
+/// that a throw number of 2 stays 2 in every deck, table and file instead of being computed back from the
+/// frequency. Code that changes the angles, amplitude or frequency of a Trough must clear them.
 struct GivenDrive {
-    std::optional<double> throw_number = {}, machine_number = {}, tan_vibration_angle = {},
-                          tan_inclination = {};
+    std::optional<double> throw_number = {};         ///< Gamma
+    std::optional<double> machine_number = {};       ///< K
+    std::optional<double> tan_vibration_angle = {};  ///< tan(beta)
+    std::optional<double> tan_inclination = {};      ///< tan(alpha)
 };
 
 /// The trough and its drive. The fundamental is along the direction of vibration.
@@ -31,23 +34,24 @@ struct Trough {
     double vibration_angle;  ///< beta, rad, between the direction of vibration and the trough, [0, pi/2)
     double amplitude;        ///< r, m, in the direction of vibration: half the stroke
     double frequency;        ///< 1/T, Hz
-    double friction;         ///< mu, grain on trough
-    double restitution;      ///< e, grain on trough, nominal value of the contact model
-    std::optional<double> side_wall_friction = {};  ///< grain on side walls; without it periodic across
-    double along_phase = 0;                         ///< rad, of x against z: an elliptical drive
-    std::vector<DriveHarmonic> harmonics = {};
+    double friction;         ///< mu, coefficient of grain on trough
+    double restitution;      ///< e, coefficient of grain on trough, nominal value of the contact model
+    std::optional<double> side_wall_friction =
+        {};                  ///< coefficient of grain on side wall; periodic across without
+    double along_phase = 0;  ///< rad, lead of x over z, which makes the drive elliptical
+    std::vector<DriveHarmonic> harmonics = {};           ///< in addition to the fundamental
     std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion instead of the sinusoid
-    GivenDrive given = {};
+    GivenDrive given = {};                               ///< numbers as the user gave them
 };
 
-/// A single rigid body in place of the layer: the point mass of the theory.
+/// A single rigid body that replaces the layer and represents the point mass of the theory.
 enum class Block {
-    none,
+    none,   ///< there is a layer
     point,  ///< one sphere that cannot rotate
-    plate,  ///< three by three spheres, one rigid body that can
+    plate,  ///< a rigid body of three by three spheres that can rotate
 };
 
-/// "none", or the word of the campaign file.
+/// The word of the campaign file, or "none".
 std::string_view name_of(Block block);
 
 /// A piece of an endless layer: periodic along the trough, and across unless there are side walls. One of
@@ -57,57 +61,61 @@ struct Layer {
     double width;                  ///< m, along y
     std::optional<double> height;  ///< m, at rest, as asked for
     int grains;                    ///< number of grains; 1 for a block
-    Block block = Block::none;
+    Block block = Block::none;     ///< what replaces the layer, if anything
 };
 
+/// What is measured, and how precisely.
 struct MeasurementPlan {
     int packings;       ///< independent packings per case
-    double confidence;  ///< of every interval, e.g. 0.95
-    double half_width;  ///< of velocity efficiency, wanted of each packing
-    int max_cycles;     ///< per packing
+    double confidence;  ///< level of every interval, e.g. 0.95
+    double half_width;  ///< of the interval of velocity efficiency at which a packing ends
+    int max_cycles;     ///< largest number of cycles of a packing
 };
 
+/// What a run writes in addition to its measurements.
 struct OutputPlan {
-    int frames_per_cycle;        ///< of the first packing; 0 writes none
-    int checkpoint_cycles = 50;  ///< between checkpoints; 0 writes none
+    int frames_per_cycle;        ///< frames for ParaView per cycle of the first packing; 0 writes none
+    int checkpoint_cycles = 50;  ///< cycles between two checkpoints; 0 writes none
 };
 
-/// What the numbers depend on beside physics.
+/// Numerical settings, on which the results should depend as little as possible.
 struct SolverPlan {
-    double rayleigh_fraction = 0.2;  ///< time step over the smallest grain's Rayleigh time, at most
-    double block_stiffness = 300;    ///< a block's contact lasts the cycle divided by this
+    double rayleigh_fraction = 0.2;  ///< upper bound of time step / Rayleigh time of the smallest grain
+    double block_stiffness = 300;    ///< duration of a cycle / duration of a block's contact
 };
 
 /// One validated case. SI units throughout.
 struct Scenario {
-    std::string campaign;  ///< name of the campaign: letters, digits, '.', '_', '-'
-    Trough trough;
-    Grains grains;
-    Layer layer;
-    MeasurementPlan measure;
-    OutputPlan output;
-    SolverPlan solver = {};
+    std::string campaign;     ///< name of the campaign: letters, digits, '.', '_', '-'
+    Trough trough;            ///< and its drive
+    Grains grains;            ///< size, shape and material
+    Layer layer;              ///< size of the layer
+    MeasurementPlan measure;  ///< packings, cycles, precision
+    OutputPlan output;        ///< frames and checkpoints
+    SolverPlan solver = {};   ///< numerical settings
 };
 
-double angular_frequency(Trough const& trough);  ///< omega, rad/s
-double machine_number(Trough const& trough);     ///< K = omega^2 r / g
-double throw_number(Trough const& trough);       ///< Gamma = omega^2 r sin(beta) / (g cos(alpha))
+double angular_frequency(Trough const& trough);  ///< Angular frequency omega, rad/s.
+double machine_number(Trough const& trough);     ///< K = omega^2 r / g, as given where it was given.
+/// Gamma = omega^2 r sin(beta) / (g cos(alpha)), as given where it was given.
+double throw_number(Trough const& trough);
 
-/// An angle (rad) in degrees: the shortest decimal number that converts to this angle within one unit in the
-/// last place, so that 30 degrees are printed as 30 and not as 29.999999999999996.
+/// An angle (rad) in degrees: the shortest decimal number that converts back to this angle to within
+/// rounding, so that 30 degrees are printed as 30 and not as 29.999999999999996.
 double in_degrees(double radian);
 
-/// omega r cos(beta), m/s: what one unit of velocity efficiency is worth.
+/// omega r cos(beta), m/s: the conveying speed at a velocity efficiency of 1.
 double velocity_scale(Trough const& trough);
 
-/// Height of the layer at rest, m: as asked for, else from the number of grains.
+/// Height of the layer at rest, m: as given, otherwise from the number of grains and settled_solid_fraction.
 double layer_height(Scenario const& scenario);
 
-/// The case as a campaign file of its own, in SI units with 17 digits: the same scenario always gives the
-/// same text, and reading the text gives the same scenario. Files that it names stand beside it.
+/// The case as a campaign file of its own, in SI units with as many digits as needed: the same scenario
+/// always gives the same text, and reading the text gives the same scenario. The text only names the files of
+/// shape and waveform; named_files() returns them.
 std::string to_toml(Scenario const& scenario);
 
-/// The files that the scenario names: shape and waveform.
+/// The files that the scenario names: shape and waveform, if it has them.
 std::vector<NamedFile> named_files(Scenario const& scenario);
 
 }  // namespace vibrotrough::scenario

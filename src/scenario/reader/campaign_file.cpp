@@ -26,7 +26,7 @@ std::size_t count_cases(CampaignText const& text, std::string const& file) {
     return count;
 }
 
-/// Sets a key, in the place of the one it excludes.
+/// Sets a key and removes the key that it excludes.
 void set(CaseValues& values, std::string const& key, Value const& value) {
     std::string_view const group = find_key(key)->group;
     if (!group.empty()) {
@@ -35,7 +35,7 @@ void set(CaseValues& values, std::string const& key, Value const& value) {
     values[key] = value;
 }
 
-/// The values of case number `index`: the last list runs fastest, then the last axis.
+/// The values of case number `index`. The last list varies fastest; after all lists comes the last axis.
 CaseValues pick(CampaignText const& text, std::size_t index) {
     CaseValues values = text.base;
     for (auto list = text.lists.rbegin(); list != text.lists.rend(); ++list) {
@@ -66,7 +66,7 @@ Campaign parse_campaign(std::string_view text, std::string const& name, FileSour
         }
     }
     if (campaign.cases.empty()) {
-        throw_at({name, parsed.exclusions.front().front().where}, "exclude", "leaves no case over",
+        throw_at({name, parsed.exclusions.front().front().where}, "exclude", "all cases are left out",
                  "exclude fewer");
     }
     return campaign;
@@ -76,9 +76,8 @@ Campaign read_campaign(std::filesystem::path const& path) {
     constexpr std::uintmax_t largest = 4 << 20;
     std::error_code failure;
     if (std::filesystem::file_size(path, failure) > largest && !failure) {
-        throw core::InputError(
-            fmt::format("{}: the file is larger than 4 MiB, which no campaign needs; is it the right one?",
-                        path.string()));
+        throw core::InputError(fmt::format(
+            "{}: the file is larger than 4 MiB, too large for a campaign; check the path", path.string()));
     }
     if (!std::filesystem::is_regular_file(path, failure)) {
         throw core::InputError(

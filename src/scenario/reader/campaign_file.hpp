@@ -13,20 +13,22 @@ namespace vibrotrough::scenario {
 
 /// A campaign file, read and checked.
 struct Campaign {
-    std::string name;
-    std::vector<Scenario>
-        cases;        ///< the Cartesian product of the sweep and the lists, less the exclusions; at least one
-    RunSettings run;  ///< how to run them
-    std::vector<std::filesystem::path> files;  ///< that the campaign file reads: CSV files of points
-    std::size_t excluded = 0;                  ///< cases that the exclusions left out
+    std::string name;             ///< of the campaign
+    std::vector<Scenario> cases;  ///< the product of sweep and lists without the excluded cases; at least one
+    RunSettings run;              ///< how to run them
+    std::vector<std::filesystem::path> files;  ///< CSV files of points that the campaign file names
+    std::size_t excluded = 0;                  ///< number of cases that the exclusions left out
 };
 
 /// Reads and checks a campaign file.
-/// @throws InputError, one line: file:line:column, key, what is wrong, what to write instead
-/// @throws MissingError when the file is there but cannot be read
+/// @throws core::InputError of one line: file:line:column, key, what is wrong, what to write instead
+/// @throws core::MissingError when the file exists but cannot be read
 Campaign read_campaign(std::filesystem::path const& path);
 
-/// The same for a text; `name` stands for the file in errors.
+/// Reads and checks the text of a campaign file.
+/// @param name    names the file in errors; CSV files of points are read from its folder
+/// @param source  where to find shapes and waveforms
+/// @throws core::InputError, core::MissingError as read_campaign
 Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source = {});
 
 }  // namespace vibrotrough::scenario

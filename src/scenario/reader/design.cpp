@@ -14,7 +14,7 @@
 namespace vibrotrough::scenario {
 namespace {
 
-// Boost's distributions give the same numbers on every machine, which the standard library's need not.
+// Boost's distributions give the same numbers on every machine; those of the standard library may differ.
 using Random = boost::random::mt19937_64;
 
 double uniform(Random& random) {
@@ -68,7 +68,7 @@ bool holds(Condition const& condition, Content const& value) {
 
 }  // namespace
 
-Content value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
+std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
     if (auto const found = given.find(key); found != given.end()) return found->second.content;
     Trough const& trough = scenario.trough;
     if (key == "trough.throw_number") return throw_number(trough);
@@ -82,14 +82,16 @@ Content value_of(Scenario const& scenario, CaseValues const& given, std::string_
     Key const& known = *find_key(key);
     if (known.kind == KeyKind::choice || known.kind == KeyKind::file)
         return std::string(choices(known).front());
-    return known.fallback.value_or(std::nan(""));  // NaN holds no condition
+    if (auto const* value = std::get_if<double>(&known.if_missing)) return *value;
+    return {};
 }
 
 bool is_excluded(Scenario const& scenario, CaseValues const& given,
                  std::vector<Exclusion> const& exclusions) {
     return std::ranges::any_of(exclusions, [&](Exclusion const& exclusion) {
         return std::ranges::all_of(exclusion, [&](Condition const& condition) {
-            return holds(condition, value_of(scenario, given, condition.key));
+            auto const value = value_of(scenario, given, condition.key);
+            return value && holds(condition, *value);
         });
     });
 }

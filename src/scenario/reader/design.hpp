@@ -9,42 +9,45 @@
 
 namespace vibrotrough::scenario {
 
-/// A list of points: values of some keys that belong together. A swept key is one with a single column;
-/// zipped lists, explicit points, a CSV file and a sample have several. A campaign runs the Cartesian product
-/// of all its lists.
+/// A list of points: values of some keys that are varied together, from zipped lists, explicit points, a CSV
+/// file or a sample. A campaign runs the Cartesian product of its sweep and all its lists.
 struct PointList {
-    std::vector<std::string> keys;
-    std::vector<std::vector<Value>> points;  ///< a row per point, a value per key
-    Position where;
+    std::vector<std::string> keys;           ///< paths of the keys
+    std::vector<std::vector<Value>> points;  ///< one row per point with one value per key
+    Position where;                          ///< of the section in the campaign file
 };
 
-/// A condition on one key: all bounds that are set must hold.
+/// A condition on one key. All bounds that are set must hold.
 struct Condition {
-    std::string key;
-    std::optional<double> above, below;  ///< SI
-    std::optional<Content> equals;
-    Position where;
+    std::string key;                     ///< path of the key
+    std::optional<double> above, below;  ///< bounds, SI units; the value itself is not included
+    std::optional<Content> equals;       ///< the value; numbers may differ from it by a relative 1e-9
+    Position where;                      ///< in the campaign file
 };
 
-/// Cases for which all conditions hold are left out.
+/// Cases for which all these conditions hold are left out.
 using Exclusion = std::vector<Condition>;
 
-/// The value that a case has for a key, whether it was given or follows from others (the throw number of a
-/// drive whose frequency was given, the grains of a layer whose height was).
-Content value_of(Scenario const& scenario, CaseValues const& given, std::string_view key);
+/// The value that a case has for a key: given, derived from others (such as the throw number of a drive whose
+/// frequency was given), or the default. Numbers are in SI units; nullopt when the case has no such value.
+/// @param key  path of a key that can be varied
+std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key);
 
-/// Whether one of the exclusions leaves the case out.
+/// Whether at least one of the exclusions applies to the case. A condition on a key without value does not
+/// hold.
 bool is_excluded(Scenario const& scenario, CaseValues const& given, std::vector<Exclusion> const& exclusions);
 
-/// Points that fill a cube [0, 1)^dimensions evenly.
+/// How points are chosen that fill the cube [0, 1)^dimensions evenly.
 enum class SampleMethod {
-    sobol,            ///< Sobol's sequence, each dimension turned by a random shift (Cranley and Patterson)
-    latin_hypercube,  ///< each of `count` slices of each dimension holds one point, at a random place in it
+    sobol,            ///< Sobol sequence, each dimension shifted at random (Cranley and Patterson, 1976)
+    latin_hypercube,  ///< each of `count` slices of each dimension holds one point at a random position
 };
 
-/// @param count       1 to 100000
+/// Chooses points in the cube [0, 1)^dimensions.
+/// @param count       number of points, 1 to 100000
 /// @param dimensions  1 to 40
-/// @return `count` rows of `dimensions` numbers; the same seed always gives the same ones
+/// @param seed        the same seed always gives the same points
+/// @return `count` rows of `dimensions` numbers
 std::vector<std::vector<double>> sample_cube(SampleMethod method, int count, int dimensions, unsigned seed);
 
 }  // namespace vibrotrough::scenario

@@ -4,7 +4,7 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "scenario/reader/keys.hpp"
+#include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,24 +19,16 @@ namespace {
 
 constexpr std::size_t most_points = 100'000;
 
-Position position(toml::source_region const& source) {
-    return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
-}
-
-bool is_word(Key const& key) {
-    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
-}
-
-/// Keys with one value: no lists, and not the campaign's name.
+/// Whether a key can be varied: it has a single value and is not the name of the campaign.
 bool can_vary(Key const& key) {
     return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
-           is_word(key);
+           has_words(key);
 }
 
+/// Reads the sections that vary keys by lists of points, and the exclusions.
 class DesignReader {
   public:
-    DesignReader(std::string const& file, ContentReader const& read, CampaignText& campaign)
-        : file_(file), read_(read), campaign_(campaign) {}
+    DesignReader(std::string const& file, CampaignText& campaign) : file_(file), campaign_(campaign) {}
 
     void read(std::string_view name, toml::node const& node) {
         if (name == "points" || name == "exclude") {
@@ -54,14 +46,14 @@ class DesignReader {
   private:
     [[noreturn]] void fail(toml::source_region const& source, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
-        throw_at({file_, position(source)}, key, wrong, instead);
+        throw_at({file_, position_of(source)}, key, wrong, instead);
     }
 
     Key const& known_key(std::string_view path, toml::source_region const& source) const {
         Key const* const key = find_key(path);
         if (key != nullptr && can_vary(*key)) return *key;
         std::string_view const nearest = nearest_key(path);
-        fail(source, core::printable(path, 60), key ? "cannot vary" : "unknown key",
+        fail(source, core::printable(path, 60), key ? "this key cannot be varied" : "unknown key",
              nearest.empty() || key ? "vary a physical input" : fmt::format("did you mean {}?", nearest));
     }
 
@@ -77,7 +69,7 @@ class DesignReader {
             fail(node.source(), name, "is a list of sections", fmt::format("write [[{}]] above each", name));
         }
         PointList list;
-        list.where = position(node.source());
+        list.where = position_of(node.source());
         for (toml::node const& table : *tables) {
             name == "points" ? read_point(*table.as_table(), list) : read_exclusion(*table.as_table());
         }
@@ -90,11 +82,11 @@ class DesignReader {
         for (auto const& [name, node] : table) {
             Key const& key = known_key(name.str(), name.source());
             keys.emplace_back(name.str());
-            point.push_back({read_(key, node), position(name.source())});
+            point.push_back({read_content(key, node, file_), position_of(name.source())});
         }
         if (list.points.empty()) list.keys = keys;
         if (keys != list.keys || keys.empty()) {
-            fail(table.source(), "points", "has other keys than the point before",
+            fail(table.source(), "points", "has different keys than the point before",
                  "give every point the same keys, in quotes: \"trough.throw_number\" = 2.0");
         }
         list.points.push_back(std::move(point));
@@ -104,20 +96,21 @@ class DesignReader {
         Exclusion exclusion;
         for (auto const& [name, node] : table) {
             Key const& key = known_key(name.str(), name.source());
-            Condition condition{std::string(name.str()), {}, {}, {}, position(name.source())};
+            Condition condition{std::string(name.str()), {}, {}, {}, position_of(name.source())};
             toml::table const* const bounds = node.as_table();
             if (bounds == nullptr) {
-                condition.equals = read_(key, node);
+                condition.equals = read_content(key, node, file_);
             } else {
                 for (auto const& [bound, value] : *bounds) {
                     if (bound.str() != "above" && bound.str() != "below")
                         fail(bound.source(), name.str(),
-                             fmt::format("'{}' is no bound", core::printable(bound.str(), 60)),
+                             fmt::format("'{}' is not a bound", core::printable(bound.str(), 60)),
                              "write { above = a }, { below = b } or a value");
-                    if (is_word(key))
-                        fail(value.source(), name.str(), "has no order", "write one of its values");
+                    if (has_words(key))
+                        fail(value.source(), name.str(), "its values have no order",
+                             "write one of its values");
                     (bound.str() == "above" ? condition.above : condition.below) =
-                        std::get<double>(read_(key, value));
+                        std::get<double>(read_content(key, value, file_));
                 }
             }
             exclusion.push_back(std::move(condition));
@@ -130,21 +123,22 @@ class DesignReader {
 
     void read_zip(toml::table const& table) {
         PointList list;
-        list.where = position(table.source());
+        list.where = position_of(table.source());
         for (auto const& [name, node] : table) {
             Key const& key = known_key(name.str(), name.source());
             toml::array const* const values = node.as_array();
             if (values == nullptr || values->size() > most_points)
-                fail(node.source(), name.str(), "is no list of at most 100000 values", "write [a, b, c]");
+                fail(node.source(), name.str(), "is not a list of at most 100000 values", "write [a, b, c]");
             if (list.keys.empty()) list.points.resize(values->size());
             if (values->size() != list.points.size())
                 fail(node.source(), name.str(),
-                     fmt::format("has {} values where {} has {}", values->size(), list.keys.front(),
+                     fmt::format("has {} values, but {} has {}", values->size(), list.keys.front(),
                                  list.points.size()),
-                     "zipped lists go in step: give them the same length");
+                     "give zipped lists the same length, because they are varied together");
             list.keys.emplace_back(name.str());
             for (std::size_t i = 0; i < values->size(); ++i)
-                list.points[i].push_back({read_(key, *values->get(i)), position(name.source())});
+                list.points[i].push_back(
+                    {read_content(key, *values->get(i), file_), position_of(name.source())});
         }
         add(std::move(list));
     }
@@ -154,7 +148,7 @@ class DesignReader {
         std::int64_t const value = node != nullptr ? node->value_exact<std::int64_t>().value_or(-1) : -1;
         if (value < least || value > most)
             fail(node ? node->source() : table.source(), fmt::format("sample.{}", name),
-                 node ? "is no whole number in its range" : "is missing",
+                 node ? "is not a whole number in its range" : "is missing",
                  fmt::format("write {} = {}, in the range {} to {}", name, std::max(least, 64), least, most));
         return static_cast<int>(value);
     }
@@ -167,7 +161,7 @@ class DesignReader {
         int const count = whole(table, "count", 1, most_points);
         int const seed = table.contains("seed") ? whole(table, "seed", 0, 2'147'483'647) : 1;
         PointList list;
-        list.where = position(table.source());
+        list.where = position_of(table.source());
         std::vector<std::array<double, 2>> ranges;
         for (auto const& [name, node] : table) {
             if (name.str() == "method" || name.str() == "count" || name.str() == "seed") continue;
@@ -196,10 +190,10 @@ class DesignReader {
         toml::table const* const range = node.as_table();
         bool const whole_range =
             range != nullptr && range->size() == 2 && range->contains("from") && range->contains("to");
-        if (!whole_range) fail(name.source(), name.str(), "is no range", "write { from = a, to = b }");
-        if (is_word(key)) fail(name.source(), name.str(), "has no order", "sample a number");
-        std::array<double, 2> const ends{std::get<double>(read_(key, *range->get("from"))),
-                                         std::get<double>(read_(key, *range->get("to")))};
+        if (!whole_range) fail(name.source(), name.str(), "is not a range", "write { from = a, to = b }");
+        if (has_words(key)) fail(name.source(), name.str(), "its values have no order", "sample a number");
+        std::array<double, 2> const ends{std::get<double>(read_content(key, *range->get("from"), file_)),
+                                         std::get<double>(read_content(key, *range->get("to"), file_))};
         if (!(ends[0] < ends[1]))
             fail(name.source(), name.str(), "the range is empty", "write { from = a, to = b } with a < b");
         return ends;
@@ -210,18 +204,18 @@ class DesignReader {
         bool const plain = PlainName::from(name).has_value() && name.ends_with(".csv");
         if (!plain || table.size() != 1)
             fail(table.source(), "points_from.file",
-                 fmt::format("'{}' is no plain name of a CSV file", core::printable(name, 60)),
-                 "write file = \"points.csv\", of a file beside the campaign file");
+                 fmt::format("'{}' is not the plain name of a CSV file", core::printable(name, 60)),
+                 "write file = \"points.csv\" for a file in the folder of the campaign file");
         std::filesystem::path const path = std::filesystem::path(file_).parent_path() / name;
         std::error_code failure;
         if (!std::filesystem::is_regular_file(path, failure) ||
             std::filesystem::file_size(path, failure) > (16u << 20))
             fail(table.source(), "points_from.file",
                  fmt::format("there is no file {} of at most 16 MiB", path.string()),
-                 "put it beside the campaign file");
+                 "put it in the folder of the campaign file");
         campaign_.files.push_back(path);
         PointList list;
-        list.where = position(table.source());
+        list.where = position_of(table.source());
         read_csv_rows(path.string(), core::read_file(path), list);
         add(std::move(list));
     }
@@ -233,7 +227,7 @@ class DesignReader {
             Key const* const key = find_key(name);
             if (key == nullptr || !can_vary(*key))
                 throw_at({file, {static_cast<unsigned>(table.header_line()), 1}}, core::printable(name, 60),
-                         "is no key that can vary",
+                         "is not a key that can be varied",
                          "write keys such as trough.throw_number in the first line");
         }
         while (table.next()) {
@@ -241,7 +235,7 @@ class DesignReader {
             std::vector<Value> point;
             for (std::size_t k = 0; k < list.keys.size(); ++k) {
                 Key const& key = *find_key(list.keys[k]);
-                std::string const cell = is_word(key)
+                std::string const cell = has_words(key)
                                              ? std::string(table.cells()[k])
                                              : core::with_decimal_point(table.cells()[k], table.separator());
                 point.push_back({read_cell(file, where, key, cell), list.where});
@@ -250,19 +244,19 @@ class DesignReader {
         }
     }
 
-    /// A cell holds what would stand right of the equals sign, without quotes.
+    /// The value in a cell, which holds what would be to the right of an equals sign, without quotes.
     Content read_cell(std::string const& file, Position where, Key const& key,
                       std::string const& cell) const {
-        // Infinities are for the key to refuse, with what to write instead.
+        // Infinities pass here: the check of the key's range refuses them with better advice.
         std::optional<double> const number = core::csv_number(cell, ',', core::CsvNumbers::any);
         bool const integral = number && std::abs(*number) < 1e15 && *number == std::round(*number);
         try {
             if (key.kind == KeyKind::integer && integral)
-                return read_(key, toml::value<std::int64_t>(std::llround(*number)));
-            if (number && !is_word(key)) return read_(key, toml::value<double>(*number));
-            return read_(key, toml::value<std::string>(cell));
+                return read_content(key, toml::value<std::int64_t>(std::llround(*number)), file_);
+            if (number && !has_words(key)) return read_content(key, toml::value<double>(*number), file_);
+            return read_content(key, toml::value<std::string>(cell), file_);
         } catch (core::InputError const& error) {
-            // The value has no place in the campaign file: its place is the CSV file's.
+            // The value has no position in the campaign file; its position in the CSV file replaces it.
             std::string const message = error.what();
             std::string const prefix = file_ + ":1:1: ";
             throw core::InputError(
@@ -272,7 +266,6 @@ class DesignReader {
     }
 
     std::string const& file_;
-    ContentReader const& read_;
     CampaignText& campaign_;
 };
 
@@ -284,8 +277,8 @@ bool is_design_section(std::string_view name) {
 }
 
 void read_design_section(std::string_view name, toml::node const& node, std::string const& file,
-                         ContentReader const& read, CampaignText& campaign) {
-    DesignReader(file, read, campaign).read(name, node);
+                         CampaignText& campaign) {
+    DesignReader(file, campaign).read(name, node);
 }
 
 void check_design(CampaignText const& campaign, std::string const& file) {
@@ -298,7 +291,7 @@ void check_design(CampaignText const& campaign, std::string const& file) {
                     !find_key(key)->group.empty() && find_key(key)->group == find_key(other)->group;
                 if (key != other && !excludes) continue;
                 throw_at({file, list.where}, key,
-                         fmt::format("{} varies as well, on line {}", other, where.line),
+                         fmt::format("{} is also varied, on line {}", other, where.line),
                          "keep one of the two");
             }
             seen.emplace_back(key, list.where);

@@ -1,10 +1,9 @@
 #include "scenario/reader/file_reader.hpp"
 
-#include "core/error.hpp"
-#include "core/quantity.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
 #include "scenario/reader/run_section.hpp"
+#include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,45 +15,20 @@
 namespace vibrotrough::scenario {
 namespace {
 
-Position position(toml::source_region const& source) {
-    return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
-}
-
-Position position(toml::node const& node) {
-    return position(node.source());
-}
-
-std::string_view name_of(std::string_view path) {
-    return path.substr(path.find('.') + 1);
-}
-
-std::string write_instead(Key const& key) {
-    return fmt::format("write {} = {}", name_of(key.path), key.example);
-}
-
-/// A plain name: it cannot lead out of its folder, nor mean anything to the engine or a shell.
-bool is_file_name(std::string_view name) {
-    bool const plain = std::ranges::all_of(name, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-               c == '_' || c == '-';
-    });
-    return plain && name.size() > 4 && name.size() <= 100 && name.ends_with(".csv") && name.front() != '.' &&
-           name.front() != '-';
-}
-
-/// toml++ gives a table's entries by name; people expect them, and their errors, in the order of the file.
+/// The entries of a table in the order of the file. toml++ sorts them by name, but users expect cases and
+/// errors in the order in which they wrote them.
 std::vector<std::pair<toml::key const*, toml::node const*>> in_file_order(toml::table const& table) {
     std::vector<std::pair<toml::key const*, toml::node const*>> entries;
     for (auto const& [key, node] : table) entries.emplace_back(&key, &node);
     std::ranges::sort(entries, {}, [](auto const& entry) {
-        Position const where = position(entry.first->source());
+        Position const where = position_of(entry.first->source());
         return std::pair(where.line, where.column);
     });
     return entries;
 }
 
-/// toml++ bounds the depth of brackets, but not that of dotted keys, whose million tables would overflow the
-/// stack. A stretch without other punctuation holds at most so many dots.
+/// toml++ limits the depth of brackets but not of dotted keys: a key with a million dots would make a million
+/// nested tables and overflow the stack. This limits the number of dots between other punctuation.
 bool is_nested_too_deeply(std::string_view text) {
     constexpr int most_dots = 5000;
     int dots = 0;
@@ -65,9 +39,10 @@ bool is_nested_too_deeply(std::string_view text) {
     return false;
 }
 
-class Reader {
+/// Reads a campaign file.
+class CampaignFileReader {
   public:
-    Reader(std::string_view text, std::string const& file) : file_(file) {
+    CampaignFileReader(std::string_view text, std::string const& file) : file_(file) {
         if (is_nested_too_deeply(text)) {
             throw_at({file_, {}}, "TOML", "keys are nested too deeply",
                      "write key = value lines under [section] headings");
@@ -75,7 +50,7 @@ class Reader {
         try {
             root_ = toml::parse(text, file);
         } catch (toml::parse_error const& error) {
-            throw_at({file_, position(error.source())}, "TOML", core::printable(error.description(), 300),
+            throw_at({file_, position_of(error.source())}, "TOML", core::printable(error.description(), 300),
                      "write key = value lines under [section] headings");
         }
     }
@@ -99,27 +74,23 @@ class Reader {
     }
 
     void read_section(toml::key const& name, toml::node const& node) {
-        Position const where = position(name.source());
-        auto const read = [this](Key const& key, toml::node const& value) {
-            return read_content(key, value);
-        };
+        Position const where = position_of(name.source());
         if (name.str() == "run" && node.is_table()) {
-            result_.run = read_run_section(*node.as_table(), file_, read);
+            result_.run = read_run_section(*node.as_table(), file_);
             return;
         }
         if (is_design_section(name.str())) {
-            read_design_section(name.str(), node, file_, read, result_);
+            read_design_section(name.str(), node, file_, result_);
             return;
         }
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
-            fail(where, core::printable(name.str(), 60), "stands above the first [section]",
+            fail(where, core::printable(name.str(), 60), "is written above the first [section]",
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, core::printable(name.str(), 60), "unknown section",
                  "the sections are campaign, trough, grains, layer, measure, output, solver, sweep, zip, "
-                 "points, "
-                 "points_from, sample, exclude and run");
+                 "points, points_from, sample, exclude and run");
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",
@@ -130,7 +101,7 @@ class Reader {
             if (name.str() == "sweep") {
                 read_sweep_entry(*key, *value);
             } else {
-                read_key(fmt::format("{}.{}", name.str(), key->str()), position(key->source()), *value);
+                read_key(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
             }
         }
     }
@@ -138,9 +109,9 @@ class Reader {
     Key const& known_key(std::string const& path, Position where) const {
         if (Key const* key = find_key(path)) return *key;
         std::string_view const nearest = nearest_key(path);
-        fail(
-            where, core::printable(path, 60), "unknown key",
-            nearest.empty() ? "'vibrotrough keys' lists all keys" : fmt::format("did you mean {}?", nearest));
+        fail(where, core::printable(path, 60), "unknown key",
+             nearest.empty() ? "see 'vibrotrough keys' for all keys"
+                             : fmt::format("did you mean {}?", nearest));
     }
 
     void read_key(std::string const& path, Position where, toml::node const& node) {
@@ -149,142 +120,41 @@ class Reader {
             for (auto const& [other, value] : result_.base) {
                 if (find_key(other)->group != key.group) continue;
                 fail(where, path,
-                     fmt::format("{} is given as well, on line {}, and each sets the {}", other,
-                                 value.where.line, key.group),
+                     fmt::format("{} is also given, on line {}, and both set the {}", other, value.where.line,
+                                 key.group),
                      "keep one of the two");
             }
         }
         if (key.kind == KeyKind::name) {
             read_name(key, where, node);
         } else {
-            result_.base[path] = {read_content(key, node), where};
+            result_.base[path] = {read_content(key, node, file_), where};
         }
     }
 
     void read_name(Key const& key, Position where, toml::node const& node) {
         std::string const name = node.value<std::string>().value_or("");
-        bool const plain = std::ranges::all_of(name, [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-                   c == '_' || c == '-';
-        });
-        if (!node.is_string() || name.empty() || name.size() > 100 || !plain || name.front() == '.' ||
-            name.front() == '-') {
-            fail(
-                where, key.path,
-                fmt::format("{} is no name", node.is_string() ? fmt::format("'{}'", core::printable(name, 60))
-                                                              : "a value that is not a text"),
-                fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
-                            key.range));
+        if (!node.is_string() || name.empty() || name.size() > 100 || !is_plain_text(name) ||
+            name.front() == '.' || name.front() == '-') {
+            fail(where, key.path,
+                 fmt::format("{} is not a valid name", node.is_string()
+                                                           ? fmt::format("'{}'", core::printable(name, 60))
+                                                           : "a value that is not a text"),
+                 fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
+                             key.range));
         }
         result_.name = name;
     }
 
-    Content read_content(Key const& key, toml::node const& node) const {
-        switch (key.kind) {
-            case KeyKind::choice:
-            case KeyKind::file:
-                return read_word(key, node);
-            case KeyKind::quantities:
-            case KeyKind::numbers:
-                return read_numbers(key, node);
-            case KeyKind::harmonics:
-                return read_words(key, node);
-            default:
-                return read_number(key, node);
-        }
-    }
-
-    std::string read_word(Key const& key, toml::node const& node) const {
-        std::string const word = node.value<std::string>().value_or("");
-        auto const known = choices(key);
-        if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
-        if (key.kind == KeyKind::file && node.is_string() && is_file_name(word)) return word;
-        fail(position(node), key.path, fmt::format("{} is not one of its values", written(node)),
-             fmt::format("{}: {}", write_instead(key), key.range));
-    }
-
-    std::vector<double> read_numbers(Key const& key, toml::node const& node) const {
-        constexpr std::size_t most = 100;
-        toml::array const* const list = node.as_array();
-        if (list == nullptr || list->empty() || list->size() > most) {
-            fail(position(node), key.path, fmt::format("is not a list of 1 to {} values", most),
-                 write_instead(key));
-        }
-        std::vector<double> values;
-        for (toml::node const& value : *list) {
-            values.push_back(key.kind == KeyKind::quantities ? read_quantity(key, value)
-                                                             : read_plain(key, value));
-            if (!(values.back() > 0 && values.back() >= key.least && values.back() <= key.most)) {
-                fail(position(value), key.path, fmt::format("{} is out of range", written(value)),
-                     fmt::format("{}, in the range {}", write_instead(key), key.range));
-            }
-        }
-        return values;
-    }
-
-    std::vector<std::string> read_words(Key const& key, toml::node const& node) const {
-        toml::array const* const list = node.as_array();
-        std::vector<std::string> words;
-        if (list != nullptr) {
-            for (toml::node const& value : *list) words.push_back(value.value<std::string>().value_or(""));
-        }
-        if (words.empty() || words.size() > 30) {
-            fail(position(node), key.path, "is not a list of 1 to 30 texts", write_instead(key));
-        }
-        return words;
-    }
-
-    double read_number(Key const& key, toml::node const& node) const {
-        double const value = key.kind == KeyKind::quantity ? read_quantity(key, node) : read_plain(key, node);
-        if (!(value >= key.least && value <= key.most)) {
-            fail(position(node), key.path, fmt::format("{} is out of range", written(node)),
-                 fmt::format("{}, in the range {}", write_instead(key), key.range));
-        }
-        return value;
-    }
-
-    double read_quantity(Key const& key, toml::node const& node) const {
-        if (node.is_number()) {
-            fail(position(node), key.path, fmt::format("the bare number {} has no unit", written(node)),
-                 write_instead(key));
-        }
-        if (!node.is_string())
-            fail(position(node), key.path, "is not a text with a number and a unit", write_instead(key));
-        try {
-            return core::parse_quantity(**node.as_string(), std::string(key.unit));
-        } catch (core::QuantityError const& error) {
-            fail(position(node), key.path, core::printable(error.what(), 300), write_instead(key));
-        }
-    }
-
-    double read_plain(Key const& key, toml::node const& node) const {
-        if (node.is_string()) {
-            fail(position(node), key.path,
-                 fmt::format("{} is a text where a plain number belongs", written(node)), write_instead(key));
-        }
-        if (key.kind == KeyKind::integer && !node.is_integer()) {
-            fail(position(node), key.path, fmt::format("{} is not a whole number", written(node)),
-                 write_instead(key));
-        }
-        if (!node.is_number()) fail(position(node), key.path, "is not a number", write_instead(key));
-        return *node.value<double>();
-    }
-
-    static std::string written(toml::node const& node) {
-        if (auto const* text = node.as_string()) return fmt::format("'{}'", core::printable(text->get(), 60));
-        if (auto const* whole = node.as_integer()) return std::to_string(whole->get());
-        if (auto const* number = node.as_floating_point()) return fmt::format("{}", number->get());
-        return "this value";
-    }
-
-    /// A swept key may stand in quotes ("trough.friction" = ...) or, dotted, without (trough.friction = ...).
+    /// A swept key may be written in quotes ("trough.friction" = ...) or as a dotted key (trough.friction =
+    /// ...).
     void read_sweep_entry(toml::key const& name, toml::node const& node) {
         if (!is_section(name.str()) || !node.is_table()) {
-            read_axis(std::string(name.str()), position(name.source()), node);
+            read_axis(std::string(name.str()), position_of(name.source()), node);
             return;
         }
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            read_axis(fmt::format("{}.{}", name.str(), key->str()), position(key->source()), *value);
+            read_axis(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
         }
     }
 
@@ -298,14 +168,13 @@ class Reader {
         for (Axis const& other : result_.sweep) {
             if (other.key == path) fail(where, path, "is swept twice", "keep one of the two");
             if (!key.group.empty() && find_key(other.key)->group == key.group) {
-                fail(where, path,
-                     fmt::format("{} is swept as well, and each sets the {}", other.key, key.group),
+                fail(where, path, fmt::format("{} is also swept, and both set the {}", other.key, key.group),
                      "keep one of the two");
             }
         }
         Axis axis{path, {}, where};
         if (auto const* list = node.as_array()) {
-            for (toml::node const& value : *list) axis.values.push_back(read_content(key, value));
+            for (toml::node const& value : *list) axis.values.push_back(read_content(key, value, file_));
         } else if (auto const* range = node.as_table()) {
             for (double const value : read_range(key, *range, where)) axis.values.emplace_back(value);
         }
@@ -319,16 +188,15 @@ class Reader {
                  "write a list [a, b] or { from = a, to = b, step = c }");
         }
         if (std::set<Content>(axis.values.begin(), axis.values.end()).size() != axis.values.size()) {
-            fail(axis.where, axis.key, "a value stands in the list twice", "list each value once");
+            fail(axis.where, axis.key, "the list contains a value twice", "list each value once");
         }
     }
 
     std::vector<double> read_range(Key const& key, toml::table const& range, Position where) const {
-        if (key.kind == KeyKind::choice || key.kind == KeyKind::file)
-            fail(where, key.path, "words make no range", "write a list [a, b]");
+        if (has_words(key)) fail(where, key.path, "is a word and cannot have a range", "write a list [a, b]");
         for (auto const& [name, node] : range) {
             if (name.str() != "from" && name.str() != "to" && name.str() != "step") {
-                fail(position(name.source()), key.path,
+                fail(position_of(name.source()), key.path,
                      fmt::format("'{}' is not part of a range", core::printable(name.str(), 60)),
                      "write { from = a, to = b, step = c }");
             }
@@ -338,18 +206,19 @@ class Reader {
             if (node == nullptr)
                 fail(where, key.path, fmt::format("the range has no '{}'", name),
                      "write { from = a, to = b, step = c }");
-            // The step is a difference: it has the key's unit, not its range.
-            return key.kind == KeyKind::quantity ? read_quantity(key, *node) : read_plain(key, *node);
+            // The step is a difference of two values: it has the unit of the key but may be outside its
+            // range.
+            return read_any_number(key, *node, file_);
         };
         double const from = part("from"), to = part("to"), step = part("step");
         double const steps = (to - from) / step;
         if (!(step > 0) || !(steps >= 0) || steps > 1e5) {
-            fail(where, key.path, "the range does not lead from 'from' to 'to' in at most 100000 steps",
+            fail(where, key.path, "'step' does not lead from 'from' to 'to' in at most 100000 steps",
                  "write { from = a, to = b, step = c } with a <= b and c > 0");
         }
         std::vector<double> values;
         for (int i = 0; i <= static_cast<int>(steps + 1e-9); ++i) {
-            // 12 digits: 0.6 + 2 * 0.4 is meant to be 1.4.
+            // Rounded to 12 digits, so that 0.6 + 2 * 0.4 gives 1.4 and not 1.4000000000000001.
             values.push_back(std::stod(fmt::format("{:.12g}", from + i * step)));
         }
         for (double const value : {values.front(), values.back()}) {
@@ -371,11 +240,11 @@ class Reader {
 
     void check_present(Key const& key) const {
         if (is_optional(key) || given(key.path)) return;
-        std::vector<std::string_view> names{name_of(key.path)};
+        std::vector<std::string_view> names{last_name(key.path)};
         for (Key const& other : all_keys()) {
             if (key.group.empty() || other.group != key.group || other.path == key.path) continue;
             if (given(other.path)) return;
-            names.push_back(name_of(other.path));
+            names.push_back(last_name(other.path));
         }
         std::string const section(key.path.substr(0, key.path.find('.')));
         auto const found = sections_.find(section);
@@ -395,7 +264,7 @@ class Reader {
 }  // namespace
 
 CampaignText read_campaign_text(std::string_view text, std::string const& file) {
-    return Reader(text, file).read();
+    return CampaignFileReader(text, file).read();
 }
 
 }  // namespace vibrotrough::scenario

@@ -1,47 +1,42 @@
 #include "scenario/reader/run_section.hpp"
 
 #include "core/text.hpp"
-#include "scenario/reader/keys.hpp"
+#include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::scenario {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using enum KeyNeed;
 
 constexpr std::array keys{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", none, "\"slurm\"",
-        "who runs the packings: this machine, or job arrays of Slurm"},
-    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0, "2",
-        "of a packing, after an outcome for which the table of outcomes says so"},
-    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", none, "2",
-        "MPI ranks of every engine; without it chosen from the number of grains"},
-    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", none, "\"12 hours\"",
-        "wall clock of a packing, outcome time-limit beyond it; without it none"},
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm"},
+    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
+        "how often a packing is run again after an outcome for which the table of outcomes allows it"},
+    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "2",
+        "MPI ranks of each engine; chosen from the number of grains if not given"},
+    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
+        "largest wall-clock time of a packing, after which its outcome is time-limit; no limit if not given"},
     Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
-        none, "\"compute\"", "without it Slurm's default, as for all of these"},
-    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", none,
-        "\"granular\"", "that the time is charged to"},
-    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", none, "\"12 hours\"",
-        "wall clock that a packing may take; Slurm counts whole minutes"},
-    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", none, "\"2 GB\"",
-        "of a packing; 1 GB is 1024 MB"},
-    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", none, "100",
-        "at most so many packings of one array at a time"},
+        optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given"},
+    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        optional, "\"granular\"", "account to which the computing time is charged"},
+    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional,
+        "\"12 hours\"", "wall-clock time requested for a packing, rounded up to whole minutes"},
+    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
+        "memory requested for a packing; 1 GB is 1024 MB"},
+    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
+        "largest number of packings of one array that run at the same time"},
 };
 
-bool is_letter_or_digit(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
-
-/// "2 GB" in MiB; nothing when the text is no such amount.
+/// An amount of memory such as "2 GB" in MiB; nullopt when the text is not such an amount.
 std::optional<std::int64_t> parse_memory(std::string_view text) {
     double amount = 0;
     auto const [rest, failure] = std::from_chars(text.data(), text.data() + text.size(), amount);
@@ -57,9 +52,10 @@ std::optional<std::int64_t> parse_memory(std::string_view text) {
     return std::llround(amount);
 }
 
+/// Reads the section [run].
 class RunSection {
   public:
-    RunSection(std::string const& file, ContentReader const& read) : file_(file), read_(read) {}
+    explicit RunSection(std::string const& file) : file_(file) {}
 
     RunSettings read(toml::table const& section) {
         for (auto const& [name, node] : section) {
@@ -75,8 +71,7 @@ class RunSection {
   private:
     [[noreturn]] void fail(toml::source_region const& source, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
-        throw_at({file_, {std::max(1u, source.begin.line), std::max(1u, source.begin.column)}}, key, wrong,
-                 instead);
+        throw_at({file_, position_of(source)}, key, wrong, instead);
     }
 
     void read_entry(std::string_view section, toml::key const& name, toml::node const& node) {
@@ -89,20 +84,20 @@ class RunSection {
                 if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
             }
             fail(name.source(), core::printable(path, 60), "unknown key",
-                 fmt::format("this section has {}", fmt::join(names, ", ")));
+                 fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
         }
         found->kind == KeyKind::name || found->kind == KeyKind::choice ? read_text(*found, node)
                                                                        : read_number(*found, node);
     }
 
     void read_text(Key const& key, toml::node const& node) {
-        std::string_view const name = key.path.substr(key.path.rfind('.') + 1);
+        std::string_view const name = last_name(key.path);
         std::string const given = node.value<std::string>().value_or("");
         auto const refuse = [&] {
             fail(node.source(), key.path,
                  node.is_string() ? fmt::format("'{}' is not allowed", core::printable(given, 60))
                                   : "is not a text",
-                 fmt::format("write {} = {}: {}", name, key.example, key.range));
+                 fmt::format("{}; allowed: {}", write_instead(key), key.range));
         };
         if (name == "executor") {
             if (given != "local" && given != "slurm") refuse();
@@ -118,7 +113,7 @@ class RunSection {
     }
 
     void read_number(Key const& key, toml::node const& node) {
-        double const value = std::get<double>(read_(key, node));
+        double const value = std::get<double>(read_content(key, node, file_));
         int const whole = static_cast<int>(std::lround(value));
         if (key.path == "run.retries") settings_.retries = whole;
         if (key.path == "run.ranks") settings_.ranks = whole;
@@ -128,7 +123,6 @@ class RunSection {
     }
 
     std::string const& file_;
-    ContentReader const& read_;
     RunSettings settings_;
 };
 
@@ -138,15 +132,8 @@ std::span<Key const> run_keys() {
     return keys;
 }
 
-std::optional<PlainName> PlainName::from(std::string_view text) {
-    bool const plain = std::ranges::all_of(
-        text, [](char c) { return is_letter_or_digit(c) || c == '.' || c == '_' || c == '-'; });
-    if (text.empty() || text.size() > 64 || !plain || !is_letter_or_digit(text.front())) return {};
-    return PlainName(text);
-}
-
-RunSettings read_run_section(toml::table const& section, std::string const& file, ContentReader const& read) {
-    return RunSection(file, read).read(section);
+RunSettings read_run_section(toml::table const& section, std::string const& file) {
+    return RunSection(file).read(section);
 }
 
 }  // namespace vibrotrough::scenario

@@ -15,7 +15,7 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// The layer as it is, on a level trough that shakes along itself as a sinusoid.
+/// The same layer on a level trough that vibrates along its own surface as a sinusoid.
 Scenario shaken(Scenario scenario, double machine_number) {
     Trough& trough = scenario.trough;
     trough.inclination = 0;
@@ -42,11 +42,12 @@ Keys keys_of(Scenario const& scenario) {
             keys.emplace(std::string(section.str()) + "." + std::string(key.str()), text.str());
         }
     }
-    keys.emplace("grains.shape", "\"sphere\"");  // what is not said of single spheres
+    keys.emplace("grains.shape", "\"sphere\"");  // to_toml leaves this key out for spheres
     return keys;
 }
 
-/// Keys that differ between the layers. All have the same ones: a design sets a key in every case or in none.
+/// The keys whose values differ between the layers. All layers have the same keys, because a design sets a
+/// key in every case or in none.
 std::set<std::string> differing(std::vector<Keys> const& layers) {
     std::set<std::string> names;
     for (Keys const& one : layers) {

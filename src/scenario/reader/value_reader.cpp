@@ -1,0 +1,151 @@
+#include "scenario/reader/value_reader.hpp"
+
+#include "core/quantity.hpp"
+#include "core/text.hpp"
+#include "scenario/model/run_settings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+/// Reads the value of one key.
+class ValueReader {
+  public:
+    ValueReader(Key const& key, std::string const& file) : key_(key), file_(file) {}
+
+    std::string word(toml::node const& node) const {
+        std::string const word = node.value<std::string>().value_or("");
+        auto const known = choices(key_);
+        if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
+        if (key_.kind == KeyKind::file && node.is_string() && is_csv_name(word)) return word;
+        fail(node, fmt::format("{} is not an allowed value", written(node)),
+             fmt::format("{}; allowed: {}", write_instead(key_), key_.range));
+    }
+
+    std::vector<std::string> words(toml::node const& node) const {
+        toml::array const* const list = node.as_array();
+        std::vector<std::string> words;
+        if (list != nullptr) {
+            for (toml::node const& value : *list) words.push_back(value.value<std::string>().value_or(""));
+        }
+        if (words.empty() || words.size() > 30)
+            fail(node, "is not a list of 1 to 30 texts", write_instead(key_));
+        return words;
+    }
+
+    double number(toml::node const& node) const {
+        double const value = any_number(node);
+        if (!(value >= key_.least && value <= key_.most)) fail_range(node);
+        return value;
+    }
+
+    std::vector<double> numbers(toml::node const& node) const {
+        constexpr std::size_t most = 100;
+        toml::array const* const list = node.as_array();
+        if (list == nullptr || list->empty() || list->size() > most)
+            fail(node, fmt::format("is not a list of 1 to {} values", most), write_instead(key_));
+        std::vector<double> values;
+        for (toml::node const& value : *list) {
+            values.push_back(any_number(value));
+            if (!(values.back() > 0 && values.back() >= key_.least && values.back() <= key_.most))
+                fail_range(value);
+        }
+        return values;
+    }
+
+    double any_number(toml::node const& node) const {
+        bool const has_unit = key_.kind == KeyKind::quantity || key_.kind == KeyKind::quantities;
+        return has_unit ? quantity(node) : plain_number(node);
+    }
+
+  private:
+    [[noreturn]] void fail(toml::node const& node, std::string_view wrong, std::string_view instead) const {
+        throw_at({file_, position_of(node.source())}, key_.path, wrong, instead);
+    }
+
+    [[noreturn]] void fail_range(toml::node const& node) const {
+        fail(node, fmt::format("{} is out of range", written(node)),
+             fmt::format("{}, in the range {}", write_instead(key_), key_.range));
+    }
+
+    /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
+    static bool is_csv_name(std::string_view name) {
+        return is_plain_text(name) && name.size() > 4 && name.size() <= 100 && name.ends_with(".csv") &&
+               name.front() != '.' && name.front() != '-';
+    }
+
+    /// The value as the user wrote it, for a message.
+    static std::string written(toml::node const& node) {
+        if (auto const* text = node.as_string()) return fmt::format("'{}'", core::printable(text->get(), 60));
+        if (auto const* whole = node.as_integer()) return std::to_string(whole->get());
+        if (auto const* number = node.as_floating_point()) return fmt::format("{}", number->get());
+        return "this value";
+    }
+
+    double quantity(toml::node const& node) const {
+        if (node.is_number())
+            fail(node, fmt::format("the number {} has no unit", written(node)), write_instead(key_));
+        if (!node.is_string()) fail(node, "is not a text with a number and a unit", write_instead(key_));
+        try {
+            return core::parse_quantity(**node.as_string(), std::string(key_.unit));
+        } catch (core::QuantityError const& error) {
+            fail(node, core::printable(error.what(), 300), write_instead(key_));
+        }
+    }
+
+    double plain_number(toml::node const& node) const {
+        if (node.is_string())
+            fail(node, fmt::format("{} is a text, but the key needs a plain number", written(node)),
+                 write_instead(key_));
+        if (key_.kind == KeyKind::integer && !node.is_integer())
+            fail(node, fmt::format("{} is not a whole number", written(node)), write_instead(key_));
+        if (!node.is_number()) fail(node, "is not a number", write_instead(key_));
+        return *node.value<double>();
+    }
+
+    Key const& key_;
+    std::string const& file_;
+};
+
+}  // namespace
+
+Position position_of(toml::source_region const& source) {
+    return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
+}
+
+bool has_words(Key const& key) {
+    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
+}
+
+std::string_view last_name(std::string_view path) {
+    return path.substr(path.rfind('.') + 1);
+}
+
+std::string write_instead(Key const& key) {
+    return fmt::format("write {} = {}", last_name(key.path), key.example);
+}
+
+Content read_content(Key const& key, toml::node const& node, std::string const& file) {
+    ValueReader const reader(key, file);
+    switch (key.kind) {
+        case KeyKind::choice:
+        case KeyKind::file:
+            return reader.word(node);
+        case KeyKind::quantities:
+        case KeyKind::numbers:
+            return reader.numbers(node);
+        case KeyKind::harmonics:
+            return reader.words(node);
+        default:
+            return reader.number(node);
+    }
+}
+
+double read_any_number(Key const& key, toml::node const& node, std::string const& file) {
+    return ValueReader(key, file).any_number(node);
+}
+
+}  // namespace vibrotrough::scenario
