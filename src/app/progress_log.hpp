@@ -16,7 +16,9 @@ namespace vibrotrough::app {
 /// once a second) or "case_ended".
 class JsonProgress : public campaign::Observer {
   public:
+    /// Prints the progress, at most once a second.
     void progressed(campaign::Progress const& progress) override;
+    /// Prints that a case has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
@@ -27,7 +29,9 @@ class JsonProgress : public campaign::Observer {
 /// Prints nothing.
 class NoProgress : public campaign::Observer {
   public:
+    /// Does nothing.
     void progressed(campaign::Progress const&) override {}
+    /// Does nothing.
     void case_ended(campaign::PlannedCase const&, core::Outcome, std::string const&) override {}
 };
 
@@ -53,7 +57,9 @@ class LoggingObserver : public campaign::Observer {
     /// @param folder  of the campaign. The log is opened at the first event, when this process has locked the
     ///                folder.
     LoggingObserver(campaign::Observer& next, std::filesystem::path folder);
+    /// Passes the progress on.
     void progressed(campaign::Progress const& progress) override;
+    /// Writes that a case has ended to the log, and passes it on.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 

@@ -18,7 +18,9 @@ class ProgressPrinter : public campaign::Observer {
     /// Removes the lines from the terminal.
     ~ProgressPrinter() override;
 
+    /// Prints or updates the lines of progress.
     void progressed(campaign::Progress const& progress) override;
+    /// Prints a line about a case that has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 

@@ -91,7 +91,7 @@ class WrongInput(EndToEndTest):
         for command in ("compare", "status", "export"):
             for folder in (self.folder, self.folder / "gone", a_file):
                 with self.subTest(command=command, folder=folder):
-                    told = f"{folder} is no campaign folder"
+                    told = f"{folder} is not a campaign folder"
                     self.assert_one_line_error(self.call(command, folder), 2, told, "vibrotrough run")
 
     def test_help_is_no_error(self):
