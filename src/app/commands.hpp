@@ -8,33 +8,61 @@ namespace vibrotrough::app {
 
 /// Explains modes in the help of every command that prints them.
 constexpr char const* mode_letters =
-    "A mode lists the phases of one period in order: F flight, P slide forwards relative to the trough, N "
-    "slide\n"
-    "backwards, R rest; P' and N' are slides that directly follow a landing.\n";
+    "Modes list the phases of one period in order: P slides forwards, N slides backwards, R rests on the "
+    "trough, "
+    "F flies; P' and N' are slides that start with a landing.";
 
-// Each function adds one subcommand to the program: its options, its help, and what it runs, in a file
-// of the same name. What a subcommand runs stores its exit code; errors are thrown and worded by main.
+/// @name Commands
+/// Each function adds one command to the program: its options, its help and what it runs. It is defined in a
+/// file of the same name in commands/. A command stores its exit code in `exit_code`. It throws errors, and
+/// main() prints them.
+/// @{
+
+/// Simulates the cases of a campaign.
 void add_run(CLI::App& program, int& exit_code);
+/// Lists the cases of a campaign and what they will cost.
 void add_plan(CLI::App& program, int& exit_code);
+/// Simulates one packing, for a scheduler.
 void add_work(CLI::App& program, int& exit_code);
+/// Prints the reference of the campaign file.
 void add_keys(CLI::App& program, int& exit_code);
+/// Writes LIGGGHTS decks without running them.
 void add_deck(CLI::App& program, int& exit_code);
+/// Shows how far a campaign is.
 void add_status(CLI::App& program, int& exit_code);
+/// Prints the table of measured and theoretical conveying.
 void add_compare(CLI::App& program, int& exit_code);
+/// Measures the friction of layers as a whole.
 void add_friction_test(CLI::App& program, int& exit_code);
+/// Writes files for ParaView.
 void add_export(CLI::App& program, int& exit_code);
+/// Draws figures.
 void add_plot(CLI::App& program, int& exit_code);
-void add_report(CLI::App& program, int& exit_code);  // in plot.cpp: the report is drawn with the figures
+/// Writes the HTML report; defined in plot.cpp, because it draws the same figures.
+void add_report(CLI::App& program, int& exit_code);
+/// Tests a LIGGGHTS binary.
 void add_probe_engine(CLI::App& program, int& exit_code);
+/// Runs the validation cases.
 void add_validate(CLI::App& program, int& exit_code);
+/// Checks a campaign before it is simulated.
 void add_check(CLI::App& program, int& exit_code);
+/// Solves one motion.
 void add_theory_point(CLI::App& theory, int& exit_code);
+/// Solves a grid over two inputs.
 void add_theory_map(CLI::App& theory, int& exit_code);
+/// Prints the motion over one period.
 void add_theory_trace(CLI::App& theory, int& exit_code);
+/// Prints closed-form results.
 void add_theory_limits(CLI::App& theory, int& exit_code);
+/// Evaluates a horizontal shake test.
 void add_theory_friction(CLI::App& theory, int& exit_code);
+/// Prints derivatives of the velocity efficiency.
 void add_theory_sensitivity(CLI::App& theory, int& exit_code);
+/// Finds the fastest machine within limits.
 void add_theory_design(CLI::App& theory, int& exit_code);
+/// Solves the motions of a CSV file.
 void add_theory_batch(CLI::App& theory, int& exit_code);
+
+/// @}
 
 }  // namespace vibrotrough::app

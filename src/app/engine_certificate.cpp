@@ -61,8 +61,8 @@ bool certify(engine::Engine& engine, bool accept_failed_probes) {
     if (!certificate) return false;
     if (!certificate->passed() && !accept_failed_probes) {
         throw core::MissingError(fmt::format(
-            "{} is not to be trusted: {}; give another engine with --liggghts PATH, look closer with "
-            "'vibrotrough probe-engine', or go on with --accept-failed-probes",
+            "{} failed its probes: {}; give another engine with --liggghts PATH, see all probes with "
+            "'vibrotrough probe-engine', or run it anyway with --accept-failed-probes",
             engine.program.string(), verdict_of(*certificate)));
     }
     engine.certificate = engine::to_json(*certificate);

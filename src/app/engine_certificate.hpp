@@ -8,19 +8,19 @@
 
 namespace vibrotrough::app {
 
-/// Probes the engine, tells the user so on standard error and keeps the certificate for next time. Nothing
-/// when interrupted.
+/// Probes the engine, which takes a few seconds, prints that and the result on standard error, and keeps the
+/// certificate of an engine that passed. None when interrupted.
 std::optional<engine::Certificate> probe_now(engine::Engine const& engine);
 
-/// The kept certificate of this binary, else `probe_now`.
+/// The certificate of this binary that was kept, else that of probe_now().
 std::optional<engine::Certificate> certificate_of(engine::Engine const& engine);
 
-/// Gives the engine its certificate. An engine whose probes failed is refused unless the user accepts that.
-/// False when interrupted.
-/// @throws MissingError when it is refused
+/// Stores its certificate in `engine`. False when interrupted.
+/// @param accept_failed_probes  whether the user accepts an engine whose probes failed
+/// @throws core::MissingError when probes failed and the user does not accept that
 bool certify(engine::Engine& engine, bool accept_failed_probes);
 
-/// One line: how many probes passed, and which failed.
+/// One line for people: how many probes passed, and which failed.
 std::string verdict_of(engine::Certificate const& certificate);
 
 }  // namespace vibrotrough::app

@@ -2,14 +2,14 @@
 
 namespace vibrotrough::app {
 
-/// The program's exit codes: a contract with scripts.
+/// The exit codes of the program. Scripts rely on them.
 enum ExitCode : int {
-    all_well = 0,
-    some_cases_failed = 1,  ///< the rest are finished and kept
-    wrong_input = 2,
-    something_missing = 3,  ///< no engine, no disk, no permission
-    internal_error = 70,    ///< a mistake of the program, please report it
-    interrupted = 130,
+    all_well = 0,           ///< everything succeeded
+    some_cases_failed = 1,  ///< the other cases are finished and kept
+    wrong_input = 2,        ///< the command line or a file is wrong
+    something_missing = 3,  ///< no engine, no disk space, or no permission
+    internal_error = 70,    ///< an error in the program; please report it
+    interrupted = 130,      ///< by Ctrl-C or another signal
 };
 
 }  // namespace vibrotrough::app

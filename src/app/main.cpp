@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/help_formatter.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
 
@@ -33,6 +34,10 @@ void add_commands(CLI::App& program, int& exit_code) {
     CLI::App* const theory =
         program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
     theory->require_subcommand(1);
+    theory->footer(
+        R"(These commands need microseconds to seconds and no simulation. 'vibrotrough theory COMMAND --help'
+explains a command. Example:
+  vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23)");
     add_theory_point(*theory, exit_code);
     add_theory_map(*theory, exit_code);
     add_theory_trace(*theory, exit_code);
@@ -43,30 +48,38 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_theory_batch(*theory, exit_code);
 }
 
-/// One line for what CLI11 says in two, and never mentions a misspelt command.
+/// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt
+/// command.
 std::string describe(CLI::ParseError const& error, CLI::App const& program, int argc, char** argv) {
     CLI::App const* command = &program;
-    std::string path = "vibrotrough", wrong = error.what();
+    std::string path = "vibrotrough", problem = error.what();
     for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
         std::string const word = argv[i];
         auto const named =
             command->get_subcommands([&](CLI::App const* one) { return one->get_name() == word; });
         if (named.empty()) {
             if (!command->get_subcommands([](CLI::App const*) { return true; }).empty()) {
-                wrong = fmt::format("there is no command '{}'", word);
+                problem = fmt::format("there is no command '{}'", word);
             }
             break;
         }
         command = named.front();
         path += " " + word;
     }
-    return fmt::format("{}; '{} --help' explains", wrong, path);
+    return fmt::format("{}; see '{} --help'", problem, path);
 }
 
 int run(int argc, char** argv) {
     CLI::App program{
-        "How fast does a vibrating trough convey a granular layer: DEM campaigns against point-mass theory"};
+        "Measures with LIGGGHTS simulations (DEM) how fast a vibrating trough conveys a granular layer, and "
+        "compares "
+        "it with the point-mass theory of vibratory conveying"};
     program.name("vibrotrough");
+    program.formatter(std::make_shared<HelpFormatter>());
+    program.footer(R"('vibrotrough COMMAND --help' explains a command and gives an example. A first campaign:
+  vibrotrough check validation/demo/campaign.toml
+  vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2
+  vibrotrough compare runs/demo)");
     program.set_version_flag(
         "--version", fmt::format("vibrotrough {} ({})", core::program_version(), core::program_commit()));
     program.require_subcommand(1);
@@ -82,7 +95,7 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
-/// A table that did not arrive, because its disk is full, must not end in exit code 0.
+/// When the disk is full, a table that could not be written must not end in exit code 0.
 void flush_output() {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
     throw core::MissingError(fmt::format(

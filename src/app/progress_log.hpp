@@ -12,44 +12,54 @@ class logger;
 
 namespace vibrotrough::app {
 
-/// Shows progress as JSON lines on standard error: an object per line, "event" says which:
-/// progress (at most one a second), case_ended.
+/// Prints progress as JSON on standard error, one object per line. Its member "event" is "progress" (at most
+/// once a second) or "case_ended".
 class JsonProgress : public campaign::Observer {
   public:
+    /// Prints the progress, at most once a second.
     void progressed(campaign::Progress const& progress) override;
+    /// Prints that a case has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
   private:
-    double shown_ = -1;
+    double shown_ = -1;  ///< s, elapsed time of the latest progress line; negative before the first
 };
 
-/// Shows nothing.
+/// Prints nothing.
 class NoProgress : public campaign::Observer {
   public:
+    /// Does nothing.
     void progressed(campaign::Progress const&) override {}
+    /// Does nothing.
     void case_ended(campaign::PlannedCase const&, core::Outcome, std::string const&) override {}
 };
 
-/// The campaign's log file, DIR/campaign.log: a line with its time per event, added to at every run. A disk
-/// that takes no more stops the log, not the campaign.
+/// The log file of a campaign, DIR/campaign.log. Every run adds one line per event with its time in UTC. When
+/// the disk is full, the log ends but the campaign continues.
 class CampaignLog {
   public:
+    /// Opens the log file in the folder of a campaign.
     explicit CampaignLog(std::filesystem::path const& folder);
+    /// Adds a line of level info.
     void info(std::string const& line) const;
+    /// Adds a line of level warning.
     void warn(std::string const& line) const;
 
   private:
     std::shared_ptr<spdlog::logger> logger_;  ///< none when the file cannot be opened
 };
 
-/// Writes to the log what it hands on to another observer.
+/// Writes the events of a run to the log and passes them on to another observer.
 class LoggingObserver : public campaign::Observer {
   public:
-    /// @param folder  of the campaign; the log is opened with the first event, when the folder is this
-    /// driver's
+    /// @param next    the other observer; it must live longer than this one
+    /// @param folder  of the campaign. The log is opened at the first event, when this process has locked the
+    ///                folder.
     LoggingObserver(campaign::Observer& next, std::filesystem::path folder);
+    /// Passes the progress on.
     void progressed(campaign::Progress const& progress) override;
+    /// Writes that a case has ended to the log, and passes it on.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 

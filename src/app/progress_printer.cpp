@@ -15,7 +15,7 @@ std::string describe(campaign::Progress const& progress) {
     std::string text = fmt::format("{} done, {} engines running, {} left", progress.finished,
                                    progress.running, progress.left);
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
-    text += fmt::format("; packings {}/{}; {} gone", progress.packings_done, progress.packings,
+    text += fmt::format("; packings {}/{}; {} elapsed", progress.packings_done, progress.packings,
                         clock_time(progress.elapsed));
     if (progress.time_to_go >= 0) {
         text += fmt::format(", about {} to go; {:.3g} core-hours spent, {:.3g} to go",
@@ -25,18 +25,18 @@ std::string describe(campaign::Progress const& progress) {
     return text;
 }
 
-/// "  6f285f55cce4 packing 2: cycle 45 of at most 300, eta 0.793 +- 0.051, 0:12 gone, about 0:04 to go"
+/// "  6f285f55cce4 packing 2: cycle 45 of at most 300, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
     std::string text = fmt::format("  {} packing {}: cycle {} of at most {}", one.planned->id, one.packing,
                                    one.cycles, one.planned->scenario().measure.max_cycles);
     if (one.estimate && std::isfinite(one.estimate->mean))
         text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
-    text += fmt::format(", {} gone", clock_time(one.elapsed));
+    text += fmt::format(", {} elapsed", clock_time(one.elapsed));
     if (one.time_to_go >= 0) text += fmt::format(", about {} to go", clock_time(one.time_to_go));
     return text;
 }
 
-/// Lines for all engines, as far as they fit, and the total below.
+/// One line for each running packing, 20 at most, and the totals below.
 std::vector<std::string> describe_all(campaign::Progress const& progress) {
     constexpr std::size_t most = 20;
     std::vector<std::string> lines;

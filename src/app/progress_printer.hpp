@@ -8,15 +8,19 @@
 
 namespace vibrotrough::app {
 
-/// Shows a campaign's progress on standard error: a line per running packing and a total,
-/// which renew themselves on a terminal, plain lines
-/// (one per ended case, and one every ten seconds) elsewhere.
+/// Prints the progress of a campaign on standard error: one line per running packing and a line of totals. On
+/// a terminal, these lines are updated in place. Elsewhere they are printed every ten seconds. Every case
+/// that ends gets a line of its own.
 class ProgressPrinter : public campaign::Observer {
   public:
+    /// Finds out whether standard error is a terminal.
     ProgressPrinter();
+    /// Removes the lines from the terminal.
     ~ProgressPrinter() override;
 
+    /// Prints or updates the lines of progress.
     void progressed(campaign::Progress const& progress) override;
+    /// Prints a line about a case that has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
 
@@ -28,7 +32,7 @@ class ProgressPrinter : public campaign::Observer {
     std::chrono::steady_clock::time_point printed_;
 };
 
-/// "1:05", "2:00:10".
+/// A duration in s as minutes and seconds, "1:05", or with hours, "2:00:10".
 std::string clock_time(double seconds);
 
 }  // namespace vibrotrough::app

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Starts a program of the PATH, waits for it and gives its exit code; 127 when it cannot be started, 128 + n
-/// when signal n ended it.
+/// Runs a program of the PATH and returns its exit code, 127 when it cannot be started, or 128 + n when
+/// signal n ended it.
 int run_program(std::vector<std::string> words, bool silent) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -43,20 +43,19 @@ int run_program(std::vector<std::string> words, bool silent) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string find_python(std::string const& asked_for, std::vector<std::string> const& modules) {
+std::string find_python(std::string const& python, std::vector<std::string> const& modules) {
     std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
     std::vector<std::string> const candidates =
-        asked_for.empty() ? std::vector<std::string>{"/usr/bin/python3", "python3"} : std::vector{asked_for};
+        python.empty() ? std::vector<std::string>{"/usr/bin/python3", "python3"} : std::vector{python};
     for (std::string const& candidate : candidates) {
         if (run_program({candidate, "-c", imports}, true) == 0) return candidate;
     }
     std::string packages;
     for (std::string const& module : modules) packages += " python3-" + module;
-    throw core::MissingError(
-        fmt::format("{} has not all of the modules {}; install them (Debian: apt-get install python3{}) or "
-                    "name a Python that has "
-                    "them with --python",
-                    fmt::join(candidates, " or "), fmt::join(modules, ", "), packages));
+    throw core::MissingError(fmt::format(
+        "{} does not have all of the modules {}; install them (Debian: apt-get install{}), or give "
+        "a Python that has them with --python",
+        fmt::join(candidates, " or "), fmt::join(modules, ", "), packages));
 }
 
 }  // namespace
@@ -64,7 +63,8 @@ std::string find_python(std::string const& asked_for, std::vector<std::string> c
 fs::path script_folder() {
     std::error_code failure;
     fs::path const program = fs::read_symlink("/proc/self/exe", failure);
-    // An installed program has its scripts in ../share; one that was built, where its sources are.
+    // An installed program has its scripts in ../share. A program in its build folder uses those of the
+    // sources.
     for (fs::path const& folder :
          {program.parent_path().parent_path() / installed_scripts, fs::path(source_scripts)}) {
         if (fs::exists(folder / "figures.py", failure)) return folder;
@@ -77,7 +77,7 @@ fs::path script_folder() {
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
                      std::string const& python, std::vector<std::string> const& modules) {
     fs::path const path = script_folder() / script;
-    // -B: an installed folder need not be writable, and the sources stay clean.
+    // -B: no __pycache__, because the folder may be read-only, and the sources must stay clean.
     std::vector<std::string> words{find_python(python, modules), "-B", path.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_program(words, false);
@@ -87,10 +87,10 @@ void run_script(std::string const& script, std::vector<std::string> const& argum
                 std::string const& python, std::vector<std::string> const& modules) {
     int const code = script_exit_code(script, arguments, python, modules);
     if (code == 130 || code == 128 + 2)
-        throw core::MissingError(fmt::format("{} was interrupted; start it again", script));
+        throw core::MissingError(fmt::format("{} was interrupted; run the command again", script));
     if (code != 0) {
         throw core::MissingError(
-            fmt::format("{} ended with exit code {}; what it said above tells why", script, code));
+            fmt::format("{} ended with exit code {}; the reason is in its messages above", script, code));
     }
 }
 

@@ -6,21 +6,22 @@
 
 namespace vibrotrough::app {
 
-/// Runs a script of postprocess/ with the first Python that has the modules; the script's output goes where
-/// the program's goes.
-/// @param python   program to use; empty: Debian's /usr/bin/python3, else python3 on the PATH
-/// @param modules  that the script imports, e.g. "matplotlib"
-/// @throws MissingError when there is no such Python, no such script, or the script fails (it has said why)
+/// Runs a script of postprocess/ with the first Python that has the modules. The output of the script goes to
+/// the same places as that of this program.
+/// @param python   path of the Python to use; empty for /usr/bin/python3, else python3 on the PATH
+/// @param modules  names of the modules that the script imports, e.g. "matplotlib"
+/// @throws core::MissingError when there is no such Python or script, or when the script fails (it has then
+/// printed the reason)
 void run_script(std::string const& script, std::vector<std::string> const& arguments,
                 std::string const& python, std::vector<std::string> const& modules);
 
-/// As run_script, but gives the script's exit code (128 + n when signal n ended it) instead of throwing for
-/// it.
+/// Runs a script as run_script() does and returns its exit code, or 128 + n when signal n ended it.
+/// @throws core::MissingError when there is no such Python or script
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
                      std::string const& python, std::vector<std::string> const& modules);
 
-/// The folder of the scripts: beside an installed program, or that of the sources it was built from.
-/// @throws MissingError when there is none
+/// The folder of the scripts: beside the installed program, or in the sources that it was built from.
+/// @throws core::MissingError when there is no such folder
 std::filesystem::path script_folder();
 
 }  // namespace vibrotrough::app

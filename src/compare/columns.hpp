@@ -8,22 +8,29 @@
 #include <string_view>
 #include <variant>
 
-/// The one table of what can be said of a case. JSON, CSV, the terminal's table, --filter, --sort, the VTK
-/// table, the report and the list in README.md all follow from it.
+/// @file
+/// The table of all columns of `compare`. JSON, CSV, the terminal's table, --filter, --sort, the VTK table,
+/// the report and the list in README.md all follow from it.
+
 namespace vibrotrough::compare {
 
-/// A value of a column that is known.
+/// A known value of a column.
 using Value = std::variant<double, int, std::string>;
 
-enum class ColumnType { number, integer, text };
+/// The type of a column's values, in the order of the variant Value.
+enum class ColumnType {
+    number,   ///< floating point
+    integer,  ///< whole number
+    text,     ///< UTF-8
+};
 
 /// How the terminal's table shows a column.
 struct TerminalView {
-    std::string_view heading;
+    std::string_view heading;          ///< first line above the column
     std::string_view subheading = "";  ///< the line below it: the unit, or a remark
-    int priority = 1;                  ///< the smallest is left out first when the terminal is too narrow
-    bool flush_left = false;           ///< for texts of different length
-    bool only_when_known = false;      ///< left out when it is known of no case
+    int priority = 1;  ///< the column with the smallest is left out first when the terminal is too narrow
+    bool flush_left = false;                      ///< aligned to the left, for texts of different length
+    bool only_when_known = false;                 ///< left out when no case has a value
     std::string (*cell)(Row const&) = nullptr;    ///< what is shown in place of the formatted value
     std::string (*colour)(Row const&) = nullptr;  ///< ANSI escape; empty: none
 };
@@ -33,18 +40,20 @@ constexpr int always_shown = 9;
 
 /// How the report's table shows a column.
 struct ReportView {
-    std::string_view heading;
-    bool once_when_same = false;  ///< said in one sentence instead when all cases have the same value
+    std::string_view heading;  ///< above the column
+    bool once_when_same =
+        false;  ///< when all cases have the same value, one sentence gives it instead of a column
 };
 
+/// One column: its name, its value and how each view shows it.
 struct Column {
-    std::string_view name;  ///< for scripts; a contract with them
+    std::string_view name;  ///< for scripts, which rely on it
     std::string_view unit;  ///< in the spelling of udunits2; "1" for pure numbers and for texts
-    /// The value of a row, none where it is not known. Its kind is the column's type.
-    std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
-                 std::optional<std::string> (*)(Row const&)>
-        value;
-    std::string_view meaning;
+    /// A function that gives the value of a row, none where it is not known. Its type is the column's type.
+    using Function = std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
+                                  std::optional<std::string> (*)(Row const&)>;
+    Function value;            ///< gives the value of a row
+    std::string_view meaning;  ///< one sentence for people, in the README and the report
     std::string_view format =
         "{}";             ///< of a value in tables for people, as both fmt and Python understand it
     int position = 0;     ///< in tables for people, counted from the left
@@ -52,7 +61,9 @@ struct Column {
     std::optional<TerminalView> terminal = {};  ///< none: not in the terminal's table
     std::optional<ReportView> report = {};      ///< none: not in the report's table
 
+    /// The type of the values.
     ColumnType type() const { return static_cast<ColumnType>(value.index()); }
+    /// The value of a row; none when it is not known.
     std::optional<Value> of(Row const& row) const;
     /// The value as tables for people show it; "-" when it is not known.
     std::string shown(Row const& row) const;

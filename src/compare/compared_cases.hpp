@@ -10,17 +10,19 @@
 
 namespace vibrotrough::compare {
 
-/// What is known of a campaign's cases, and each one's row beside the theory, in the same order.
+/// The states of a campaign's cases and their rows beside the theory.
 struct ComparedCases {
-    std::vector<campaign::CaseOverview> cases;
-    std::vector<Row> rows;
+    std::vector<campaign::CaseOverview> cases;  ///< in the order of the plan
+    std::vector<Row> rows;                      ///< of the same cases in the same order
 };
 
-/// @param activity  what executors know of the campaign, for cases without a result
+/// Compares all cases of a campaign with the theory. The friction of a layer is used where a friction test
+/// has measured it.
+/// @param activity  what the executors know of the campaign, for cases without a result
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity);
 
-/// The rows with all columns, each with what the state of the case adds: message, packings_done and
-/// packings_wanted.
+/// The rows with all columns as a JSON array. Each object also has the members message, packings_done and
+/// packings_wanted from the state of the case.
 nlohmann::ordered_json case_list(ComparedCases const& compared,
                                  std::span<Column const> columns = all_columns());
 

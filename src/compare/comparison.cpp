@@ -13,7 +13,7 @@
 namespace vibrotrough::compare {
 namespace {
 
-/// A mass that runs away, for example, has no mode.
+/// The mode; none when the motion has none, for example when the mass runs away.
 std::optional<std::string> known_mode(theory::Motion const& motion) {
     if (motion.mode.empty()) return {};
     return motion.mode;
@@ -25,7 +25,8 @@ void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
 }
 
-/// The effect of side walls is already included in the measured friction.
+/// Adds the theory at the friction of the layer as a whole. The effect of side walls is already included in
+/// it.
 void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
                       MeasuredFriction const& measured) {
     row.friction_layer = measured.friction;
@@ -71,7 +72,7 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// What a line of the figure holds fixed.
+/// The inputs that are the same along a line of the figure.
 using Line = std::tuple<double, double, double>;  // vibration angle and inclination, deg; friction
 
 std::string curve(Line const& line, double from, double to) {

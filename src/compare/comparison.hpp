@@ -9,53 +9,58 @@
 
 namespace vibrotrough::compare {
 
-/// One case: what was measured beside what the point-mass theory predicts. What has no value is not known.
-/// What its members mean is said in the table of columns, columns.cpp.
+/// One case: what was measured beside what the point-mass theory predicts. Members without a value are not
+/// known. The table of columns, columns.cpp, explains the members.
 struct Row {
-    std::string id;
-    double throw_number;
-    double machine_number;
-    double vibration_angle_deg;
-    double inclination_deg;
-    double friction;  ///< grain on trough
-    double amplitude_m;
-    double frequency_hz;
+    std::string id;                                   ///< of the case
+    double throw_number;                              ///< Gamma = omega^2 r sin(beta) / (g cos(alpha))
+    double machine_number;                            ///< K = omega^2 r / g
+    double vibration_angle_deg;                       ///< beta, degrees
+    double inclination_deg;                           ///< alpha, degrees, positive when it conveys uphill
+    double friction;                                  ///< coefficient, grain on trough
+    double amplitude_m;                               ///< r in the direction of vibration, half the stroke, m
+    double frequency_hz;                              ///< Hz
     std::optional<double> efficiency_dem;             ///< none when the layer never became steady
     std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
-    std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta)
+    std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta), m/s
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
-    std::optional<std::string> mode_theory;
-    std::optional<std::string> mode_layer;             ///< the bulk's mode in the theory's letters
+    std::optional<std::string> mode_theory;           ///< phases of that point mass in order
+    std::optional<std::string> mode_layer;            ///< phases of the layer as a whole in order
     std::optional<double> efficiency_by_normal_force;  ///< of a point mass under the layer's own normal force
-    std::optional<double> landing_friction;  ///< tangential over normal impulse of the layer's landing
-    std::optional<double> friction_layer;    ///< of the layer as a whole, from a friction test
-    std::optional<double> friction_layer_low, friction_layer_high;  ///< its interval
-    std::optional<double> efficiency_theory_layer;                  ///< theory at the layer's friction
-    std::optional<std::string> mode_theory_layer;
-    std::optional<int> packings;          ///< that the interval rests on
-    std::optional<int> cycles_measured;   ///< all packings together
-    std::optional<int> cycles_discarded;  ///< start-up, all packings together
-    std::optional<double> wall_s;         ///< of the engine, all packings together
-    std::string outcome;
+    std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
+    std::optional<double> friction_layer;           ///< of the layer as a whole, from a friction test
+    std::optional<double> friction_layer_low;       ///< lower end of its interval
+    std::optional<double> friction_layer_high;      ///< upper end of its interval
+    std::optional<double> efficiency_theory_layer;  ///< theory at the layer's friction
+    std::optional<std::string> mode_theory_layer;   ///< mode at the layer's friction
+    std::optional<int> packings;                    ///< number of packings in the interval
+    std::optional<int> cycles_measured;             ///< all packings together
+    std::optional<int> cycles_discarded;            ///< as start-up, all packings together
+    std::optional<double> wall_s;                   ///< wall time of the engine, all packings together, s
+    std::string outcome;                            ///< how the case ended, or what it waits for
 };
 
-/// The friction of a layer with its interval.
+/// The friction coefficient of a layer as a whole, from a friction test.
 struct MeasuredFriction {
-    double friction, low, high;
+    double friction;  ///< the estimate
+    double low;       ///< lower end of its confidence interval
+    double high;      ///< upper end of its confidence interval
 };
 
-/// Compares one case.
+/// Compares one case with the theory.
+/// @param id        of the case
+/// @param prepared  its drive and the inputs of the theory
 /// @param record    the case's result, when it has one
-/// @param outcome   what to say of a case without a result, e.g. "lost-grains" or "open"
+/// @param outcome   the state of a case without a result, e.g. "lost-grains" or "open"
 /// @param friction  of the layer, when a friction test has measured it
 Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<store::CaseRecord> const& record, std::string const& outcome,
             std::optional<MeasuredFriction> const& friction = {});
 
-/// The theory's velocity efficiency over a fine grid of throw numbers, for every vibration angle, inclination
-/// and friction among the rows, from a little below their smallest throw number to a little above their
-/// largest: CSV with the columns throw_number, vibration_angle_deg, inclination_deg, friction,
-/// velocity_efficiency. Throw numbers without a mean speed are left out.
+/// The velocity efficiency of the theory over a fine grid of throw numbers, for every combination of
+/// vibration angle, inclination and friction among the rows. The grid reaches from 0.9 times their smallest
+/// throw number to 1.1 times their largest. CSV with the columns throw_number, vibration_angle_deg,
+/// inclination_deg, friction, velocity_efficiency. Throw numbers without a mean speed are left out.
 std::string theory_curves_csv(std::vector<Row> const& rows);
 
 }  // namespace vibrotrough::compare

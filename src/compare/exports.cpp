@@ -17,7 +17,8 @@ Json json_of(std::optional<Value> const& value) {
 
 std::string csv_field(std::optional<Value> const& value) {
     if (!value) return {};
-    if (auto const* const text = std::get_if<std::string>(&*value)) return *text;  // never has comma or quote
+    if (auto const* const text = std::get_if<std::string>(&*value))
+        return *text;  // no column has texts with commas or quotes
     return json_of(value).dump();
 }
 
@@ -26,7 +27,7 @@ std::string_view name_of(ColumnType type) {
     return names.at(static_cast<std::size_t>(type));
 }
 
-/// Where a column is seen, apart from --filter and --sort, which know all.
+/// The views that show a column. --filter and --sort take all columns.
 std::string places_of(Column const& column) {
     std::string places;
     auto const add = [&places](bool there, std::string_view place) {

@@ -10,20 +10,22 @@
 
 namespace vibrotrough::compare {
 
-/// The rows as a JSON array of objects; a value that is not known is null. Numbers are written in full.
+/// The rows as a JSON array of objects. A value that is not known is null. Numbers are written with all
+/// digits.
 std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns = all_columns());
 
-/// The rows as CSV with a header; a value that is not known is empty. The columns are those of the JSON.
+/// The rows as CSV with a header and the columns of the JSON. A value that is not known is empty.
 std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns = all_columns());
 
-/// One row with all columns, also those that the JSON for scripts does not have.
+/// One row as a JSON object with all columns, including those that to_json() leaves out.
 nlohmann::ordered_json to_object(Row const& row, std::span<Column const> columns = all_columns());
 
-/// What a page needs to know to show a table of such rows: name, unit, type and meaning of each column and,
-/// of the report's columns, heading, format, position and whether it is said once when it is the same in all.
+/// What the report needs to show a table of rows: the name, unit, type and meaning of each column and, for
+/// the columns of the report, heading, format, position and whether a sentence replaces a column of equal
+/// values.
 nlohmann::ordered_json column_descriptions(std::span<Column const> columns = all_columns());
 
-/// The list of the columns in Markdown, for README.md of this room.
+/// The list of the columns in Markdown, for the README of this room.
 std::string column_reference(std::span<Column const> columns = all_columns());
 
 }  // namespace vibrotrough::compare

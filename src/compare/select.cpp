@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t longest_shown = 60;
 
-/// @throws InputError naming the option and all columns when there is no such one
+/// Finds a column by name. @throws InputError naming the option and all columns when there is no such column
 Column const& find_column(std::span<Column const> columns, std::string_view option, std::string_view name) {
     auto const found = std::ranges::find(columns, name, &Column::name);
     if (found != columns.end()) return *found;
@@ -27,7 +27,7 @@ Column const& find_column(std::span<Column const> columns, std::string_view opti
                                        core::printable(name, longest_shown), names));
 }
 
-/// Of two values of one column, or of a number beside a column of numbers.
+/// Orders two values of one column, or a value of a column of numbers and another number.
 std::partial_ordering order(Value const& left, Value const& right) {
     auto const number = [](Value const& value) {
         auto const* const integer = std::get_if<int>(&value);

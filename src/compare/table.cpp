@@ -70,7 +70,8 @@ std::vector<bool> chosen(Columns const& columns, std::vector<Cells> const& lines
     return keep;
 }
 
-/// Says what was dropped, and the value of what is the same in all rows.
+/// The line below the table: the columns that were left out, with their value when it is the same in all
+/// rows.
 std::string dropped_note(Columns const& columns, std::vector<bool> const& keep, std::vector<bool> const& same,
                          Cells const& first) {
     std::string values, names;

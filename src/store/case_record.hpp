@@ -14,9 +14,9 @@ namespace vibrotrough::store {
 
 /// One packing's run and what was measured in it.
 struct PackingRecord {
-    int seed;
-    int steps_per_cycle;
-    double time_step;                   ///< s
+    int seed;                           ///< of the random positions of the grains
+    int steps_per_cycle;                ///< of the engine
+    double time_step;                   ///< of the engine, s
     double mass;                        ///< kg, of all grains
     double wall_time;                   ///< s, of the engine
     measure::CycleSeries series;        ///< the cycles used (what the engine wrote beyond them is left out)
@@ -25,30 +25,30 @@ struct PackingRecord {
     std::string deck;                   ///< in.liggghts
     measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
     measure::Profiles profiles;         ///< of the same cycles
-    measure::Surface surface;
+    measure::Surface surface;           ///< of the layer in the same cycles
 };
 
 /// Where and with what a result was made.
 struct Provenance {
-    std::string program_version;
-    std::string git_commit;
-    std::string engine_version;
+    std::string program_version;     ///< of Vibrotrough
+    std::string git_commit;          ///< that Vibrotrough was built from
+    std::string engine_version;      ///< of LIGGGHTS
     std::string engine_certificate;  ///< JSON; empty when the engine was not probed
-    std::string host;
-    std::string started;   ///< ISO 8601, UTC
-    std::string finished;  ///< ISO 8601, UTC
+    std::string host;                ///< name of the machine
+    std::string started;             ///< ISO 8601, UTC
+    std::string finished;            ///< ISO 8601, UTC
 };
 
 /// A finished case: everything that result.h5 holds.
 struct CaseRecord {
-    std::string id;
-    scenario::Scenario scenario;
-    std::string scenario_toml;       ///< to_toml(scenario)
-    core::Outcome outcome;           ///< finished, not_steady or not_precise
-    measure::CaseEstimate estimate;  ///< of velocity efficiency
-    std::vector<PackingRecord> packings;
-    Provenance provenance;
-    std::string layer_mode;  ///< of most packings, see measure::LayerMotion
+    std::string id;                       ///< of the case
+    scenario::Scenario scenario;          ///< its input
+    std::string scenario_toml;            ///< to_toml(scenario)
+    core::Outcome outcome;                ///< finished, not_steady or not_precise
+    measure::CaseEstimate estimate;       ///< of velocity efficiency
+    std::vector<PackingRecord> packings;  ///< in the order of their numbers
+    Provenance provenance;                ///< of the result
+    std::string layer_mode;               ///< of most packings, see measure::LayerMotion
 };
 
 }  // namespace vibrotrough::store

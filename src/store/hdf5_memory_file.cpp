@@ -12,8 +12,7 @@
 namespace vibrotrough::store {
 namespace {
 
-/// HDF5's memory driver asks for a file name and refuses one that it can open on the disk. No file can exist
-/// below a device.
+/// HDF5's memory driver needs the name of a file that does not exist. No file can exist below a device.
 constexpr char const* path_that_cannot_exist = "/dev/null/vibrotrough";
 
 std::mutex one_at_a_time;
@@ -84,7 +83,8 @@ RawDataset read_raw(hid_t file, std::string const& path, Rank rank, H5T_class_t 
     std::size_t const size = kind == H5T_STRING    ? std::max<std::size_t>(H5Tget_size(stored.id()), 1)
                              : kind == H5T_INTEGER ? sizeof(int)
                                                    : sizeof(double);
-    // Nothing is compressed, so a dataset larger than the file is a lie: do not reserve memory for it.
+    // Nothing is compressed, so a dataset cannot be larger than the file. Do not reserve memory for a wrong
+    // size.
     require(count <= limit / size, "use the dataset " + path + ", it is larger than the file");
     Hdf5Handle const wanted = kind == H5T_STRING
                                   ? text_type(size)

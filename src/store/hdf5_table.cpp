@@ -14,8 +14,8 @@ void write_texts(hid_t object, Hdf5CreationProperties const& properties, std::st
                     pointers.data());
 }
 
-/// Numbers of the one kind and texts of fixed length: what this program writes, and nothing that HDF5 would
-/// give as an address.
+/// Whether a column has a type that this program writes: its kinds of numbers, or texts of fixed length. HDF5
+/// would read other types as addresses.
 bool is_known(hid_t type) {
     switch (H5Tget_class(type)) {
         case H5T_INTEGER:
@@ -82,7 +82,8 @@ Hdf5Table::Hdf5Table(hid_t file, std::string const& path, Rank rank, std::size_t
             "use the table " + path + ", it has another shape");
     rows_ = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0));
     row_size_ = std::max<std::size_t>(H5Tget_size(type_.id()), 1);
-    // Nothing is compressed, so a table larger than the file is a lie: do not reserve memory for it.
+    // Nothing is compressed, so a table cannot be larger than the file. Do not reserve memory for a wrong
+    // size.
     require(rows_ <= limit / row_size_, "use the table " + path + ", it is larger than the file");
     bytes_.resize(rows_ * row_size_);
     require(H5Dread(data_.id(), type_.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes_.data()) >= 0,

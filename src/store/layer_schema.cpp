@@ -10,7 +10,7 @@ using Packing = PackingRecord const&;
 using Real = std::optional<double> (*)(Case);
 using Integer = int (*)(Case);
 
-/// Over the packings that have this number.
+/// The mean over the packings that have this number; none when no packing has it.
 template <class Value>
 std::optional<double> mean(Case record, Value const& value_of) {
     double sum = 0;
@@ -41,7 +41,7 @@ int longest_period(Case record) {
     return longest;
 }
 
-/// Of the layer's kinetic scale m (omega r)^2.
+/// Dissipation over the kinetic energy scale of the layer, m (omega r)^2.
 std::optional<double> relative_dissipation(Packing packing, scenario::Trough const& trough) {
     if (!packing.motion.dissipation) return {};
     double const speed = angular_frequency(trough) * trough.amplitude;
@@ -88,8 +88,7 @@ std::vector<CaseValue> layer_case_values() {
          Real([](Case c) { return mean(c, [](Packing p) { return p.motion.friction_ratio; }); })},
         {{"landing_friction", "1",
           "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
-          "mass "
-          "no longer falls against the trough; NaN without landings and with side walls; mean over the "
+          "mass no longer falls against the trough; NaN without landings and with side walls; mean over the "
           "packings"},
          Real([](Case c) { return mean(c, [](Packing p) { return p.motion.landing_friction; }); })},
         {{"efficiency_by_normal_force", "1",
@@ -143,8 +142,7 @@ std::vector<PackingValue> layer_packing_values() {
          packing_field([](auto& p) -> auto& { return p.motion.friction_ratio; })},
         {{"landing_friction", "1",
           "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
-          "mass "
-          "no longer falls against the trough; NaN without landings and with side walls"},
+          "mass no longer falls against the trough; NaN without landings and with side walls"},
          packing_field([](auto& p) -> auto& { return p.motion.landing_friction; })},
         {{"efficiency_by_normal_force", "1",
           "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "

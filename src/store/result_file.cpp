@@ -20,7 +20,7 @@ namespace {
 constexpr char const* result_format = "vibrotrough result";
 constexpr char const* campaign_format = "vibrotrough campaign";
 
-/// `value_of` each record, as the files hold it.
+/// The value of each record in the form that the files store.
 template <typename Record, typename Function>
 Values stored_values(std::span<Record const> records, Function const& value_of) {
     std::vector<decltype(to_stored(value_of(records.front())))> values;
@@ -37,7 +37,7 @@ Values stored_values(PackingValue const& value, std::span<PackingRecord const> p
     return std::visit([&](auto const& field) { return stored_values(packings, field); }, value.field);
 }
 
-/// A name of a packing's own table.
+/// The path of a table of one packing.
 std::string packing_path(std::string_view group, std::size_t packing) {
     return fmt::format("{}/{}", group, packing + 1);
 }
@@ -134,7 +134,7 @@ void check_kind(Hdf5MemoryFileReader const& file, std::filesystem::path const& p
                     newer ? "a newer" : "an older", file.text_attribute("program_version"), version,
                     result_schema_version,
                     newer ? "use that version"
-                          : "'vibrotrough run' makes it anew from its packings, without the engine"));
+                          : "'vibrotrough run' writes it again from its packings, without the engine"));
 }
 
 CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path const& path) {

@@ -7,18 +7,22 @@
 
 namespace vibrotrough::store {
 
-/// Versions of the layouts described in README.md of this room; raised when a reader must know.
+/// Version of the layout of result.h5, see the README of this room. It is raised when an older reader would
+/// misunderstand the file.
 constexpr int result_schema_version = 2;
+/// Version of the layout of campaign.h5.
 constexpr int campaign_schema_version = 1;
 
-/// Writes result.h5 under a temporary name, syncs and renames it. @throws MissingError when the disk refuses
+/// Writes result.h5 under a temporary name, syncs it and renames it.
+/// @throws core::MissingError when it cannot be written
 void write_result(std::filesystem::path const& path, CaseRecord const& record);
 
-/// Reads result.h5 back. Reading `scenario` uses the stored TOML text.
-/// @throws InputError naming the file when it is damaged, is not a result file, or has another schema
+/// Reads result.h5. The scenario comes from the TOML text that is stored in it.
+/// @throws core::InputError naming the file when it is damaged, is not a result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
-/// Writes campaign.h5: one table of all cases, a column per dataset, in the order given; atomically.
+/// Writes campaign.h5 atomically: one dataset per column, with one value for each case in the order given.
+/// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
                     std::vector<CaseRecord> const& cases);
 

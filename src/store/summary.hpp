@@ -9,20 +9,21 @@
 
 namespace vibrotrough::store {
 
-/// What the tables need of a result: the record without its cycles, curves and decks. Every column of
-/// campaign.h5 is the same from either.
+/// The part of a result that the tables need: the record without its cycles, curves and decks. Every column
+/// of campaign.h5 is the same from the record and from its summary.
 CaseRecord summary_of(CaseRecord const& record);
 
 /// The summary as CBOR (RFC 8949), for a cache on this machine: the facts, the estimate and the packings'
 /// values in the order of schema.hpp. The scenario is not in it, because the case's id stands for it.
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record);
 
-/// Reads back what pack_summary wrote.
+/// Converts a packed summary back.
+/// @param bytes     what pack_summary() returned
 /// @param scenario  of the case
-/// @throws InputError when the bytes are not exactly one summary
+/// @throws core::InputError when the bytes are not exactly one summary
 CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenario const& scenario);
 
-/// Changes whenever pack_summary writes something else than before.
+/// A text that changes whenever pack_summary() would write other values, for recognising outdated caches.
 std::string summary_layout();
 
 }  // namespace vibrotrough::store

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{2} << 30;
 
-/// A column of the answers: as a text of the CSV file, and as a number of the HDF5 file unless it is a word.
+/// A column of the answers. `number` is null for a column of texts.
 struct AnswerColumn {
     char const* name;
     char const* description;

@@ -130,7 +130,7 @@ class Resume(EndToEndTest):
         self.write_campaign(CHANGES, {"layer.grains": [32, 36, 40, 44]})
         done = self.call(*self.run_arguments(self.campaign))
         self.assertIn("3 cases in ", done.stdout)
-        self.assertIn("are of an earlier version of the campaign and left aside", done.stdout)
+        self.assertIn("belong to an earlier version of the campaign and are not used", done.stdout)
         self.assertEqual(len(self.simulated()), 2, "only the new case is run")
         self.assertEqual(len(self.table()), 4)
         for path, old in before.items():

@@ -128,7 +128,7 @@ TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
     EXPECT_FALSE(row.efficiency_dem);
     EXPECT_FALSE(row.efficiency_dem_half_width);
     EXPECT_FALSE(row.speed_dem_m_per_s);
-    EXPECT_EQ(row.packings, 2) << "what was done is told all the same";
+    EXPECT_EQ(row.packings, 2) << "the packings are counted nevertheless";
     EXPECT_EQ(row.cycles_measured, 2);
     EXPECT_TRUE(row.efficiency_theory);
 }

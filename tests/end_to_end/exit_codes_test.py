@@ -1,6 +1,7 @@
 """Exit codes, and errors that are one line: where, what is wrong, what to do."""
 
 import os
+import re
 import signal
 import subprocess
 import unittest
@@ -98,6 +99,19 @@ class WrongInput(EndToEndTest):
             done = self.call(*arguments)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("vibrotrough", done.stdout)
+
+    def test_help_of_every_command_fits_and_has_an_example(self):
+        def commands(*path):
+            listed = self.call(*path, "--help").stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
+            return [(*path, name) for name in re.findall(r"^  (\S+)", listed, re.MULTILINE)]
+
+        every = [command for command in commands() if command != ("theory",)] + commands("theory")
+        self.assertGreater(len(every), 20)
+        for command in every:
+            with self.subTest(command=command):
+                text = self.call(*command, "--help").stdout
+                self.assertRegex(text, rf"\nExamples?:\n  vibrotrough {' '.join(command)}")
+                self.assertEqual([line for line in text.splitlines() if len(line) > 100], [])
 
 
 class SomethingMissing(EndToEndTest):

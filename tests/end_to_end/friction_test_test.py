@@ -35,7 +35,7 @@ class FrictionTest(EndToEndTest):
         (test,), told = self.shake(self.block(), "--machine-number", 0.2, wanted=1)
         self.assertIsNone(test["friction"])
         self.assertIn("larger K", test["message"])
-        self.assertIn("no number", told)
+        self.assertIn("no friction coefficient", told)
 
     def test_a_layer(self):
         campaign = self.write_campaign({"measure.half_width": 0.1}, {"trough.throw_number": [1.5, 2.0]})

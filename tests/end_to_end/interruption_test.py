@@ -1,4 +1,4 @@
-"""A campaign that is killed, interrupted with Ctrl-C, or loses an engine goes on where it stopped."""
+"""A campaign that is killed, interrupted with Ctrl-C, or loses an engine continues where it stopped."""
 
 import json
 import os
@@ -91,7 +91,7 @@ class Interruption(EndToEndTest):
         code, output, errors = self.finish(driver)
         self.assertEqual(processes_in(self.output), {}, "engines outlived their driver")
         self.assertEqual(code, 130, output + errors)
-        self.assertIn("interrupted: the same command goes on where it stopped", output)
+        self.assertIn("interrupted: the same command continues it", output)
         self.assertEqual(list(self.output.glob("cases/*/failure.json")), [], "an interruption is no failure")
         kept = {path: fingerprint(path) for path in self.results()}
         self.assertIn(f"{len(kept)} of {CASES} cases finished", output)

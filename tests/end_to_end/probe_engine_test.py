@@ -97,7 +97,7 @@ class ProbeEngine(EndToEndTest):
         refused = self.call(*arguments)
         self.assertEqual(refused.returncode, 3, refused.stderr)
         last = refused.stderr.splitlines()[-1]
-        self.assertRegex(last, r"^vibrotrough: .*wrong-liggghts is not to be trusted: \d+ of \d+ probes passed; failed: coulomb")
+        self.assertRegex(last, r"^vibrotrough: .*wrong-liggghts failed its probes: \d+ of \d+ probes passed; failed: coulomb")
         self.assertIn("--accept-failed-probes", last)
         self.assertEqual(self.take_starts(), [], "no packing was simulated")
         self.assertEqual(self.certificates(), [], "a failed certificate is not kept")

@@ -1,6 +1,6 @@
-"""Holds src/store/campaign_header.txt to what h5dump, a reader that we did not write, says of a campaign.h5.
+"""Holds src/store/campaign_header.txt to what h5dump, a reader that we did not write, prints for a campaign.h5.
 
-usage: check_header.py CAMPAIGN.h5 HEADER.txt [--write]; --write makes the text anew
+usage: check_header.py CAMPAIGN.h5 HEADER.txt [--write]; --write writes the text again
 """
 
 import pathlib
@@ -14,7 +14,7 @@ def main(campaign, header, *options):
     if options == ("--write",):
         pathlib.Path(header).write_text(done.stdout, encoding="utf-8")
     elif done.stdout != pathlib.Path(header).read_text(encoding="utf-8"):
-        sys.exit(f"{header} differs from h5dump -H -A 0 {campaign}; write it anew with --write")
+        sys.exit(f"{header} differs from h5dump -H -A 0 {campaign}; write it again with --write")
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ def check_dataset(name, data, row, shapes):
     assert found_units == units, f"{name}: units {found_units!r}, documented {units!r}"
     assert found_meaning == meaning, f"{name}: {found_meaning!r}, documented {meaning!r}"
     if kind == "text":
-        assert h5py.check_string_dtype(found_type).encoding == "utf-8", f"{name}: {found_type} is no UTF-8 text"
+        assert h5py.check_string_dtype(found_type).encoding == "utf-8", f"{name}: {found_type} is not a UTF-8 text"
     else:
         assert found_type == TYPES[kind], f"{name}: {found_type}, documented {kind}"
     assert found_shape == shapes[shape], f"{name}: shape {found_shape}, documented {shape}"

@@ -63,7 +63,7 @@ TEST_F(TheoryFiles, MapWritesItsFiles) {
 TEST_F(TheoryFiles, MapRefusesWrongInput) {
     std::string const end = " --friction 0.35 --output " + path("map.h5");
     std::string const y = " --y vibration_angle_deg=5:60:3";
-    expect_refused("map --x throw=0.3:3.3:3" + y + end, "'throw' is no input");
+    expect_refused("map --x throw=0.3:3.3:3" + y + end, "'throw' is not an input");
     expect_refused("map --x throw_number=0.3:3.3" + y + end, "NAME=FROM:TO:COUNT");
     expect_refused("map --x throw_number=0.3:3.3:2.5" + y + end, "whole number");
     expect_refused("map --x throw_number=-1:3.3:3" + y + end, "outside its range");
@@ -281,7 +281,8 @@ TEST(TheoryHelp, EveryCommandTeachesWithAnExample) {
          {"point", "map", "trace", "limits", "friction", "sensitivity", "design", "batch"}) {
         Answer const answer = run_program(std::string("theory ") + command + " --help");
         EXPECT_EQ(answer.exit_code, 0) << command;
-        EXPECT_NE(answer.text.find(std::string("Example: vibrotrough theory ") + command), std::string::npos)
+        EXPECT_NE(answer.text.find(std::string("Example:\n  vibrotrough theory ") + command),
+                  std::string::npos)
             << command;
     }
 }

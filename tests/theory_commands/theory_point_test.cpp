@@ -76,7 +76,7 @@ TEST(TheoryPoint, RefusesWrongInputInOneLine) {
 TEST(TheoryPoint, TeachesWithAnExample) {
     Answer const answer = run_program("theory point --help");
     EXPECT_EQ(answer.exit_code, 0);
-    EXPECT_NE(answer.text.find("Example: vibrotrough theory point"), std::string::npos);
+    EXPECT_NE(answer.text.find("Example:\n  vibrotrough theory point"), std::string::npos);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-#include "app/check_report.hpp"
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
+#include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "engine/certificate_cache.hpp"
 
@@ -23,26 +24,26 @@ struct Options {
     bool json = false;
 };
 
-/// How fast the engine is, and who says so.
+/// The speed of the engine, and where that number comes from.
 struct Speed {
     double grain_steps_per_second;
     std::string source;
 };
 
-/// One core, 600 to 5000 grains of Debian's LIGGGHTS 3.8.0: 5 to 6.5 million were measured.
+/// Debian's LIGGGHTS 3.8.0 on one core with 600 to 5000 grains: 5 to 6.5 million were measured.
 constexpr double usual_speed = 5e6;
 
-Speed engine_speed(std::string const& asked) {
+Speed engine_speed(std::string const& program) {
     try {
-        engine::Engine const engine =
-            engine::find_engine(asked.empty() ? std::nullopt : std::optional<std::filesystem::path>(asked));
+        engine::Engine const engine = engine::find_engine(
+            program.empty() ? std::nullopt : std::optional<std::filesystem::path>(program));
         auto const certificate = engine::find_certificate(engine::identify(engine));
         if (certificate && certificate->grain_steps_per_cpu_second > 0)
             return {certificate->grain_steps_per_cpu_second, "the engine's certificate"};
     } catch (core::MissingError const&) {
-        if (!asked.empty()) throw;
+        if (!program.empty()) throw;
     }
-    return {usual_speed, "the usual engine; 'vibrotrough probe-engine' measures this machine's"};
+    return {usual_speed, "a usual value; 'vibrotrough probe-engine' measures this machine"};
 }
 
 Json number(double value) {
@@ -61,7 +62,7 @@ Json describe(deck::Finding const& finding) {
             {"advice", finding.advice}};
 }
 
-void print_json(scenario::Campaign const& campaign, CheckReport const& report, Speed const& speed) {
+void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
     Json cases = Json::array();
     int index = 0;
     prepare::CasePreparer preparer;
@@ -78,42 +79,41 @@ void print_json(scenario::Campaign const& campaign, CheckReport const& report, S
                          {"expected_core_hours", work / speed.grain_steps_per_second / 3600}});
     }
     Json const json{{"campaign", campaign.name},
-                    {"warnings", report.warnings()},
-                    {"errors", report.errors()},
+                    {"warnings", found.warnings()},
+                    {"errors", found.errors()},
                     {"cases", cases},
                     {"grain_steps_per_cpu_second", speed.grain_steps_per_second},
                     {"speed_source", speed.source},
-                    {"expected_bytes", report.bytes},
-                    {"expected_core_hours", report.grain_steps / speed.grain_steps_per_second / 3600}};
+                    {"expected_bytes", found.bytes},
+                    {"expected_core_hours", found.grain_steps / speed.grain_steps_per_second / 3600}};
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(CheckReport const& report, Speed const& speed) {
+void print_text(deck::CampaignCheck const& found, Speed const& speed) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
-    for (CheckRow const& row : report.rows) {
-        fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(row.worst.severity), row.worst.item,
-                   row.worst.measured, row.worst.at_least ? "at least" : "at most ", row.worst.limit,
-                   row.worst.unit == "1" ? "" : " " + row.worst.unit);
+    for (deck::CheckedItem const& item : found.items) {
+        fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(item.worst.severity), item.worst.item,
+                   item.worst.measured, item.worst.at_least ? "at least" : "at most ", item.worst.limit,
+                   item.worst.unit == "1" ? "" : " " + item.worst.unit);
     }
-    for (CheckRow const& row : report.rows) {
-        if (row.worst.severity != deck::Severity::fine)
-            fmt::print("{}: {}\n", to_string(row.worst.severity), describe(row, report.cases));
+    for (deck::CheckedItem const& item : found.items) {
+        if (item.worst.severity != deck::Severity::fine)
+            fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
     fmt::print(
-        "{} cases, {} packings of about {:.0f} cycles (start-up, and what their half_width needs), {:.2g} "
-        "MB\n",
-        report.cases, report.packings, report.cycles / report.packings, report.bytes / 1e6);
+        "{} cases, {} packings of about {:.0f} cycles (start-up and what half_width needs), {:.2g} MB\n",
+        found.cases, found.packings, found.cycles / found.packings, found.bytes / 1e6);
     fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})\n",
-               report.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
+               found.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
                speed.source);
 }
 
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
-    CheckReport const report = check_campaign(campaign);
+    deck::CampaignCheck const found = deck::check_campaign(campaign);
     Speed const speed = engine_speed(options.engine);
-    options.json ? print_json(campaign, report, speed) : print_text(report, speed);
-    return report.errors() > 0 ? wrong_input : all_well;
+    options.json ? print_json(campaign, found, speed) : print_text(found, speed);
+    return found.errors() > 0 ? wrong_input : all_well;
 }
 
 }  // namespace
@@ -121,24 +121,30 @@ int run(Options const& options) {
 void add_check(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
-        "check", "Look at a campaign before a second is spent on it, and say what it will cost");
-    command
-        ->add_option("CAMPAIGN.toml", options->campaign_file,
-                     "The campaign file (its keys: vibrotrough keys)")
-        ->required();
+        "check", "Check a campaign before it is simulated, and estimate what it will cost");
+    add_campaign_file(*command, options->campaign_file);
     command
         ->add_option("--liggghts", options->engine,
-                     "The LIGGGHTS program whose speed counts; default: liggghts on the PATH, none is needed")
+                     "The LIGGGHTS program whose measured speed is used; default: liggghts on the PATH. The "
+                     "check also "
+                     "works without one")
         ->type_name("PATH");
-    command->add_flag("--json", options->json, "Print JSON for scripts: all findings of all cases");
+    command->add_flag("--json", options->json, "Print JSON for scripts, with all findings of all cases");
     command->footer(
-        "Time step against Rayleigh and Hertz time, steps per contact and cycle, overlap at rest and at "
-        "impact,\n"
-        "contact against flight time, the periodic box, neighbour lists, disk, and the cost in core-hours. "
-        "'run'\n"
-        "checks too: it shows warnings, and refuses errors unless told --accept-findings.\n"
-        "Exit codes: 0 no errors (warnings perhaps); 2 errors were found, or the campaign file is wrong.\n"
-        "Example: vibrotrough check validation/demo/campaign.toml");
+        R"(Checks the time step against Rayleigh and Hertz times, the steps per contact and per cycle, the
+overlaps at rest and at impact, the duration of contacts against that of flights, the periodic box, the neighbour lists
+and the disk space. Prints a table with the worst case of each item, what to change, and the expected cost in
+core-hours.
+
+'vibrotrough run' checks too: it shows warnings, and it refuses a campaign with errors unless --accept-findings is
+given.
+
+Exit codes:
+    0  no errors; there may be warnings
+    2  errors were found, or the campaign file is wrong
+
+Example:
+  vibrotrough check validation/demo/campaign.toml)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -36,8 +37,8 @@ compare::TableStyle style_for(std::string const& colour) {
     winsize size{};
     if (terminal && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) style.width = size.ws_col;
     char const* const no_colour = std::getenv("NO_COLOR");
-    bool const welcome = terminal && (no_colour == nullptr || *no_colour == '\0');
-    style.colour = colour == "always" || (colour == "auto" && welcome);
+    bool const suitable = terminal && (no_colour == nullptr || *no_colour == '\0');
+    style.colour = colour == "always" || (colour == "auto" && suitable);
     return style;
 }
 
@@ -63,52 +64,57 @@ int run(Options const& options) {
 void add_compare(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
-        "compare", "Set the measured velocity efficiency of every case beside the point-mass theory");
-    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
-        ->required();
+        "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
+    add_campaign_folder(*command, options->folder);
     CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
     CLI::Option* const csv =
-        command->add_flag("--csv", options->csv, "Print CSV with the same columns")->excludes(json);
+        command->add_flag("--csv", options->csv, "Print CSV with the same columns as --json")->excludes(json);
     command
         ->add_flag("--theory-curves", options->curves,
-                   "Print fine theory curves through the cases as CSV, for figures")
+                   "Print fine curves of the theory through the cases as CSV, for figures")
         ->excludes(json)
         ->excludes(csv);
     command
         ->add_option("--sort", options->sort,
-                     "Sort by a column of the JSON or by 'difference' (DEM - theory), e.g. difference:desc")
+                     "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
+                     "difference:desc")
         ->type_name("COLUMN[:desc]");
     command
-        ->add_option("--filter", options->filters,
-                     "Keep the cases for which a column of the JSON (or 'difference') is > >= < <= = or != a "
-                     "value; give it again for a further condition")
+        ->add_option(
+            "--filter", options->filters,
+            "Keep only the cases in which a column of the JSON (or 'difference') is > >= < <= = or != a "
+            "value. Repeat the option for further conditions")
         ->type_name("CONDITION")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         ->add_option("--color", options->colour,
-                     "Colour the table: auto is on a terminal where NO_COLOR is not set")
+                     "Colour the table: auto means on a terminal where NO_COLOR is not set")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
-    command->footer(
-        "eta is the mean velocity of the layer relative to the trough over omega r cos(beta), +- the "
-        "half-width of its\n"
-        "confidence interval over all packings. After 'vibrotrough friction-test' the theory stands there "
-        "twice: at "
-        "the grain's\nfriction and at the layer's. 'eta point, its force' is that of a point mass under the "
-        "layer's own normal "
-        "force:\nhow it differs from the theory is due to how the layer presses; how the layer differs from "
-        "it, "
-        "to how its grains pass\nfriction on, to 0.05. In colour: yellow where the layer is "
-        "faster than the "
-        "theory, "
-        "cyan where it is slower,\nbold from 0.1 on, plain within the interval.\n" +
-        std::string(mode_letters) +
-        "Exit codes: 0 all well; 2 the input is wrong.\n"
-        "Examples: vibrotrough compare runs/demo --csv > demo.csv\n"
-        "          vibrotrough compare runs/demo --filter 'throw_number>1.8' --filter 'outcome=finished' "
-        "--sort "
-        "difference:desc");
+    command->footer(std::string(R"(The columns of the table:
+
+  eta DEM     velocity efficiency of the simulated layer: its mean velocity relative to the trough
+              over omega r cos(beta), +- the half-width of its confidence interval
+  eta theory  velocity efficiency of a point mass at the friction of a grain on the trough (at mu)
+              and, after 'vibrotrough friction-test', at that of the whole layer (at mu layer)
+  eta point   velocity efficiency of a point mass with the friction of a grain under the normal
+              force that the layer exerts (its force). Where it differs from the theory, the cause
+              is how the layer presses on the trough. Where the layer differs from it, the cause
+              is how the grains pass friction on. Both hold to about 0.05.
+  difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
+              theory, cyan where it is slower, bold from 0.1 on, plain within the interval
+  mode        how the theory's point mass and the layer move within a period
+
+)") + mode_letters + R"(
+
+Exit codes:
+    0  all well
+    2  the input is wrong
+
+Examples:
+  vibrotrough compare runs/demo --csv > demo.csv
+  vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "deck/deck.hpp"
 
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/shell.hpp"
@@ -49,17 +50,18 @@ int run(Options const& options) {
 void add_deck(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
-        program.add_subcommand("deck", "Write a campaign's LIGGGHTS decks without running them");
-    command
-        ->add_option("CAMPAIGN.toml", options->campaign_file,
-                     "The campaign file (its keys: vibrotrough keys)")
-        ->required();
+        program.add_subcommand("deck", "Write the LIGGGHTS decks of a campaign without running them");
+    add_campaign_file(*command, options->campaign_file);
     command
         ->add_option("--output", options->output, "Folder for the decks: case-001/packing-1/in.liggghts ...")
         ->type_name("DIR")
         ->required();
     command->footer(
-        "Needs no LIGGGHTS. Example: vibrotrough deck validation/demo/campaign.toml --output decks");
+        R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
+run one by hand. The command does not need LIGGGHTS.
+
+Example:
+  vibrotrough deck validation/demo/campaign.toml --output decks)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,9 +1,10 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
-#include "app/point_mass.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
+#include "compare/point_mass_csv.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
@@ -43,7 +44,15 @@ void print_table(campaign::Plan const& plan) {
     fmt::print("table of all cases: open with: paraview {}\n", core::shell_word(export_table(plan)));
 }
 
-/// Exports the frames that a case's first packing has written so far; nothing when it has none.
+/// The theory's point mass beside the grains; none when its motion has no period.
+std::optional<view::TheoryMotion> theory_motion(prepare::PreparedCase const& prepared) {
+    auto found = compare::point_mass_motion(prepared);
+    if (!found) return {};
+    compare::PointMassScale const& scale = found->scale;
+    return view::TheoryMotion{std::move(found->motion), scale.length_x, scale.length_z, scale.phase_at_start};
+}
+
+/// Exports the frames that a case's first packing has written so far. None when there are no frames.
 std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
     fs::path const packing = planned.packing_folder(1);
     if (planned.scenario().output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
@@ -56,7 +65,7 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .angular_frequency = planned.prepared->angular_frequency,
         .drive = planned.prepared->motion,
         .width = planned.scenario().layer.width,
-        .point_mass = point_mass_beside(*planned.prepared),
+        .point_mass = theory_motion(*planned.prepared),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario().campaign, planned.id, planned.prepared->throw_number,
                                planned.prepared->machine_number, trough.friction)};
@@ -90,16 +99,16 @@ int run(Options const& options) {
         throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
                                            options.folder, options.id, options.folder));
     }
-    bool const asked_for = std::ranges::any_of(
+    bool const wanted = std::ranges::any_of(
         plan.cases, [](auto const& planned) { return planned.scenario().output.frames_per_cycle > 0; });
-    if (exported == 0 && asked_for) {
+    if (exported == 0 && wanted) {
         throw core::InputError(
-            fmt::format("{} holds no frames yet; wait until its first cases run", options.folder));
+            fmt::format("{} holds no frames yet; wait until the first cases run", options.folder));
     }
     if (exported == 0) {
         throw core::InputError(fmt::format(
-            "{} holds no frames; write frames_per_cycle = 20 under [output] in the campaign file and "
-            "run it again",
+            "{} holds no frames; write frames_per_cycle = 20 under [output] in the campaign file, and run it "
+            "again",
             options.folder));
     }
     if (options.id.empty()) print_table(plan);
@@ -111,22 +120,27 @@ int run(Options const& options) {
 void add_export(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
-        program.add_subcommand("export", "Write a campaign's frames for ParaView (.pvd and .vtp)");
-    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
-        ->required();
-    command->add_option("--case", options->id, "Only this case; default: all that have frames")
+        program.add_subcommand("export", "Write the frames and the table of a campaign for ParaView");
+    add_campaign_folder(*command, options->folder);
+    command->add_option("--case", options->id, "Only this case; default: all cases with frames")
         ->type_name("ID");
     command->add_flag("--table", options->table,
-                      "Only the table of all cases (view/campaign.vtt), no frames");
+                      "Write only the table of all cases (view/campaign.vtt), and no frames");
     command->footer(
-        "Frames come from the first packing of each case when the campaign asks for them: [output] "
-        "frames_per_cycle.\n"
-        "The grains, the trough, the theory's point mass as a block that moves in step, and the layer's "
-        "profile each are a\n"
-        ".pvd; view.sh opens all of them. Without --case the campaign's table is written, too. Works while a "
-        "case runs.\n"
-        "Exit codes: 0 all well; 2 the input is wrong or there is no frame; 3 something is missing (disk).\n"
-        "Example: vibrotrough export runs/demo");
+        R"(Frames are snapshots of the grains. They are written while the first packing of each case is
+simulated if the campaign file asks for them with frames_per_cycle under [output].
+
+Four .pvd files are written for each case: the grains, the trough, the theory's point mass (a block that moves in step
+with the grains), and the velocity profile of the layer. The script view.sh beside them opens all four. Without --case,
+the table of all cases is written too. Prints the commands that open the files. Works while a case runs.
+
+Exit codes:
+    0  all well
+    2  the input is wrong, or there are no frames
+    3  something is missing, for example disk space
+
+Example:
+  vibrotrough export runs/demo)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

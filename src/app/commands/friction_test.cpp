@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
@@ -47,7 +48,7 @@ void print(evaluate::LayerFriction const& test) {
                    *test.high, test.mode);
         if (!test.message.empty()) fmt::print("; {}", test.message);
     } else {
-        fmt::print("no number: {}", test.message);
+        fmt::print("no friction coefficient: {}", test.message);
     }
     fmt::print("\n");
 }
@@ -60,9 +61,9 @@ int exit_code_of(campaign::Summary const& summary, std::vector<evaluate::LayerFr
 
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
-    std::optional<fs::path> const asked =
+    std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine engine = engine::find_engine(asked);
+    engine::Engine engine = engine::find_engine(program);
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     fs::path const test_folder = folder / "friction-test";
@@ -90,11 +91,11 @@ int run(Options const& options) {
     auto const tests = campaign::measure_friction(plan);
     for (evaluate::LayerFriction const& test : tests) print(test);
     if (summary.interrupted) {
-        fmt::print("interrupted: the same command goes on where it stopped\n");
+        fmt::print("interrupted: the same command continues it\n");
         return interrupted;
     }
     campaign::write_friction(folder, tests);
-    fmt::print("written to {}; 'vibrotrough compare {}' shows the theory at this friction, too\n",
+    fmt::print("written to {}; 'vibrotrough compare {}' now also shows the theory at this friction\n",
                campaign::friction_file(folder).string(), core::shell_word(folder));
     return exit_code_of(summary, tests);
 }
@@ -104,45 +105,48 @@ int run(Options const& options) {
 void add_friction_test(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
-        "friction-test",
-        "Measure the friction of a campaign's layers as a whole: shake each of them along a level trough, "
-        "see\n"
-        "how far it slides, and find the friction with which a point mass slides as far (Sloot & Kruyt "
-        "1996,\n"
-        "section 6). Grains roll and layers shear, so that this friction is below that of grain on trough.");
-    command
-        ->add_option("CAMPAIGN.toml", options->campaign_file,
-                     "The campaign file (its keys: vibrotrough keys)")
-        ->required();
+        "friction-test", R"(Measure the friction coefficient of a campaign's layers as a whole
+
+Each layer is shaken along a level trough. Its friction coefficient is the one with which a point mass slides as far
+as the layer does (Sloot & Kruyt 1996, section 6). It is lower than the friction coefficient between a grain and the
+trough, because grains roll and layers shear.)");
+    add_campaign_file(*command, options->campaign_file);
     command
         ->add_option(
             "--output", options->output,
-            "Folder of the campaign's results; default runs/<name>. The test is a campaign of its own in "
+            "Folder of the campaign's results; default runs/<name>. The test is a separate campaign in "
             "DIR/friction-test")
         ->type_name("DIR");
     command
         ->add_option(
             "--machine-number", options->machine_number,
-            "K = omega^2 r / g of the shaking. The layer must slide both ways without a rest: K > mu sqrt(1 "
-            "+ pi^2 / 4)\n= 1.862 mu; the closer to that, the sharper the answer. Default: the paper's 0.67, "
-            "or a fifth above that limit\nfor the largest grain friction when that is more")
+            "K = omega^2 r / g of the shaking. The layer must slide both ways without resting, which needs "
+            "K > mu sqrt(1 + pi^2 / 4) = 1.862 mu; the closer K is to that, the more precise the result. "
+            "Default: 0.67 as in the paper, or 1.2 times that limit for the largest grain friction when "
+            "that is more")
         ->check(CLI::Range(1e-3, 1e3))
         ->type_name("K");
     command->add_option("--jobs", options->jobs, "Engines that run at a time")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
-    command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
-        ->type_name("PATH");
-    command->add_flag("--accept-failed-probes", options->accept_failed_probes,
-                      "Run although the engine failed its probes (see probe-engine)");
+    add_engine(*command, options->engine);
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
     command->footer(
-        "Cases that share grains, layer and trough surface share a test. Ctrl-C stops cleanly, and the same "
-        "command "
-        "goes on\nwhere it stopped. The numbers are in DIR/friction.json; 'vibrotrough compare DIR' uses "
-        "them.\n"
-        "Exit codes: 0 every layer has a number; 1 some have none (it is said why); 2 the input is wrong;\n"
-        "3 something is missing (no liggghts, no disk); 130 interrupted.\n"
-        "Example: vibrotrough friction-test validation/demo/campaign.toml --output runs/demo --jobs 2");
+        R"(Prints one line per layer: how far it slides relative to the trough (from peak to peak, in amplitudes
+r), its friction coefficient with an interval, and its mode. The numbers are also written to DIR/friction.json, and 'vibrotrough compare DIR' then
+shows the theory with this friction too. Cases with the same grains, layer and trough surface share one test.
+
+Ctrl-C stops the run cleanly, and the same command continues it.
+
+Exit codes:
+    0  the friction of every layer was measured
+    1  the friction of some layers could not be measured; the reason is printed
+    2  the input is wrong
+    3  something is missing: no liggghts, one that failed its probes, or no disk space
+  130  interrupted
+
+Example:
+  vibrotrough friction-test validation/demo/campaign.toml --output runs/demo --jobs 2)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "campaign/state/plan.hpp"
 
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/execute/executors.hpp"
@@ -32,8 +33,8 @@ struct Options {
     bool json = false;
 };
 
-/// The engine that a run would use: asked for, or found, or the one that the folder was planned with. Without
-/// any, the cases have no ids and nothing is known of them.
+/// The version of the engine that a run would use: the one that the user gives, else the one on the PATH,
+/// else the one that the folder was planned with. The ids of the cases depend on it.
 std::string engine_version(Options const& options, fs::path const& folder) {
     if (!options.engine.empty()) return engine::find_engine(fs::path(options.engine)).version;
     try {
@@ -46,18 +47,19 @@ std::string engine_version(Options const& options, fs::path const& folder) {
     }
 }
 
-struct Seen {
+/// Everything that is printed.
+struct PlanView {
     scenario::Campaign const& campaign;
     campaign::Plan const& plan;
     std::vector<campaign::CaseOverview> const& cases;
     campaign::Forecast const& cost;
-    std::size_t known = 0;
+    std::size_t known = 0;  ///< number of cases with a result
 };
 
-void print_json(Seen const& seen) {
+void print_json(PlanView const& view) {
     Json list = Json::array();
-    for (std::size_t i = 0; i < seen.cases.size(); ++i) {
-        campaign::CaseOverview const& one = seen.cases[i];
+    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+        campaign::CaseOverview const& one = view.cases[i];
         scenario::Trough const& trough = one.planned->scenario().trough;
         list.push_back({{"case", one.planned->id},
                         {"throw_number", one.planned->prepared->throw_number},
@@ -69,25 +71,25 @@ void print_json(Seen const& seen) {
                         {"packings", one.planned->scenario().measure.packings},
                         {"packings_done", one.packings_done},
                         {"outcome", one.label()},
-                        {"core_time_s", seen.cost.cases[i]}});
+                        {"core_time_s", view.cost.cases[i]}});
     }
-    Json const json{{"campaign", seen.plan.name},
-                    {"cases_total", seen.cases.size()},
-                    {"excluded", seen.campaign.excluded},
-                    {"known", seen.known},
-                    {"core_time_s", seen.cost.core_time},
-                    {"speed_grain_steps_per_s", seen.cost.speed},
-                    {"speed_is_measured", seen.cost.measured},
-                    {"left_aside", campaign::count_left_aside(seen.plan)},
+    Json const json{{"campaign", view.plan.name},
+                    {"cases_total", view.cases.size()},
+                    {"excluded", view.campaign.excluded},
+                    {"known", view.known},
+                    {"core_time_s", view.cost.core_time},
+                    {"speed_grain_steps_per_s", view.cost.speed},
+                    {"speed_is_measured", view.cost.measured},
+                    {"left_aside", campaign::count_left_aside(view.plan)},
                     {"cases", list}};
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(Seen const& seen) {
+void print_text(PlanView const& view) {
     fmt::print(
         "case          Gamma       K   beta  alpha    mu   grains  packings  outcome       core time\n");
-    for (std::size_t i = 0; i < seen.cases.size(); ++i) {
-        campaign::CaseOverview const& one = seen.cases[i];
+    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+        campaign::CaseOverview const& one = view.cases[i];
         scenario::Scenario const& scenario = one.planned->scenario();
         fmt::print("{}  {:5.3f}  {:6.3f}  {:5.2f}  {:5.2f}  {:4.2f}  {:7}  {:>4}/{:<3}  {:<12}  {:>9}\n",
                    one.planned->id, one.planned->prepared->throw_number,
@@ -95,18 +97,18 @@ void print_text(Seen const& seen) {
                    scenario::in_degrees(scenario.trough.vibration_angle),
                    scenario::in_degrees(scenario.trough.inclination), scenario.trough.friction,
                    scenario.layer.grains, one.packings_done, scenario.measure.packings, one.label(),
-                   clock_time(seen.cost.cases[i]));
+                   clock_time(view.cost.cases[i]));
     }
-    fmt::print("campaign {}: {} cases, {} known already", seen.plan.name, seen.cases.size(), seen.known);
-    if (seen.campaign.excluded > 0) fmt::print(", {} left out by [[exclude]]", seen.campaign.excluded);
-    if (std::size_t const aside = campaign::count_left_aside(seen.plan); aside > 0)
-        fmt::print(", {} of an earlier version left aside", aside);
+    fmt::print("campaign {}: {} cases, {} with a result", view.plan.name, view.cases.size(), view.known);
+    if (view.campaign.excluded > 0) fmt::print(", {} left out by [[exclude]]", view.campaign.excluded);
+    if (std::size_t const unused = campaign::count_left_aside(view.plan); unused > 0)
+        fmt::print(", {} cases of an earlier version not used", unused);
     unsigned const cores = std::max(1u, std::thread::hardware_concurrency());
     fmt::print(
         "\nestimated cost: {:.3g} core-hours, {} on {} cores (at {:.2g} grain-steps per second and core, "
         "{})\n",
-        seen.cost.core_time / 3600, clock_time(seen.cost.core_time / cores), cores, seen.cost.speed,
-        seen.cost.measured ? "from the results that are there" : "a guess before the first result");
+        view.cost.core_time / 3600, clock_time(view.cost.core_time / cores), cores, view.cost.speed,
+        view.cost.measured ? "measured in finished cases" : "assumed until the first result");
 }
 
 int run(Options const& options) {
@@ -116,9 +118,9 @@ int run(Options const& options) {
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
     campaign::Forecast const cost = campaign::forecast(cases);
-    Seen seen{campaign, plan, cases, cost};
-    for (campaign::CaseOverview const& one : cases) seen.known += one.record ? 1 : 0;
-    options.json ? print_json(seen) : print_text(seen);
+    PlanView view{campaign, plan, cases, cost};
+    for (campaign::CaseOverview const& one : cases) view.known += one.record ? 1 : 0;
+    options.json ? print_json(view) : print_text(view);
     return all_well;
 }
 
@@ -127,22 +129,26 @@ int run(Options const& options) {
 void add_plan(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
-        "plan", "Print a campaign's cases, what of them is known already, and what the rest would cost");
-    command
-        ->add_option("CAMPAIGN.toml", options->campaign_file,
-                     "The campaign file (its keys: vibrotrough keys)")
-        ->required();
-    command->add_option("--output", options->output, "Folder of the campaign's results; default runs/<name>")
-        ->type_name("DIR");
-    command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
-        ->type_name("PATH");
+        "plan", "List the cases of a campaign, which of them have a result, and what the others will cost");
+    add_campaign_file(*command, options->campaign_file);
+    add_results_folder(*command, options->output);
+    add_engine(*command, options->engine);
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
-        "Runs nothing and writes nothing. The engine is asked for its version only, which the cases' ids "
-        "depend "
-        "on.\n"
-        "Exit codes: 0 all well; 2 the input is wrong; 3 something is missing (no liggghts).\n"
-        "Example: vibrotrough plan validation/demo/campaign.toml --output runs/demo");
+        R"(Prints one line per case: its id, throw number Gamma, machine number K, vibration angle beta and
+inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended, outcome, and the core
+time that it still needs. Below, the cost of the whole campaign is estimated.
+
+Nothing is simulated, and no file is written. Only the version of the engine is read, because the ids of the cases
+depend on it.
+
+Exit codes:
+    0  all well
+    2  the input is wrong
+    3  something is missing, for example liggghts
+
+Example:
+  vibrotrough plan validation/demo/campaign.toml --output runs/demo)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

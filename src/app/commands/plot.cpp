@@ -1,8 +1,10 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "app/python.hpp"
-#include "app/report_data.hpp"
+#include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
+#include "compare/report_data.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -39,11 +41,11 @@ int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
-    bool const finished = write_report_data(plan, output / "data") > 0;
+    bool const finished =
+        compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data") > 0;
     if (!finished && !options.report) {
-        throw core::InputError(
-            fmt::format("{} holds no finished case yet; 'vibrotrough status {}' tells more", options.folder,
-                        options.folder));
+        throw core::InputError(fmt::format("{} holds no finished case yet; see 'vibrotrough status {}'",
+                                           options.folder, options.folder));
     }
     std::vector<std::string> modules{"numpy", "h5py", "matplotlib"};
     if (options.report) modules.emplace_back("jinja2");
@@ -56,67 +58,70 @@ int run(Options const& options) {
     return all_well;
 }
 
+/// The options of both commands.
 std::shared_ptr<Options> add_common(CLI::App& command) {
     auto const options = std::make_shared<Options>();
-    command.add_option("DIR", options->folder, "The campaign's folder, as given to run --output")->required();
+    add_campaign_folder(command, options->folder);
     command.add_option("--output", options->output, "Folder to write to; default DIR/report")
         ->type_name("DIR");
     command
         .add_option("--case", options->cases,
-                    "Draw the figures of single cases for this case only; may be given again; default: all")
+                    "Draw the figures of single cases only for this case; repeat the option for several; "
+                    "default: all")
         ->type_name("ID")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        .add_option(
-            "--python", options->python,
-            "Python with numpy, h5py and matplotlib; default: /usr/bin/python3, else python3 on the PATH")
-        ->type_name("PATH");
+    add_python(command, options->python);
     return options;
 }
 
 }  // namespace
 
 void add_plot(CLI::App& program, int& exit_code) {
-    CLI::App* const command =
-        program.add_subcommand("plot",
-                               "Draw a campaign's figures as SVG and PNG: efficiency against throw number, "
-                               "residuals, cycle series");
+    CLI::App* const command = program.add_subcommand("plot", "Draw the figures of a campaign as SVG and PNG");
     auto const options = add_common(*command);
-    command->add_option("--only", options->only, "Draw this kind of figure only; may be given again")
+    command
+        ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
         ->check(CLI::IsMember({"efficiency", "residuals", "cycles", "portraits", "profiles"}))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->footer(
-        "KIND is efficiency (DEM with error bars over the theory's lines), residuals (DEM minus theory), and "
-        "for each "
-        "case\n"
-        "cycles (velocity efficiency of every cycle, the discarded start shaded), portraits (layer and point "
-        "mass in "
-        "phase\n"
-        "space) and profiles (velocity over height). Prints the path of every file it wrote. Works while the "
-        "campaign "
-        "runs.\n"
-        "Exit codes: 0 all well; 2 the input is wrong; 3 something is missing (Python with its modules, "
-        "disk).\n"
-        "Example: vibrotrough plot runs/demo");
+    command->footer(R"(Kinds of figures:
+  efficiency  velocity efficiency over throw number: DEM with error bars, the theory as lines
+  residuals   DEM minus theory
+  cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
+  portraits   for each case: layer and point mass in phase space
+  profiles    for each case: velocity over height
+
+Prints the path of every file that it wrote. Works while the campaign runs.
+
+Exit codes:
+    0  all well
+    2  the input is wrong, or no case is finished yet
+    3  something is missing: Python with its modules, or disk space
+
+Example:
+  vibrotrough plot runs/demo)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 void add_report(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
-        "report", "Write one HTML file with a campaign's input, table, figures and failures");
+        "report", "Write one HTML page with the input, table, figures and failures of a campaign");
     auto const options = add_common(*command);
     options->report = true;
     command->footer(
-        "Writes DIR/report/report.html, which needs no network and no other file, and the figures beside it. "
-        "The table "
-        "sorts on a\n"
-        "click. Works while the campaign runs; the same command renews it.\n"
-        "Exit codes: 0 all well; 2 the input is wrong; 3 something is missing (Python with its modules, "
-        "disk).\n"
-        "Example: vibrotrough report runs/demo");
+        R"(Writes DIR/report/report.html and the figures beside it. The page is complete in itself and needs no
+network. A click on a column's heading sorts the table. The command works while the campaign runs; give it again to
+update the page.
+
+Exit codes:
+    0  all well
+    2  the input is wrong
+    3  something is missing: Python with its modules, or disk space
+
+Example:
+  vibrotrough report runs/demo)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

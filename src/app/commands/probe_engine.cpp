@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "core/atomic_file.hpp"
@@ -24,7 +25,7 @@ struct Options {
 std::string describe(engine::ProbeResult const& probe) {
     bool const near = probe.comparison == engine::Comparison::near;
     std::string const answer =
-        probe.problem.empty() ? fmt::format("{:.6g}", probe.measured) : "no answer: " + probe.problem;
+        probe.problem.empty() ? fmt::format("{:.6g}", probe.measured) : "no result: " + probe.problem;
     return fmt::format("{:<6}  {:<28} {:>12}   {} {:.6g} {} {:.2g}{}", probe.passed() ? "passed" : "FAILED",
                        probe.name, answer, near ? "expected" : "at most ", probe.expected, near ? "+-" : "+",
                        probe.tolerance, probe.unit == "1" ? "" : " " + probe.unit);
@@ -60,24 +61,28 @@ int run(Options const& options) {
 void add_probe_engine(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command = program.add_subcommand(
-        "probe-engine",
-        "Ask a LIGGGHTS binary whether its contacts, friction and drive are what they should be");
-    command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
-        ->type_name("PATH");
-    command->add_option("--output", options->output, "Write the certificate (JSON) to this file as well")
+        "probe-engine", "Test whether the contacts, friction and drive of a LIGGGHTS binary are correct");
+    add_engine(*command, options->engine);
+    command->add_option("--output", options->output, "Also write the certificate (JSON) to this file")
         ->type_name("FILE");
     command->add_flag("--json", options->json, "Print the certificate (JSON) instead of the table");
     command->footer(
-        "Runs small decks for a few seconds: impacts of single grains against the contact law, integrated "
-        "without the\n"
-        "engine; Coulomb's limit and energy in oblique impacts; sticking, sliding and rolling on an incline; "
-        "the trough's\n"
-        "motion and its contacts; and how fast the engine is. A certificate that passed is kept in "
-        "$XDG_CACHE_HOME/vibrotrough\n"
-        "(or ~/.cache/vibrotrough), so that 'run' probes each binary once.\n"
-        "Exit codes: 0 all probes passed; 1 one failed; 3 something is missing (no liggghts, no disk); 130 "
-        "interrupted.\n"
-        "Example: vibrotrough probe-engine --liggghts /opt/liggghts/bin/liggghts --output certificate.json");
+        R"(Runs small decks for a few seconds, and prints one line per probe with the measured and the expected
+value. The probes are: impacts of single grains, compared with the contact law integrated without the engine; Coulomb's
+limit and the energy in oblique impacts; sticking, sliding and rolling on an incline; the motion of the trough and its
+contacts; and the speed of the engine.
+
+A certificate whose probes all passed is kept in $XDG_CACHE_HOME/vibrotrough (or ~/.cache/vibrotrough), so that
+'vibrotrough run' tests each binary only once.
+
+Exit codes:
+    0  all probes passed
+    1  a probe failed
+    3  something is missing: liggghts, or disk space
+  130  interrupted
+
+Example:
+  vibrotrough probe-engine --liggghts /opt/liggghts/bin/liggghts --output certificate.json)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

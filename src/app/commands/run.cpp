@@ -1,5 +1,5 @@
-#include "app/check_report.hpp"
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_log.hpp"
@@ -11,6 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "deck/campaign_check.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -49,25 +50,25 @@ std::unique_ptr<campaign::Observer> make_observer(Options const& options) {
     return std::make_unique<ProgressPrinter>();
 }
 
-std::string describe(campaign::Summary const& summary, std::size_t cases, bool goes_on) {
+std::string describe(campaign::Summary const& summary, std::size_t cases, bool runs_on) {
     std::size_t const left =
         cases - static_cast<std::size_t>(summary.finished + summary.unsure + summary.failed);
     std::string text = fmt::format("{} of {} cases finished", summary.finished, cases);
     if (summary.unsure > 0) text += fmt::format(", {} not steady or not precise", summary.unsure);
     if (summary.failed > 0) text += fmt::format(", {} failed", summary.failed);
-    if (left > 0 && !goes_on) text += fmt::format(", {} left", left);
-    return text + (summary.interrupted ? "; interrupted: the same command goes on where it stopped" : "");
+    if (left > 0 && !runs_on) text += fmt::format(", {} left", left);
+    return text + (summary.interrupted ? "; interrupted: the same command continues it" : "");
 }
 
-/// Results of an earlier version of the campaign stay on disk and are no part of this one.
-void say_what_is_left_aside(campaign::Plan const& plan) {
-    std::size_t const aside = campaign::count_left_aside(plan);
-    if (aside > 0)
-        fmt::print("{} cases in {} are of an earlier version of the campaign and left aside\n", aside,
+/// Results of an earlier version of the campaign stay on disk but do not belong to this one.
+void print_unused_cases(campaign::Plan const& plan) {
+    std::size_t const unused = campaign::count_left_aside(plan);
+    if (unused > 0)
+        fmt::print("{} cases in {} belong to an earlier version of the campaign and are not used\n", unused,
                    (plan.folder / "cases").string());
 }
 
-/// What the executor was given, for packings that go on when this command has returned.
+/// What was submitted, for packings that run on after this command has returned.
 std::string describe_submission(campaign::Summary const& summary, std::string_view executor) {
     std::string text;
     if (summary.in_queue > 0)
@@ -75,50 +76,63 @@ std::string describe_submission(campaign::Summary const& summary, std::string_vi
     if (summary.submitted > 0) {
         text += fmt::format("; {} packings submitted as {}", summary.submitted,
                             fmt::join(summary.references, "; "));
-        if (summary.again > 0) text += fmt::format(" ({} of them once more)", summary.again);
+        if (summary.again > 0) text += fmt::format(" ({} of them again)", summary.again);
     }
     return text;
 }
 
-/// Shows what the check warns of. Errors refuse the campaign unless the user accepts them.
-void check(Options const& options, scenario::Campaign const& campaign) {
-    CheckReport const report = check_campaign(campaign);
-    print_warnings(report, options.campaign_file);
-    if (report.errors() == 0 || options.accept_findings) return;
-    throw core::InputError(
-        fmt::format("{}: {}; mend it, see 'vibrotrough check', or run all the same with --accept-findings",
-                    options.campaign_file, report.first_error()));
+/// Prints what is not fine on standard error, one line each.
+void print_findings(deck::CampaignCheck const& found, std::string const& campaign_file) {
+    int const count = found.warnings() + found.errors();
+    if (count == 0) return;
+    fmt::print(stderr, "check: {} finding{} ('vibrotrough check {}' shows all):\n", count,
+               count == 1 ? "" : "s", campaign_file);
+    for (deck::CheckedItem const& item : found.items) {
+        if (item.worst.severity == deck::Severity::fine) continue;
+        fmt::print(stderr, "  {}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
+    }
 }
 
-/// Says what the run came to, on standard output and in the log, and gives the exit code.
+/// Checks the campaign and prints what is not fine. @throws InputError when there are errors that the user
+/// has not accepted
+void check(Options const& options, scenario::Campaign const& campaign) {
+    deck::CampaignCheck const found = deck::check_campaign(campaign);
+    print_findings(found, options.campaign_file);
+    if (found.errors() == 0 || options.accept_findings) return;
+    throw core::InputError(
+        fmt::format("{}: {}; correct it (see 'vibrotrough check'), or run it anyway with --accept-findings",
+                    options.campaign_file, found.first_error()));
+}
+
+/// Writes the summary of the run to standard output and to the log, and returns the exit code.
 int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind) {
-    bool const goes_on = !summary.references.empty() || summary.in_queue > 0;
-    std::string const end = describe(summary, plan.cases.size(), goes_on) +
-                            (goes_on ? describe_submission(summary, kind.title) : "");
+    bool const runs_on = !summary.references.empty() || summary.in_queue > 0;
+    std::string const end = describe(summary, plan.cases.size(), runs_on) +
+                            (runs_on ? describe_submission(summary, kind.title) : "");
     CampaignLog(plan.folder).info("run ends: " + end);
     fmt::print("{}\n", end);
-    say_what_is_left_aside(plan);
+    print_unused_cases(plan);
     std::string const folder = core::shell_word(plan.folder);
-    if (goes_on) {
+    if (runs_on) {
         fmt::print("follow with: vibrotrough status {}\n", folder);
     } else {
         fmt::print("results in {}; see them with: vibrotrough compare {}\n", plan.folder.string(), folder);
     }
-    if (goes_on && !summary.interrupted) return all_well;
+    if (runs_on && !summary.interrupted) return all_well;
     return exit_code_of(summary);
 }
 
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
-    std::optional<fs::path> const asked =
+    std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
-    engine::Engine engine = engine::find_engine(asked);
+    engine::Engine engine = engine::find_engine(program);
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     core::make_folder(folder);
     {
-        // That there is no place, or another driver, is known before anything else is done.
-        campaign::FolderLock const free_for_us(folder);
+        // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
+        campaign::FolderLock const lock(folder);
     }
     check(options, campaign);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
@@ -143,42 +157,46 @@ int run(Options const& options) {
 void add_run(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
-        program.add_subcommand("run", "Run every case of a campaign that is not finished");
+        program.add_subcommand("run", "Simulate all cases of a campaign that are not finished yet");
+    add_campaign_file(*command, options->campaign_file);
+    add_results_folder(*command, options->output);
     command
-        ->add_option("CAMPAIGN.toml", options->campaign_file,
-                     "The campaign file (its keys: vibrotrough keys)")
-        ->required();
-    command->add_option("--output", options->output, "Folder of the campaign's results; default runs/<name>")
-        ->type_name("DIR");
-    command
-        ->add_option("--jobs", options->jobs,
-                     "Cores to use: so many engines at a time, fewer when they have several MPI ranks")
+        ->add_option(
+            "--jobs", options->jobs,
+            "Number of cores to use. Each engine takes one core, or several when it has several MPI ranks")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
-    command->add_option("--liggghts", options->engine, "The LIGGGHTS program; default: liggghts on the PATH")
-        ->type_name("PATH");
+    add_engine(*command, options->engine);
     command->add_option("--progress", options->progress, "How to show progress on standard error")
         ->check(CLI::IsMember({"text", "json", "none"}))
         ->capture_default_str();
     command->add_flag("--quiet", options->quiet, "Show no progress; the same as --progress none");
-    command->add_flag("--accept-failed-probes", options->accept_failed_probes,
-                      "Run although the engine failed its probes (see probe-engine)");
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
     command->add_flag("--accept-findings", options->accept_findings,
-                      "Run although the check of the campaign found errors (see check)");
-    command->add_flag("--wait", options->wait,
-                      "Stay until all packings have ended also where a cluster runs them");
+                      "Run although the check of the campaign found errors (see 'vibrotrough check')");
+    command->add_flag(
+        "--wait", options->wait,
+        "On a cluster: stay until all packings have ended instead of returning after submission");
     command->footer(
-        "The campaign is checked first, see 'vibrotrough check --help'. The engine is probed once per "
-        "binary, see\n'vibrotrough probe-engine --help'.\n"
-        "Ctrl-C stops cleanly, and the same command goes on where it stopped: a finished case is never run "
-        "again.\n"
-        "Exit codes: 0 all cases finished; 1 some failed, or were not steady or not precise; 2 the input is "
-        "wrong;\n"
-        "3 something is missing (no liggghts, one that failed its probes, no disk);\n130 interrupted.\n"
-        "With executor = \"slurm\" under [run] the packings are submitted as job arrays and the command "
-        "returns,\n"
-        "unless --wait is given; the same command finds the tasks that died and submits them again.\n"
-        "Example: vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2");
+        R"(The campaign is checked first (see 'vibrotrough check --help'), and each engine binary is
+tested once (see 'vibrotrough probe-engine --help'). Each case is then simulated in several packings until its
+velocity efficiency is known as precisely as the campaign file asks. A summary and the next command are printed
+at the end.
+
+Ctrl-C stops the run cleanly. The same command continues it; a finished case is never simulated again.
+
+With executor = "slurm" under [run] in the campaign file, the packings are submitted as job arrays and the command
+returns, unless --wait is given. The same command finds tasks that died and submits them again.
+
+Exit codes:
+    0  all cases are finished
+    1  some cases failed, or are not steady or not precise
+    2  the input is wrong
+    3  something is missing: no liggghts, one that failed its probes, or no disk space
+  130  interrupted
+
+Example:
+  vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

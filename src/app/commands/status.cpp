@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -22,7 +23,7 @@ struct Options {
     bool json = false;
 };
 
-/// Cases by what is to be done about them.
+/// Number of cases by state. `unsure` counts those that are not steady or not precise.
 struct Counts {
     int finished = 0, unsure = 0, failed = 0, running = 0, left = 0;
 };
@@ -87,12 +88,19 @@ int run(Options const& options) {
 
 void add_status(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
-    CLI::App* const command =
-        program.add_subcommand("status", "Say what of a campaign is done, running, failed and left");
-    command->add_option("DIR", options->folder, "The campaign's folder, as given to run --output")
-        ->required();
+    CLI::App* const command = program.add_subcommand(
+        "status", "Show which cases of a campaign are finished, running, failed or still to do");
+    add_campaign_folder(*command, options->folder);
     command->add_flag("--json", options->json, "Print JSON for scripts");
-    command->footer("Works while the campaign runs. Example: vibrotrough status runs/demo");
+    command->footer(
+        R"(Prints one line for each case that has started: its id, its state, how many of its packings have
+ended, and why it failed or waits. The last line counts the cases. The command works while the campaign runs, and it
+changes nothing.
+
+In the JSON, "unsure" is the number of cases that are not steady or not precise.
+
+Example:
+  vibrotrough status runs/demo)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/python.hpp"
 
 #include <filesystem>
@@ -23,7 +24,8 @@ struct Options {
     int points = 300;
 };
 
-std::vector<std::string> words(Options const& options) {
+/// The command line of validate.py.
+std::vector<std::string> script_arguments(Options const& options) {
     std::vector<std::string> all = options.names;
     all.insert(all.end(), {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
                            options.output, "--runs", options.runs, "--jobs", std::to_string(options.jobs),
@@ -40,47 +42,53 @@ std::vector<std::string> words(Options const& options) {
 
 void add_validate(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
-        "validate", "Hold the program against the paper, exact solutions and other people's measurements");
+        "validate", "Compare this program with the paper, exact solutions and published measurements");
     auto const options = std::make_shared<Options>();
-    command->add_option("NAME", options->names, "Cases of validation/; default: all")->type_name("");
+    command->add_option("NAME", options->names, "Validation cases, see --list; all when none is given")
+        ->type_name("");
     command->add_flag("--list", options->list,
-                      "List the cases with their latest stored verdict; run nothing");
-    command->add_flag("--long", options->long_ones,
-                      "Run the simulations of the long cases (minutes to an hour each); without it their "
-                      "stored tables are judged again");
+                      "List the validation cases with their latest stored verdicts, and run nothing");
+    command->add_flag(
+        "--long", options->long_ones,
+        "Run the simulations of the long cases, which take minutes to an hour each; without it their "
+        "stored tables are judged again");
     command
         ->add_option("--output", options->output,
-                     "Folder for tables, figures, verdicts and logs, one folder per case")
+                     "Folder for tables, figures, verdicts and logs, one folder per validation case")
         ->capture_default_str()
         ->type_name("DIR");
     command
-        ->add_option("--runs", options->runs, "Folder for simulations, which go on where they were stopped")
+        ->add_option("--runs", options->runs,
+                     "Folder for the simulations; those that were stopped continue from there")
         ->capture_default_str()
         ->type_name("DIR");
-    command->add_option("--jobs", options->jobs, "Simulations at once; default: the number of cores")
+    command->add_option("--jobs", options->jobs, "Simulations at a time; default: the number of cores")
         ->check(CLI::Range(1, 4096));
-    command->add_option("--points", options->points, "Per axis of a map of the theory")
+    command
+        ->add_option("--points", options->points, "Number of points along each axis of a map of the theory")
         ->capture_default_str()
         ->check(CLI::Range(10, 5000));
     command->add_flag("--store", options->store,
-                      "Keep tables, figures and verdicts in validation/ itself and renew its page");
-    command->add_flag("--page", options->page, "Print the page of stored verdicts; run nothing");
+                      "Keep tables, figures and verdicts in validation/ itself and write its page again");
+    command->add_flag("--page", options->page, "Print the page of stored verdicts, and run nothing");
     command->add_flag("--verbose", options->verbose,
-                      "Show what the cases print instead of writing it to their logs");
-    command->add_option("--python", options->python, "Python with numpy, h5py and matplotlib")
-        ->type_name("PATH");
+                      "Show what the validation cases print instead of writing it to their logs");
+    add_python(*command, options->python);
     command->footer(
-        "A case holds when all its criteria do. Each has a negative control, a deliberate error that its "
-        "criteria must "
-        "notice.\n"
-        "Exit codes: 0 every case holds and every negative control was noticed; 1 some do not, or were not; "
-        "2 the input "
-        "is "
-        "wrong;\n"
-        "3 something is missing (Python with its modules, no engine, disk); 130 interrupted.\n"
-        "Example: vibrotrough validate theory_table_1 rigid_block --verbose");
+        R"(A validation case passes when all its criteria are met. Each has a negative control: a deliberate
+error that its criteria must detect.
+
+Exit codes:
+    0  every validation case passed, and the error of every negative control was detected
+    1  a validation case did not pass, or the error of a negative control was not detected
+    2  the input is wrong
+    3  something is missing: Python with its modules, the engine, or disk space
+  130  interrupted
+
+Example:
+  vibrotrough validate theory_table_1 rigid_block --verbose)");
     command->callback([options, &exit_code] {
-        exit_code = script_exit_code("validate.py", words(*options), options->python,
+        exit_code = script_exit_code("validate.py", script_arguments(*options), options->python,
                                      {"numpy", "h5py", "matplotlib"});
     });
 }

@@ -1,4 +1,5 @@
 #include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/execute/packing_worker.hpp"
 #include "campaign/execute/slurm_batch.hpp"
@@ -42,33 +43,41 @@ int run(Options& options) {
 void add_work(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
-        program.add_subcommand("work", "Run one packing of a campaign: what a task on a cluster does");
-    command->add_option("DIR", options->folder, "The campaign's folder")->required();
-    command->add_option("--task-list", options->task_list, "A line '<case id> <packing>' per task")
+        program.add_subcommand("work", "Simulate one packing, as a task on a cluster does");
+    add_campaign_folder(*command, options->folder);
+    command
+        ->add_option("--task-list", options->task_list,
+                     "File with one line '<case id> <packing>' for each task")
         ->type_name("FILE")
         ->required();
-    command->add_option("--index", options->index, "Of the task in its list, from 0")
+    command->add_option("--index", options->index, "Line of the task in the list, counted from 0")
         ->check(CLI::Range(0, 1'000'000))
         ->required();
     command->add_option("--ranks", options->limits.ranks, "MPI ranks of the engine")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--retries", options->limits.retries, "After an end that may not come again")
+    command
+        ->add_option("--retries", options->limits.retries,
+                     "How often to try again after a failure that may not happen again")
         ->check(CLI::Range(0, 100))
         ->capture_default_str();
-    command->add_option("--time-limit", options->time_limit, "Wall clock for the packing, s")
+    command
+        ->add_option("--time-limit", options->time_limit, "Longest wall-clock time of the packing in seconds")
         ->check(CLI::Range(1.0, 3e7));
     command->footer(
-        "The job script that 'vibrotrough run' writes for Slurm calls this; other schedulers can as well. "
-        "Any "
-        "number of\n"
-        "these may work on one campaign at once: a packing is run by one of them, and the one that ends a "
-        "case's last\n"
-        "packing puts its result together.\n"
-        "Exit codes: 0 the packing is finished, or another process is at it; 1 it failed, failure.json says "
-        "why; 2 there\n"
-        "is no such task; 3 something is missing (another engine than planned, no disk); 130 interrupted.\n"
-        "Example: vibrotrough work runs/demo --task-list runs/demo/slurm/0001/tasks.txt --index 0");
+        R"(The job script that 'vibrotrough run' writes for Slurm calls this command, and other schedulers can
+call it too. Any number of these processes may work on one campaign at the same time: each packing is simulated by one
+of them, and the process that ends the last packing of a case writes the result of the case.
+
+Exit codes:
+    0  the packing is finished, or another process is working on it
+    1  the packing failed; failure.json in its folder gives the reason
+    2  the input is wrong, for example because the list has no such task
+    3  something is missing: the engine that the campaign was planned with, or disk space
+  130  interrupted
+
+Example:
+  vibrotrough work runs/demo --task-list runs/demo/slurm/0001/tasks.txt --index 0)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -48,18 +48,25 @@ void run(Options const& options) {
 }  // namespace
 
 void add_theory_batch(CLI::App& theory, int& exit_code) {
-    CLI::App* const command = theory.add_subcommand(
-        "batch",
-        "Solve many points at once: a CSV with one line of column names (throw_number, tan_vibration_angle "
-        "or\n"
-        "vibration_angle_deg, tan_inclination or inclination_deg, friction, restitution, ...) and one point "
-        "per line.\n"
-        "The output repeats them and adds velocity_efficiency, half_width, mode, period_cycles, converged.\n"
-        "Example: vibrotrough theory batch points.csv --output answers.csv");
+    CLI::App* const command = theory.add_subcommand("batch", "Solve many motions from a CSV file");
     auto const options = std::make_shared<Options>();
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
-    command->add_option("--jobs", options->jobs, "Threads; all cores when not given");
+    command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
+    command->footer(
+        std::string(
+            R"(The first line of the CSV file names the inputs: throw_number or machine_number; tan_vibration_angle
+or vibration_angle_deg; tan_inclination or inclination_deg; friction; restitution; and so on ('vibrotrough theory map
+--help' lists all names). Each further line is one motion. An empty cell means that this motion does not have that input.
+
+The output repeats the inputs and adds the columns velocity_efficiency, half_width (of its 95 % confidence interval when
+the motion has no period, else 0), mode, period_cycles and converged.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory batch points.csv --output answers.csv)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

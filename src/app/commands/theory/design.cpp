@@ -83,8 +83,8 @@ theory::DesignLimits read(Options const& o) {
     set(l.gravity, "--gravity", o.gravity, "m/s2", "9.81 m/s2");
     if (o.mass_flow && !(o.bulk_density && o.layer_height && o.layer_width)) {
         throw core::InputError(
-            fmt::format("--mass-flow {}: needs --bulk-density, --layer-height and --layer-width, too; write "
-                        "them",
+            fmt::format("--mass-flow {}: also needs --bulk-density, --layer-height and "
+                        "--layer-width; write them",
                         *o.mass_flow));
     }
     return l;
@@ -121,7 +121,7 @@ void run(Options const& options) {
         fmt::print("{}\n", json.dump(2));
         return;
     }
-    if (!d.feasible) fmt::print("the mass flow asked for is not reached; this is the fastest machine\n");
+    if (!d.feasible) fmt::print("no machine reaches the requested mass flow; this is the fastest one\n");
     fmt::print("conveying speed      {:.6g} m/s\n", d.conveying_speed);
     if (d.mass_flow > 0) fmt::print("mass flow            {:.6g} kg/s\n", d.mass_flow);
     fmt::print("frequency            {:.6g} Hz\namplitude            {:.6g} mm\n", d.frequency,
@@ -140,31 +140,39 @@ void run(Options const& options) {
 }  // namespace
 
 void add_theory_design(CLI::App& theory, int& exit_code) {
-    CLI::App* const command = theory.add_subcommand(
-        "design",
-        "Find the machine that conveys fastest within limits, which limit holds it back, and how the "
-        "efficiency answers\n"
-        "to each input there. A range is \"LOW to HIGH\", one value fixes it.\n"
-        "Example: vibrotrough theory design --friction 0.3 --machine-number 4 --frequency \"5 Hz to 50 Hz\" "
-        "\\\n"
-        "           --amplitude \"1 mm to 8 mm\" --vibration-angle \"10 deg to 45 deg\"");
+    CLI::App* const command =
+        theory.add_subcommand("design", "Find the machine that conveys fastest within given limits");
     auto const options = std::make_shared<Options>();
     auto const add = [&](char const* name, Text& text, char const* help) {
         command->add_option(name, text, help);
     };
-    add("--friction", options->friction, "mu of the material on the trough");
-    add("--frequency", options->frequency, "Range; \"5 Hz to 60 Hz\" when not given");
-    add("--amplitude", options->amplitude, "Range of r, half the stroke; \"0.5 mm to 15 mm\" when not given");
-    add("--vibration-angle", options->vibration_angle, "Range; \"5 deg to 60 deg\" when not given");
-    add("--inclination", options->inclination, "Range, uphill positive; level when not given");
-    add("--machine-number", options->machine_number, "Largest K that the structure bears; 5 when not given");
-    add("--throw-number", options->throw_number, "Largest Gamma; 3.29 when not given, flights of one cycle");
-    add("--mass-flow", options->mass_flow, "Least mass flow asked for: \"2 kg/s\"");
-    add("--bulk-density", options->bulk_density, "Of the layer: \"800 kg/m3\"");
-    add("--layer-height", options->layer_height, "\"20 mm\"");
-    add("--layer-width", options->layer_width, "\"200 mm\"");
-    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
+    add("--friction", options->friction, "mu, friction coefficient of the material on the trough");
+    add("--frequency", options->frequency, "Range; default: \"5 Hz to 60 Hz\"");
+    add("--amplitude", options->amplitude, "Range of r, half the stroke; default: \"0.5 mm to 15 mm\"");
+    add("--vibration-angle", options->vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
+    add("--inclination", options->inclination, "Range of alpha, uphill positive; default: level");
+    add("--machine-number", options->machine_number,
+        "Largest machine number K that the structure bears; default: 5");
+    add("--throw-number", options->throw_number,
+        "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
+    add("--mass-flow", options->mass_flow, "Least mass flow, for example \"2 kg/s\"");
+    add("--bulk-density", options->bulk_density, "Of the layer, for example \"800 kg/m3\"");
+    add("--layer-height", options->layer_height, "For example \"20 mm\"");
+    add("--layer-width", options->layer_width, "For example \"200 mm\"");
+    add("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
     command->add_flag("--json", options->json, "Print JSON");
+    command->footer(
+        std::string(
+            R"(A range is "LOW to HIGH"; a single value fixes the quantity. Prints the drive of the fastest machine,
+its speed and mass flow, the limits that hold it back, and how the velocity efficiency eta changes with each input
+there.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory design --friction 0.3 --machine-number 4 --frequency "5 Hz to 50 Hz" \
+      --amplitude "1 mm to 8 mm" --vibration-angle "10 deg to 45 deg")");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

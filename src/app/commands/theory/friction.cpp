@@ -23,8 +23,8 @@ using Json = nlohmann::ordered_json;
 std::string warning_for(std::string const& mode) {
     if (!theory::rests_within_cycle(mode)) return "";
     return fmt::format(
-        "the mode is {}, not PN: the mass rests within the cycle, so static friction acts on the result; "
-        "shake harder (larger machine number)",
+        "the mode is {}, not PN: the mass rests within the cycle, so static friction affects the result; "
+        "shake harder (with a larger machine number)",
         mode);
 }
 
@@ -116,24 +116,34 @@ void run(Options const& options) {
 }  // namespace
 
 void add_theory_friction(CLI::App& theory, int& exit_code) {
-    CLI::App* const command = theory.add_subcommand(
-        "friction",
-        "Find the friction coefficient from a horizontal shake test (Fig. 8): shake a plate horizontally, "
-        "measure the\n"
-        "largest displacement of a box of grains against it, in amplitudes r (peak to peak of the slip).\n"
-        "Example: vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9 "
-        "--uncertainty 0.02\n"
-        "The forward curve: vibrotrough theory friction --machine-number 1.5 --friction 0.05:0.6:56");
+    CLI::App* const command =
+        theory.add_subcommand("friction", "Find the friction coefficient from a horizontal shake test");
     auto const options = std::make_shared<Options>();
     command->add_option("--machine-number", options->machine_number, "K = omega^2 r / g of the shaking");
     command->add_option("--max-relative-displacement", options->displacement,
-                        "Measured, in amplitudes r, 0 to 2");
-    command->add_option("--uncertainty", options->uncertainty, "Of that displacement, in amplitudes");
+                        "Measured slip from peak to peak, in amplitudes r, from 0 to 2");
+    command->add_option("--uncertainty", options->uncertainty,
+                        "Uncertainty of that displacement, in amplitudes r");
     command->add_option("--friction", options->friction,
-                        "Instead: print the displacement for this mu, or for FROM:TO:COUNT as CSV");
+                        "Do the opposite: print the displacement for this mu, or for FROM:TO:COUNT as CSV");
     command->add_option("--tan-inclination", options->tan_inclination,
-                        "Of the plate along the shaking; 0 when not given");
+                        "tan of the inclination of the plate along the shaking; default: 0");
     command->add_flag("--json", options->json, "Print JSON");
+    command->footer(
+        std::string(
+            R"(The test (Sloot & Kruyt 1996, section 6 and Fig. 8): shake a plate horizontally, and measure the largest
+displacement of a box of grains relative to the plate, from peak to peak, in amplitudes r. Prints the friction
+coefficient, its interval when an uncertainty is given, and the mode.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9 \
+      --uncertainty 0.02
+
+Example of a curve of displacement over friction:
+  vibrotrough theory friction --machine-number 1.5 --friction 0.05:0.6:56)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

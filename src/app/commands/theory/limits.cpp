@@ -34,10 +34,10 @@ Inputs read(Options const& o) {
         read_number_within("--tan-inclination", o.tan_inclination.value_or("0"), "-0.05", -1e6, 1e6);
     in.mu = read_number_within("--friction", required("--friction", o.friction, "0.35"), "0.35", 1e-6, 1e6);
     if (std::abs(in.tan_alpha) >= in.mu) {
-        throw core::InputError(
-            fmt::format("--friction {}: is not above |tan(alpha)| = {:g}, the mass runs away; write a larger "
-                        "friction",
-                        *o.friction, std::abs(in.tan_alpha)));
+        throw core::InputError(fmt::format(
+            "--friction {}: is not above |tan(alpha)| = {:g}, so that the mass runs away; write a "
+            "larger friction",
+            *o.friction, std::abs(in.tan_alpha)));
     }
     return in;
 }
@@ -84,7 +84,7 @@ void print_text(Json const& json, Inputs const& in) {
     line("machine number from which the mode is PN, beta = 0, level", "pn_machine_number_level_small_angle");
     if (!json.contains("pn_closed_form")) return;
     if (json["pn_closed_form"].is_null()) {
-        fmt::print("PN mode in closed form (Eq. 20): this is not the PN mode\n");
+        fmt::print("PN mode in closed form (Eq. 20): the motion is not in the PN mode\n");
         return;
     }
     Json const& pn = json["pn_closed_form"];
@@ -98,19 +98,27 @@ void print_text(Json const& json, Inputs const& in) {
 void add_theory_limits(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
         "limits",
-        "Print the theory's closed results: the throw number of maximum efficiency and how it moves with\n"
-        "mu tan(beta) (Eqs. 15, 19), the limit of small vibration angles (Eq. 21), where the PN mode begins, "
-        "and with\n"
-        "--throw-number the PN mode in closed form (Eq. 20).\n"
-        "Example: vibrotrough theory limits --friction 0.35 --tan-inclination -0.1 --tan-vibration-angle "
-        "0.5");
+        "Print the closed-form results of the theory, such as the throw number of maximum efficiency");
     auto const options = std::make_shared<Options>();
-    command->add_option("--friction", options->friction, "mu");
-    command->add_option("--tan-vibration-angle", options->tan_vibration_angle,
-                        "tan(beta); 0.5 when not given");
-    command->add_option("--tan-inclination", options->tan_inclination, "tan(alpha); 0 when not given");
-    command->add_option("--throw-number", options->throw_number, "Gamma, for the PN mode in closed form");
+    command->add_option("--friction", options->friction,
+                        "mu, friction coefficient of the mass on the trough");
+    command->add_option("--tan-vibration-angle", options->tan_vibration_angle, "tan(beta); default: 0.5");
+    command->add_option("--tan-inclination", options->tan_inclination,
+                        "tan(alpha), uphill positive; default: 0");
+    command->add_option("--throw-number", options->throw_number,
+                        "Gamma; with it, the PN mode in closed form is printed too");
     command->add_flag("--json", options->json, "Print JSON");
+    command->footer(
+        std::string(
+            R"(Prints the throw number of maximum efficiency and how it changes with mu tan(beta) (Eqs. 15 and 19 of
+Sloot & Kruyt 1996), the efficiency in the limit of small vibration angles (Eq. 21), the machine number at which the PN
+mode begins, and with --throw-number the PN mode in closed form (Eq. 20).
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory limits --friction 0.35 --tan-inclination -0.1 --tan-vibration-angle 0.5)");
     command->callback([options, &exit_code] {
         Inputs const in = read(*options);
         Json const json = answers(*options, in);

@@ -42,7 +42,7 @@ theory::MapAxis read_axis(std::string const& option, std::string const& text) {
     auto const input = theory::input_named(name);
     if (!input) {
         throw core::InputError(
-            fmt::format("{} {}: '{}' is no input; write one of {}", option, text, name, input_names()));
+            fmt::format("{} {}: '{}' is not an input; write one of {}", option, text, name, input_names()));
     }
     theory::MapAxis axis{*input, 0, 0, 0};
     axis.from = read_number(option, text.substr(equals + 1, first - equals - 1), axis_example);
@@ -96,19 +96,27 @@ void run(Options const& options) {
 void add_theory_map(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
         "map",
-        "Solve a grid over any two inputs: velocity efficiency, modes and the exact lines between them, as "
-        "HDF5 and for\n"
-        "ParaView (.vti, .vtp). An axis is NAME=FROM:TO:COUNT; the other inputs are options.\n"
-        "Example: vibrotrough theory map --x throw_number=0.3:3.3:500 --y vibration_angle_deg=5:60:500 \\\n"
-        "           --friction 0.35 --tan-inclination -0.1 --output map.h5\n"
-        "Draw it: postprocess/draw_theory_map.py map.h5");
-    command->footer(mode_letters);
+        "Solve a grid over any two inputs, with the exact lines between modes, as HDF5 and for ParaView");
     auto const options = std::make_shared<Options>();
-    command->add_option("--x", options->x, "First axis, NAME one of " + input_names());
-    command->add_option("--y", options->y, "Second axis");
-    command->add_option("--output", options->output, "HDF5 file to write; .vti and .vtp get the same name");
-    command->add_option("--jobs", options->jobs, "Threads; all cores when not given");
-    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    command->add_option("--x", options->x,
+                        "First axis, NAME=FROM:TO:COUNT, where NAME is one of: " + input_names());
+    command->add_option("--y", options->y, "Second axis, written in the same way");
+    command->add_option("--output", options->output,
+                        "HDF5 file to write; the .vti and .vtp files for ParaView get the same name");
+    command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
+    options->motion.add_to(*command);
+    command->footer(
+        std::string(
+            R"(Writes the velocity efficiency and the mode at each point of the grid, and the lines between modes. The
+inputs that are not axes are given as options.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory map --x throw_number=0.3:3.3:500 --y vibration_angle_deg=5:60:500 \
+      --friction 0.35 --tan-inclination -0.1 --output map.h5
+  postprocess/draw_theory_map.py map.h5)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

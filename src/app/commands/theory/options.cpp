@@ -14,7 +14,7 @@ namespace {
 using theory::Input;
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double least_throw = 1e-300;  // above zero
+constexpr double least_throw = 1e-300;  // the theory divides by it
 
 void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {
     if (!a || !b) return;
@@ -29,7 +29,7 @@ double read_throw(std::string const& option, std::string const& text) {
                                        option, text, option));
 }
 
-/// "3,0.1,30 deg": order, amplitude of acceleration, phase.
+/// Reads "3,0.1,30 deg": order, amplitude of acceleration, phase.
 theory::Harmonic read_harmonic(std::string const& option, std::string const& text) {
     auto const first = text.find(','),
                second = first == std::string::npos ? first : text.find(',', first + 1);
@@ -48,52 +48,58 @@ theory::Harmonic read_harmonic(std::string const& option, std::string const& tex
 
 }  // namespace
 
-void TheoryOptions::add_to(CLI::App& command, Extent extent) {
+void TheoryOptions::add_to(CLI::App& command) {
     command.add_option("--throw-number", throw_number_,
-                       "Gamma = omega^2 r sin(beta) / (g cos(alpha)): above 1 the mass flies");
+                       "Gamma = omega^2 r sin(beta) / (g cos(alpha)); above 1 the mass flies");
     command.add_option("--machine-number", machine_number_, "K = omega^2 r / g, instead of --throw-number");
-    command.add_option("--vibration-angle", vibration_angle_,
-                       "beta, between the direction of vibration and the trough, with its unit: \"30 deg\"");
+    command.add_option(
+        "--vibration-angle", vibration_angle_,
+        "beta, the angle between the direction of vibration and the trough, for example \"30 deg\"");
     command.add_option("--tan-vibration-angle", tan_vibration_angle_,
                        "tan(beta), instead of --vibration-angle");
     command.add_option("--inclination", inclination_,
-                       "alpha, uphill positive, with its unit: \"-3 deg\" (level when not given)");
+                       "alpha, uphill positive, for example \"-3 deg\"; default: level");
     command.add_option("--tan-inclination", tan_inclination_, "tan(alpha), instead of --inclination");
     command.add_option("--friction", friction_, "mu, friction coefficient of the mass on the trough");
-    if (extent == Extent::complete) add_extensions(command);
+    add_extensions(command);
 }
 
 void TheoryOptions::add_extensions(CLI::App& command) {
-    char const* const group = "Beyond Sloot & Kruyt's plastic point mass";
+    char const* const group = "Beyond the plastic point mass of Sloot & Kruyt (1996)";
     auto const add = [&](char const* name, Text& text, char const* help) {
         command.add_option(name, text, help)->group(group);
     };
-    add("--restitution", restitution_, "e, normal, 0 (plastic) to below 1 (Eq. 23)");
+    add("--restitution", restitution_,
+        "e, normal restitution coefficient, from 0 (plastic, default) to below 1 (Eq. 23)");
     add("--slowest-rebound", slowest_rebound_,
-        "Slower rebounds are contact, in omega r sin(beta); 1e-6 when not given");
-    add("--static-friction", static_friction_, "At least --friction, which is then the kinetic one");
+        "Rebounds slower than this count as contact, in omega r sin(beta); default: 1e-6");
+    add("--static-friction", static_friction_,
+        "Static friction coefficient, at least --friction, which is then the kinetic one");
     add("--landing-friction", landing_friction_,
-        "mu in the impulse of a landing, as --friction when not given");
-    add("--air-drag", air_drag_, "kappa: drag force = m omega kappa times velocity");
-    add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along over r cos(beta)");
+        "Friction coefficient during a landing: the ratio of tangential to normal impulse that it can reach; "
+        "default: mu");
+    add("--air-drag", air_drag_, "kappa: the drag force is m omega kappa times the velocity");
+    add("--along-ratio", along_ratio_, "Elliptical drive: amplitude along the trough over r cos(beta)");
     add("--along-phase", along_phase_,
-        "Elliptical drive: lead of the motion along, with its unit: \"20 deg\"");
+        "Elliptical drive: phase lead of the motion along the trough, for example \"20 deg\"");
     add("--wall-friction", wall_friction_, "Friction coefficient of the layer on the side walls");
     add("--wall-pressure-ratio", wall_pressure_ratio_,
-        "Janssen's k, horizontal over vertical stress; 0.5 when not given");
-    add("--height-over-width", height_over_width_, "Of the layer, for side-wall friction");
+        "Janssen's k, horizontal over vertical stress; default: 0.5");
+    add("--height-over-width", height_over_width_,
+        "Height of the layer over its width, for side-wall friction");
     command
         .add_option("--harmonic-along", along_,
-                    "\"ORDER,AMPLITUDE,PHASE\" of further acceleration along, for example \"3,0.1,30 deg\"; "
-                    "repeatable")
+                    "Further acceleration along the trough: \"ORDER,AMPLITUDE,PHASE\", for example "
+                    "\"3,0.1,30 deg\"; repeat the option for several")
         ->group(group);
-    command.add_option("--harmonic-normal", normal_, "The same normal to the trough; repeatable")
+    command
+        .add_option("--harmonic-normal", normal_,
+                    "Further acceleration normal to the trough, written in the same way")
         ->group(group);
     command
         .add_flag("--table-1-rule", table_1_rule_,
-                  "Start a flight that interrupts an N' slide with the trough's velocity. Not physics: only "
-                  "reproduces "
-                  "the paper's Table 1 at e > 0")
+                  "Start a flight that interrupts an N' slide with the velocity of the trough. This is not "
+                  "physical; it only reproduces Table 1 of the paper at e > 0")
         ->group(group);
 }
 
@@ -136,7 +142,7 @@ theory::Inputs TheoryOptions::given() const {
     auto const standing = inputs.get(Input::static_friction), kinetic = inputs.get(Input::friction);
     if (standing && kinetic && *standing < *kinetic) {
         throw core::InputError(
-            fmt::format("--static-friction {}: is below --friction {}; write a value that is not",
+            fmt::format("--static-friction {}: is below --friction {}; write a larger value",
                         *static_friction_, *friction_));
     }
     return inputs;

@@ -13,46 +13,48 @@ class App;
 
 namespace vibrotrough::app {
 
+/// An option as the user wrote it; none when it was not given.
 using Text = std::optional<std::string>;
 
-/// A number from the command line. @throws InputError naming the option, its value and what to write instead
+/// Reads a number from the command line.
+/// @throws core::InputError naming the option, its value and what to write instead
 double read_number(std::string const& option, std::string const& text, std::string const& example);
 
-/// Likewise, within [low, high].
+/// Reads a number within [low, high]. @throws core::InputError as read_number
 double read_number_within(std::string const& option, std::string const& text, std::string const& example,
                           double low, double high);
 
-/// A whole number within [low, high]. @throws InputError likewise
+/// Reads a whole number within [low, high]. @throws core::InputError as read_number
 int read_count(std::string const& option, std::string const& text, std::string const& example, int low,
                int high);
 
-/// A quantity with a unit, in `unit`, above zero. @throws InputError likewise
+/// Reads a quantity above zero with its unit and converts it to `unit`. @throws core::InputError as
+/// read_number
 double read_positive_quantity(std::string const& option, std::string const& text, std::string const& unit,
                               std::string const& example);
 
-/// An angle with a unit in rad, between the bounds in degrees. @throws InputError likewise
+/// Reads an angle with its unit and converts it to rad. The bounds are in degrees.
+/// @throws core::InputError as read_number
 double read_angle(std::string const& option, std::string const& text, std::string const& example,
                   double low_deg, double high_deg);
 
-/// The text of an option that must be there. @throws InputError with an example when it is missing
+/// The text of an option that must be given. @throws core::InputError with an example when it is missing
 std::string required(std::string const& option, Text const& text, std::string const& example);
 
-/// The options that describe a motion, shared by the theory's subcommands.
+/// The options that describe a motion, shared by the theory commands.
 class TheoryOptions {
   public:
-    enum class Extent {
-        plastic,   ///< Sloot & Kruyt's point mass with plastic landing only
-        complete,  ///< all that the theory knows
-    };
-    void add_to(CLI::App& command, Extent extent);
+    /// Declares the options of a command.
+    void add_to(CLI::App& command);
 
-    /// What was given, each number checked alone. @throws InputError
+    /// The inputs that were given. Each number is checked by itself.
+    /// @throws core::InputError when one is wrong or given in two forms
     theory::Inputs given() const;
-    /// The whole description. @throws InputError when something is missing or given in two forms
+    /// The complete description of a motion.
+    /// @throws core::InputError when an input is missing, wrong or given in two forms
     theory::Conveyor conveyor() const;
-    /// Nothing beyond the plastic point mass is asked for.
+    /// Whether only the plastic point mass is asked for, without any extension.
     bool plastic() const;
-    theory::PointMass point() const { return conveyor().point; }
 
   private:
     void add_extensions(CLI::App& command);
@@ -68,8 +70,7 @@ class TheoryOptions {
     bool table_1_rule_ = false;
 };
 
-/// Says in the words of the command line what a set of inputs lacks. @throws InputError when it lacks
-/// anything
+/// @throws core::InputError naming the option when the inputs are not complete
 void require_complete(theory::Inputs const& inputs);
 
 }  // namespace vibrotrough::app

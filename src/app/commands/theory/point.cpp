@@ -22,7 +22,7 @@ struct Options {
 
 using Json = nlohmann::ordered_json;
 
-/// A speed without bound has no number in JSON: null.
+/// JSON cannot hold infinity, so an unbounded speed is null.
 Json finite_or_null(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -114,26 +114,37 @@ void run(Options const& options) {
 
 void add_theory_point(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
-        "point",
-        "Solve one point-mass motion (Sloot & Kruyt 1996, and beyond): how it slides, rests and flies, and "
-        "how\n"
-        "fast it is conveyed; with --amplitude also speed, flow, impacts, energies and forces in SI units.\n"
-        "Example: vibrotrough theory point --throw-number 2 --vibration-angle \"30 deg\" --friction 0.23\n"
-        "Example: vibrotrough theory point --throw-number 2 --vibration-angle \"30 deg\" --friction 0.23 \\\n"
-        "           --amplitude \"6 mm\" --layer-height \"12 mm\" --layer-width \"0.2 m\" --bulk-density "
-        "\"800 kg/m3\"");
+        "point", "Solve one motion of a point mass: phases, mode and velocity efficiency");
     auto const options = std::make_shared<Options>();
-    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    options->motion.add_to(*command);
     auto const add = [&](char const* name, Text& text, char const* help) {
         command->add_option(name, text, help)->group("The machine");
     };
-    add("--amplitude", options->amplitude, "r in the direction of vibration, half the stroke: \"6 mm\"");
-    add("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
-    add("--bulk-density", options->bulk_density, "Of the layer, for the mass flow: \"800 kg/m3\"");
-    add("--layer-height", options->layer_height, "\"12 mm\"");
-    add("--layer-width", options->layer_width, "\"200 mm\"");
-    command->add_flag("--json", options->json, "Print JSON; angles in omega t, displacements in r cos(beta)");
-    command->footer(mode_letters);
+    add("--amplitude", options->amplitude,
+        "r in the direction of vibration, half the stroke, for example \"6 mm\"");
+    add("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
+    add("--bulk-density", options->bulk_density,
+        "Of the layer, for the mass flow, for example \"800 kg/m3\"");
+    add("--layer-height", options->layer_height, "For the mass flow, for example \"12 mm\"");
+    add("--layer-width", options->layer_width, "For the mass flow, for example \"200 mm\"");
+    command->add_flag("--json", options->json,
+                      "Print JSON, with phases as angles omega t in rad and displacements in r cos(beta)");
+    command->footer(
+        std::string(
+            R"(The theory is that of Sloot & Kruyt (1996) with extensions. Prints the velocity efficiency (the mean
+velocity of the mass relative to the trough over omega r cos(beta)), the mode, and a table of its phases. With
+--amplitude it also prints the speed, impacts, energies and forces in SI units, and with the size and bulk density of
+the layer the mass flow.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23
+
+Example with a machine:
+  vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23 \
+      --amplitude "6 mm" --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3")");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

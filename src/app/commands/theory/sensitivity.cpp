@@ -47,14 +47,17 @@ void run(Options const& options) {
 }  // namespace
 
 void add_theory_sensitivity(CLI::App& theory, int& exit_code) {
-    CLI::App* const command = theory.add_subcommand(
-        "sensitivity",
-        "Print how the velocity efficiency answers to each input: derivative and relative derivative.\n"
-        "Example: vibrotrough theory sensitivity --throw-number 2 --tan-vibration-angle 0.5 "
-        "--tan-inclination 0 --friction 0.3");
+    CLI::App* const command =
+        theory.add_subcommand("sensitivity", "Print how the velocity efficiency changes with each input");
     auto const options = std::make_shared<Options>();
-    options->motion.add_to(*command, TheoryOptions::Extent::complete);
+    options->motion.add_to(*command);
     command->add_flag("--json", options->json, "Print JSON");
+    command->footer(
+        R"(Prints one line per input: its value, the derivative of the velocity efficiency eta with respect to it,
+and the relative derivative (elasticity): the change of eta in percent when the input changes by one percent.
+
+Example:
+  vibrotrough theory sensitivity --throw-number 2 --tan-vibration-angle 0.5 --friction 0.3)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

@@ -20,7 +20,7 @@ struct Options {
     Text samples, output, amplitude, gravity;
 };
 
-/// The machine of the trace, when there is an amplitude.
+/// The machine; none without an amplitude.
 std::optional<theory::Machine> read_machine(Options const& options) {
     if (!options.amplitude) return {};
     theory::Machine machine{.amplitude =
@@ -30,7 +30,7 @@ std::optional<theory::Machine> read_machine(Options const& options) {
     return machine;
 }
 
-/// The trace as CSV: the time, the phase, then all other numbers.
+/// The trace as CSV with the columns time, phase and then all other numbers.
 std::string as_csv(std::vector<theory::TraceSample> const& samples, bool si) {
     auto const& columns = theory::trace_columns();
     auto const row = [&](std::string const& phase, auto const& cell) {
@@ -51,7 +51,7 @@ void run(Options const& options) {
     auto const machine = read_machine(options);
     theory::ConveyorMotion const motion = theory::solve(input);
     if (motion.pieces.empty()) {
-        throw core::InputError(fmt::format("there is no cycle to trace: {}; change the inputs",
+        throw core::InputError(fmt::format("the motion has no period to trace: {}; change the inputs",
                                            to_string(motion.motion.outcome)));
     }
     auto trace = theory::trace(motion, samples);
@@ -69,19 +69,27 @@ void run(Options const& options) {
 
 void add_theory_trace(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
-        theory.add_subcommand("trace",
-                              "Print velocities, forces and gap over one period as CSV (Fig. 6 of the "
-                              "paper). x: along, in r cos(beta); y:\n"
-                              "normal, in r sin(beta); time in 1/omega; forces per mass, impacts apart.\n"
-                              "Example: vibrotrough theory trace --throw-number 2.975 --vibration-angle \"30 "
-                              "deg\" --friction 0.3 --output trace.csv");
+        theory.add_subcommand("trace", "Print velocities, forces and the gap over one period as CSV");
     auto const options = std::make_shared<Options>();
-    options->motion.add_to(*command, TheoryOptions::Extent::complete);
-    command->add_option("--samples", options->samples, "Number of lines; 721 when not given");
+    options->motion.add_to(*command);
+    command->add_option("--samples", options->samples, "Number of lines; default: 721");
     command->add_option("--amplitude", options->amplitude,
-                        "r, half the stroke: \"6 mm\"; all columns are then SI");
-    command->add_option("--gravity", options->gravity, "\"9.81 m/s2\" when not given");
-    command->add_option("--output", options->output, "CSV file to write; printed when not given");
+                        "r, half the stroke, for example \"6 mm\"; all columns are then in SI units");
+    command->add_option("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
+    command->add_option("--output", options->output, "CSV file to write; default: standard output");
+    command->footer(
+        std::string(
+            R"(These are the curves of Fig. 6 of Sloot & Kruyt (1996). Without --amplitude, lengths along the trough
+(x) are in r cos(beta), lengths normal to it (y) are in r sin(beta), and times are in 1/omega. Forces are per mass and
+do not include impacts. The column "phase" has one of the letters of
+a mode.
+
+)") + mode_letters +
+        R"(
+
+Example:
+  vibrotrough theory trace --throw-number 2.975 --vibration-angle "30 deg" --friction 0.3 \
+      --output trace.csv)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

@@ -1,8 +1,5 @@
-#include "app/report_data.hpp"
+#include "compare/report_data.hpp"
 
-#include "app/point_mass.hpp"
-#include "campaign/execute/executors.hpp"
-#include "campaign/state/overview.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "compare/point_mass_csv.hpp"
@@ -15,30 +12,29 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace vibrotrough::app {
+namespace vibrotrough::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 /// One period of the point mass; empty when its motion has no period.
-std::string point_mass_csv(prepare::PreparedCase const& prepared) {
-    auto const found = point_mass_beside(prepared);
-    if (!found) return {};
-    return compare::point_mass_csv(
-        found->motion, {found->length_x, found->length_z, prepared.angular_frequency, found->phase_at_start});
+std::string period_csv(prepare::PreparedCase const& prepared) {
+    auto const point_mass = point_mass_motion(prepared);
+    return point_mass ? point_mass_csv(*point_mass) : "";
 }
 
 }  // namespace
 
-int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
+int write_report_data(campaign::Plan const& plan, campaign::Activity const& activity,
+                      fs::path const& folder) {
     if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
-    compare::ComparedCases const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
+    ComparedCases const compared = compared_cases(plan, activity);
     auto const& [cases, rows] = compared;
     core::make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
         core::write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
-                                    point_mass_csv(*one.planned->prepared));
+                                    period_csv(*one.planned->prepared));
     }
     Json const json{{"campaign", plan.name},
                     {"program_version", core::program_version()},
@@ -46,13 +42,13 @@ int write_report_data(campaign::Plan const& plan, fs::path const& folder) {
                     {"engine_version", plan.engine_version},
                     {"written", core::utc_now()},
                     {"input", core::read_file(plan.folder / "campaign.toml")},
-                    {"columns", compare::column_descriptions()},
-                    {"cases", compare::case_list(compared)}};
-    constexpr auto replace = Json::error_handler_t::replace;  // what users write need not be UTF-8
+                    {"columns", column_descriptions()},
+                    {"cases", case_list(compared)}};
+    constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
-    core::write_file_atomically(folder / "theory_curves.csv", compare::theory_curves_csv(rows));
+    core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(rows));
     return static_cast<int>(
         std::ranges::count_if(cases, [](auto const& one) { return one.record.has_value(); }));
 }
 
-}  // namespace vibrotrough::app
+}  // namespace vibrotrough::compare

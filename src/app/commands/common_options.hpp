@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+/// Help of the flag --accept-failed-probes.
+inline constexpr char const* accept_failed_probes_help =
+    "Run although the engine failed its probes (see 'vibrotrough probe-engine')";
+
+/// Adds the required argument CAMPAIGN.toml.
+void add_campaign_file(CLI::App& command, std::string& file);
+
+/// Adds the required argument DIR, the folder of a campaign that was run.
+void add_campaign_folder(CLI::App& command, std::string& folder);
+
+/// Adds the option --output for the folder of a campaign's results.
+void add_results_folder(CLI::App& command, std::string& folder);
+
+/// Adds the option --liggghts for the path of the engine.
+void add_engine(CLI::App& command, std::string& engine);
+
+/// Adds the option --python for the path of a Python that has the modules of the figures.
+void add_python(CLI::App& command, std::string& python);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,80 @@
+#include "deck/campaign_check.hpp"
+
+#include "deck/estimates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::deck {
+namespace {
+
+/// How far a finding is beyond its limit (above 1) or within it.
+double excess(Finding const& finding) {
+    return finding.at_least ? finding.limit / finding.measured : finding.measured / finding.limit;
+}
+
+void add(CampaignCheck& total, Finding const& finding, int number) {
+    auto const item = std::ranges::find_if(
+        total.items, [&](CheckedItem const& one) { return one.worst.item == finding.item; });
+    bool const beyond = finding.severity != Severity::fine;
+    if (item == total.items.end()) {
+        total.items.push_back({finding, number, beyond ? 1 : 0});
+        return;
+    }
+    if (beyond) ++item->cases_beyond_limit;
+    if (excess(finding) <= excess(item->worst)) return;
+    item->worst = finding;
+    item->worst_case = number;
+}
+
+int count(CampaignCheck const& total, Severity severity) {
+    return static_cast<int>(std::ranges::count_if(
+        total.items, [&](CheckedItem const& item) { return item.worst.severity == severity; }));
+}
+
+}  // namespace
+
+int CampaignCheck::warnings() const {
+    return count(*this, Severity::warning);
+}
+
+int CampaignCheck::errors() const {
+    return count(*this, Severity::error);
+}
+
+std::string CampaignCheck::first_error() const {
+    for (CheckedItem const& item : items) {
+        if (item.worst.severity == Severity::error) return describe(item, cases);
+    }
+    return {};
+}
+
+CampaignCheck check_campaign(scenario::Campaign const& campaign) {
+    CampaignCheck total;
+    prepare::CasePreparer preparer;
+    for (scenario::Scenario const& scenario : campaign.cases) {
+        prepare::PreparedCase const prepared = preparer.prepare(scenario);
+        ++total.cases;
+        for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
+        total.grain_steps += expected_work(prepared);
+        total.bytes += expected_bytes(prepared);
+        total.packings += scenario.measure.packings;
+        total.cycles += scenario.measure.packings * expected_cycles(prepared);
+    }
+    return total;
+}
+
+std::string describe(CheckedItem const& item, int cases) {
+    Finding const& finding = item.worst;
+    std::string const where = cases == 1 ? ""
+                                         : fmt::format(" in {} of {} cases, worst in case {}",
+                                                       item.cases_beyond_limit, cases, item.worst_case);
+    return fmt::format(
+        "{}: {} is {:.3g}{}, {} {:.3g}{}; {}", finding.key, finding.item, finding.measured,
+        finding.unit == "1" ? "" : " " + finding.unit, finding.at_least ? "at least" : "at most",
+        finding.severity == Severity::error ? finding.hard_limit : finding.limit, where, finding.advice);
+}
+
+}  // namespace vibrotrough::deck

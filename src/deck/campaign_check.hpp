@@ -1,0 +1,42 @@
+#pragma once
+
+#include "deck/check.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <string>
+#include <vector>
+
+namespace vibrotrough::deck {
+
+/// What the check found about one item over all cases of a campaign.
+struct CheckedItem {
+    Finding worst;               ///< the finding that is furthest beyond its limit, or closest to it
+    int worst_case;              ///< the number of its case, counted from 1
+    int cases_beyond_limit = 0;  ///< number of cases in which this item is a warning or an error
+};
+
+/// What is known about a campaign before it is simulated.
+struct CampaignCheck {
+    std::vector<CheckedItem> items;  ///< in the order of deck::check
+    int cases = 0;                   ///< number of cases
+    double grain_steps = 0;          ///< expected number of time steps times grains of the whole campaign
+    double bytes = 0;                ///< expected size of all files, bytes
+    double packings = 0;             ///< number of packings of all cases
+    double cycles = 0;               ///< expected number of cycles of all packings
+
+    /// Number of items that are a warning in their worst case.
+    int warnings() const;
+    /// Number of items that are an error in their worst case.
+    int errors() const;
+    /// One line about the first error; empty when there is none.
+    std::string first_error() const;
+};
+
+/// Checks every case of a campaign with deck::check and adds up what the cases cost.
+CampaignCheck check_campaign(scenario::Campaign const& campaign);
+
+/// One line for people: the key to change, the item, its value and limit, the cases, and what to change.
+/// @param cases  number of cases of the campaign
+std::string describe(CheckedItem const& item, int cases);
+
+}  // namespace vibrotrough::deck
