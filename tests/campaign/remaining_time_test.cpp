@@ -16,7 +16,9 @@ TEST_F(RemainingTimeTest, IsUnknownAtFirst) {
     EXPECT_LT(time.seconds(0), 0);
     double const seconds = time.seconds(planned.prepared->grain_steps(5));
     // A busy machine may let this test wait here for longer than that.
-    if (time.elapsed() < 1) EXPECT_LT(seconds, 0) << "in less than a second no speed is known";
+    if (time.elapsed() < 1) {
+        EXPECT_LT(seconds, 0) << "in less than a second no speed is known";
+    }
 }
 
 TEST_F(RemainingTimeTest, FollowsTheSpeedSoFar) {
