@@ -4,6 +4,7 @@
 #include "core/hash.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace vibrotrough::deck {
 namespace {
@@ -15,20 +16,21 @@ bool is_blank(char c) {
 /// One line without its comment, with single blanks between words.
 std::string command_in(std::string_view line) {
     std::string command;
-    char quote = 0;
-    for (char const c : line) {
-        if (quote != 0) {
-            if (c == quote) quote = 0;
-            command += c;
-            continue;
+    while (!line.empty()) {
+        std::size_t const plain = std::min(line.find_first_of(" \t\r#\"'"), line.size());
+        command += line.substr(0, plain);
+        line.remove_prefix(plain);
+        if (line.empty() || line.front() == '#') break;
+        std::size_t length = 1;
+        if (is_blank(line.front())) {
+            if (!command.empty() && command.back() != ' ') command += ' ';
+        } else {
+            // A text in quotes, up to the end of the line when it is not closed.
+            std::size_t const close = line.find(line.front(), 1);
+            length = close == std::string_view::npos ? line.size() : close + 1;
+            command += line.substr(0, length);
         }
-        if (c == '#') break;
-        if (c == '"' || c == '\'') quote = c;
-        if (!is_blank(c)) {
-            command += c;
-        } else if (!command.empty() && command.back() != ' ') {
-            command += ' ';
-        }
+        line.remove_prefix(length);
     }
     while (command.ends_with(' ')) command.pop_back();
     return command;
@@ -57,10 +59,15 @@ std::string commands_of(std::string_view deck) {
 }
 
 std::string digest_of_commands(std::map<std::string, std::string> const& files) {
-    std::string all;
-    for (auto const& [name, content] : files)
-        all += name + "\n" + (is_deck(name) ? commands_of(content) : content) + "\n";
-    return core::sha256_hex(all);
+    std::vector<std::string> commands;
+    commands.reserve(files.size());
+    std::vector<std::string_view> pieces;
+    for (auto const& [name, content] : files) {
+        commands.push_back(is_deck(name) ? commands_of(content) : std::string());
+        std::string_view const counted = is_deck(name) ? std::string_view(commands.back()) : content;
+        pieces.insert(pieces.end(), {name, "\n", counted, "\n"});
+    }
+    return core::sha256_hex(pieces);
 }
 
 std::map<std::string, std::string> read_files(std::filesystem::path const& folder,

@@ -176,7 +176,7 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     data.set("drive_remark", remark);
     std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] : {std::pair{"x", &n.motion.along}, std::pair{"z", &n.motion.normal}}) {
-        DriveFormula const formula = drive_formula(*terms, axis);
+        DriveFormula const& formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
             core::TemplateData entry;
             entry.set("name", term.name);

@@ -1,5 +1,7 @@
 #include "deck/drive_formula.hpp"
 
+#include <map>
+
 #include <fmt/format.h>
 
 namespace vibrotrough::deck {
@@ -16,9 +18,7 @@ std::string sine(scenario::DriveTerm const& term, char const* angle) {
     return fmt::format("sin({})", argument);
 }
 
-}  // namespace
-
-DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
+DriveFormula write_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
     DriveFormula formula;
     for (std::size_t first = 0; first < terms.size(); first += harmonics_per_line) {
         Formula line{fmt::format("step_{}{}", axis, first / harmonics_per_line + 1), {}};
@@ -31,6 +31,20 @@ DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::s
     }
     formula.speed = formula.terms.empty() ? "0" : fmt::format("({})/dt", formula.speed);
     return formula;
+}
+
+}  // namespace
+
+DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
+    // Cases that share a measured waveform come one after the other and have the same formula.
+    struct Last {
+        std::vector<scenario::DriveTerm> terms;
+        DriveFormula formula;
+    };
+    thread_local std::map<std::string, Last> last;
+    auto const found = last.find(axis);
+    if (found != last.end() && found->second.terms == terms) return found->second.formula;
+    return last.insert_or_assign(axis, Last{terms, write_formula(terms, axis)}).first->second.formula;
 }
 
 }  // namespace vibrotrough::deck

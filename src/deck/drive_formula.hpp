@@ -23,6 +23,7 @@ struct DriveFormula {
 /// The velocity that belongs to a Fourier series of the displacement.
 /// @param terms  displacement along the axis
 /// @param axis   "x" or "z", part of the names of the variables
-DriveFormula drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
+/// @return valid until this thread asks for another formula of the axis
+DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
 
 }  // namespace vibrotrough::deck

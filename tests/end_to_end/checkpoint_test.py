@@ -66,6 +66,23 @@ class Checkpoint(EndToEndTest):
         # What a finished packing needs no more is gone.
         self.assertEqual(list(self.packing().glob("checkpoint*")), [])
 
+    def test_a_checkpoint_that_nobody_sealed_does_no_harm(self):
+        """A killed driver may leave a later checkpoint of its engine. A slow machine gives the next driver time to look before its
+        engine has read the sealed one."""
+        campaign = self.write_campaign(LONG)
+        table, _ = self.undisturbed(campaign)
+        self.kill_in_the_middle(campaign)
+        sealed = self.sealed_cycle()
+        later = self.packing() / f"checkpoint.{sealed + 5}.restart"
+        if not later.exists():
+            later.write_bytes((self.packing() / f"checkpoint.{sealed}.restart").read_bytes())
+            with open(self.packing() / "checkpoints.txt", "a") as names:
+                names.write(f"{sealed + 5}\n")
+        os.environ["VIBROTROUGH_TEST_BREAK"] = "sleep 2"
+        self.run_campaign(campaign, wanted=1)
+        self.assertEqual(self.begun(), sealed)
+        self.assertEqual(without_wall_time(self.table()), table)
+
     def test_a_run_that_was_told_to_stop_near_its_end_goes_on(self):
         # The engine says that it caught a signal. What it writes after going on is shorter: nothing may be left of that.
         campaign = self.write_campaign(LONG)

@@ -62,31 +62,34 @@ Json describe(deck::Finding const& finding) {
             {"advice", finding.advice}};
 }
 
+Json describe(prepare::PreparedCase const& prepared, int number, Speed const& speed) {
+    Json findings = Json::array();
+    for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
+    double const work = deck::expected_work(prepared);
+    return {{"case", number},
+            {"throw_number", prepared.throw_number},
+            {"findings", findings},
+            {"expected_cycles_per_packing", deck::expected_cycles(prepared)},
+            {"expected_grain_steps", work},
+            {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
+}
+
+/// Prints case by case: all findings of ten thousand cases at once would need half a gigabyte.
 void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
-    Json cases = Json::array();
-    int index = 0;
-    prepare::CasePreparer preparer;
-    for (scenario::Scenario const& scenario : campaign.cases) {
-        prepare::PreparedCase const prepared = preparer.prepare(scenario);
-        Json findings = Json::array();
-        for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
-        double const work = deck::expected_work(prepared);
-        cases.push_back({{"case", ++index},
-                         {"throw_number", prepared.throw_number},
-                         {"findings", findings},
-                         {"expected_cycles_per_packing", deck::expected_cycles(prepared)},
-                         {"expected_grain_steps", work},
-                         {"expected_core_hours", work / speed.grain_steps_per_second / 3600}});
-    }
-    Json const json{{"campaign", campaign.name},
-                    {"warnings", found.warnings()},
-                    {"errors", found.errors()},
-                    {"cases", cases},
-                    {"grain_steps_per_cpu_second", speed.grain_steps_per_second},
+    Json const head{{"campaign", campaign.name}, {"warnings", found.warnings()}, {"errors", found.errors()}};
+    Json const tail{{"grain_steps_per_cpu_second", speed.grain_steps_per_second},
                     {"speed_source", speed.source},
                     {"expected_bytes", found.bytes},
                     {"expected_core_hours", found.grain_steps / speed.grain_steps_per_second / 3600}};
-    fmt::print("{}\n", json.dump(2));
+    std::string const begin = head.dump(2), end = tail.dump(2);
+    fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
+    prepare::CasePreparer preparer;
+    int number = 0;
+    for (scenario::Scenario const& scenario : campaign.cases) {
+        Json const one = describe(preparer.prepare(scenario), ++number, speed);
+        fmt::print("{}\n{}", number == 1 ? "" : ",", one.dump(2));
+    }
+    fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
 }
 
 void print_text(deck::CampaignCheck const& found, Speed const& speed) {

@@ -152,6 +152,12 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
         if (fs::is_regular_file(folder / table))
             core::write_file_atomically(folder / table, rows_up_to(core::read_file(folder / table), step));
     }
+    // A later checkpoint that nobody sealed belongs to cycles that were cut away. Were it still listed, it
+    // would be sealed and this one removed before the engine has read it.
+    core::write_file_atomically(folder / deck::checkpoint_list, fmt::format("{}\n", checkpoint.cycle));
+    for (fs::path const& file : restart_files(folder)) {
+        if (*checkpoint_cycle(file.filename().string()) > checkpoint.cycle) fs::remove(file);
+    }
     if (!fs::is_directory(folder / "dump")) return;
     std::vector<fs::path> later;
     for (auto const& entry : fs::directory_iterator(folder / "dump")) {

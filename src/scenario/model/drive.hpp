@@ -24,6 +24,8 @@ struct DriveTerm {
     int order;         ///< 1 for the fundamental
     double amplitude;  ///< m
     double phase;      ///< rad
+    /// Whether all three numbers are equal.
+    bool operator==(DriveTerm const&) const = default;
 };
 
 /// The displacement of the trough as two Fourier series. The time t is 0 at step 0 of a run.
