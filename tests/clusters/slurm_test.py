@@ -114,7 +114,7 @@ class Slurm(EndToEndTest):
 
         self.take_starts()
         done = self.run_campaign(campaign)
-        self.assertRegex(done.stdout, r"2 packings submitted as job \d+ \(2 of them once more\)\n")
+        self.assertRegex(done.stdout, r"2 packings submitted as job \d+ \(2 of them again\)\n")
         status = self.wait_for_the_end()
         self.assertEqual(status["finished"], 3, status)
         self.assertEqual(len(self.take_starts()), 2, "only what died was run again")

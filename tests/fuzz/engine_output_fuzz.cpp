@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path const& folder() {
-    static core::TemporaryFolder const made("vibrotrough-fuzz");
+    static vibrotrough::core::TemporaryFolder const made("vibrotrough-fuzz");
     return made.path();
 }
 
