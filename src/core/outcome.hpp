@@ -36,11 +36,11 @@ enum class Retry {
 
 /// One row of the table of outcomes, from which the code, the messages and the documentation follow.
 struct OutcomeEntry {
-    Outcome outcome;
-    std::string_view name;  ///< in files, tables and messages
-    std::string_view meaning;
-    Retry retry;
-    std::string_view cure;  ///< what helps; empty when nothing is wrong or only a retry helps
+    Outcome outcome;           ///< the outcome that the row describes
+    std::string_view name;     ///< in files, tables and messages
+    std::string_view meaning;  ///< one sentence for the user
+    Retry retry;               ///< whether a repetition may end differently
+    std::string_view cure;     ///< what helps; empty when nothing is wrong or only a retry helps
 };
 
 /// All outcomes, in the order of the enumeration.

@@ -37,7 +37,7 @@ class WrongInput(EndToEndTest):
             ("grains.density", "1400 kg", '"1400 kg"', "cannot be converted to kg/m3"),
             ("grains.poisson_ratio", "soft", '"soft"', "is a text, but the key needs a plain number"),
             ("layer.grains", 60.5, "60.5", "not a whole number"),
-            ("layer.length", "12.5 mm", 'length = "12.5', "4 of the largest grains", '"13.2 mm"'),
+            ("layer.length", "12.5 mm", 'length = "12.5', "4 diameters of the largest grains", '"13.2 mm"'),
             ("measure.confidence", 95, "95", "out of range", "0.5 to 0.9999"),
             ("measure.max_cycles", 7, "7", "out of range"),
             ("campaign.name", "../up", 'name = "../up"', "is not a valid name"),

@@ -38,7 +38,7 @@ double read_number(std::string const& option, std::string const& text, std::stri
     auto const [stop, failure] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
     if (failure != std::errc() || stop != end || !std::isfinite(value)) {
         throw core::InputError(
-            fmt::format("{} {}: '{}' is not a finite plain number; write for example {} {}", option, text,
+            fmt::format("{} {}: '{}' is not a finite number; write for example {} {}", option, text,
                         text, option, example));
     }
     return value;
