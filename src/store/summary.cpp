@@ -1,8 +1,10 @@
 #include "store/summary.hpp"
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "store/schema.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include <fmt/format.h>
@@ -12,6 +14,12 @@ namespace vibrotrough::store {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::size_t digest_length = 64;  // hexadecimal digits of a SHA-256
+
+std::string digest_of(std::span<std::uint8_t const> bytes) {
+    return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
+}
 
 /// Long, and not a column of any table.
 bool is_long(PackingValue const& value) {
@@ -109,12 +117,23 @@ std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
     for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
     Json estimate = Json::array({to_json(record.estimate.mean), to_json(record.estimate.half_width),
                                  to_json(record.estimate.packings)});
-    return Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
+    std::vector<std::uint8_t> const cbor =
+        Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
+    std::string const digest = digest_of(cbor);
+    std::vector<std::uint8_t> bytes(digest.begin(), digest.end());
+    bytes.insert(bytes.end(), cbor.begin(), cbor.end());
+    return bytes;
 }
 
 CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenario const& scenario) {
+    // The library's reader of CBOR calls itself for every level of nesting and would overflow the stack on
+    // hostile bytes, so it sees only what pack_summary() has written.
+    std::size_t const start = std::min(bytes.size(), digest_length);
+    auto const cbor = bytes.subspan(start);
+    if (!std::ranges::equal(bytes.first(start), digest_of(cbor)))
+        throw core::InputError("a summary of a result is damaged (its digest does not match)");
     try {
-        return record_from(Json::from_cbor(bytes.begin(), bytes.end()), scenario);
+        return record_from(Json::from_cbor(cbor.begin(), cbor.end()), scenario);
     } catch (Json::exception const& error) {
         throw core::InputError(fmt::format("a summary of a result is damaged ({})", error.what()));
     }

@@ -27,7 +27,7 @@ class ResultSummary : public CampaignFolder {
         if (found->is_from_result) write_summary(planned, found->record);
         return {std::move(found->record), found->is_from_result};
     }
-    fs::path const file = planned.folder / "summary.cbor";
+    fs::path const file = planned.folder / "summary";
 };
 
 TEST_F(ResultSummary, ReadsEachResultOnce) {

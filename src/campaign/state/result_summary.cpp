@@ -3,10 +3,12 @@
 #include "campaign/state/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
 #include "store/summary.hpp"
 
 #include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
@@ -17,11 +19,11 @@ namespace {
 using Json = nlohmann::json;
 
 std::filesystem::path summary_file(PlannedCase const& planned) {
-    return planned.folder / "summary.cbor";
+    return planned.folder / "summary";
 }
 
 std::string layout() {
-    return "vibrotrough summary 1 " + store::summary_layout();
+    return "vibrotrough summary 2 " + store::summary_layout();
 }
 
 /// Size, time and inode of a file; none when it is not a regular file.
@@ -32,24 +34,22 @@ std::optional<Json> stamp_of(std::filesystem::path const& file) {
     return Json::array({status.st_size, time, status.st_ino});
 }
 
-std::string digest_of(Json::binary_t const& bytes) {
-    return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
+/// The first line of the file, before the packed summary: what the summary was made from.
+std::string header(Json const& stamp) {
+    return Json({{"layout", layout()}, {"result", stamp}}).dump() + "\n";
 }
 
 std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json const& stamp) {
     std::error_code missing;
     if (!std::filesystem::is_regular_file(summary_file(planned), missing)) return {};
     try {
-        Json const file = Json::from_cbor(core::read_file(summary_file(planned)));
-        auto const& bytes = file.at("summary").get_binary();
-        if (file.at("layout") != layout() || file.at("result") != stamp ||
-            file.at("sha256") != digest_of(bytes))
-            return {};
-        store::CaseRecord record = store::unpack_summary(bytes, planned.scenario());
+        std::string const file = core::read_file(summary_file(planned)), expected = header(stamp);
+        if (!file.starts_with(expected)) return {};
+        std::span const bytes(reinterpret_cast<std::uint8_t const*>(file.data()), file.size());
+        store::CaseRecord record = store::unpack_summary(bytes.subspan(expected.size()), planned.scenario());
         if (record.id == planned.id) return record;
     } catch (core::Error const&) {
         // Not readable, or not a summary: the same as if it were not there.
-    } catch (Json::exception const&) {
     }
     return {};
 }
@@ -68,12 +68,9 @@ std::optional<FoundSummary> find_summary(PlannedCase const& planned) {
 void write_summary(PlannedCase const& planned, store::CaseRecord const& record) {
     auto const stamp = stamp_of(planned.result_file());
     if (!stamp) return;
-    Json::binary_t bytes(store::pack_summary(record));
-    std::string const digest = digest_of(bytes);
-    std::vector<std::uint8_t> const file = Json::to_cbor(
-        {{"layout", layout()}, {"result", *stamp}, {"sha256", digest}, {"summary", std::move(bytes)}});
+    std::vector<std::uint8_t> const bytes = store::pack_summary(record);
     try {
-        core::replace_file(summary_file(planned), {reinterpret_cast<char const*>(file.data()), file.size()});
+        core::replace_file(summary_file(planned), header(*stamp).append(bytes.begin(), bytes.end()));
     } catch (core::MissingError const&) {
         // The folder may only be read, or the disk is full.
     }

@@ -7,7 +7,7 @@
 
 namespace vibrotrough::campaign {
 
-// The summary of a result (store::summary_of) in a small file summary.cbor beside result.h5, so that tables
+// The summary of a result (store::summary_of) in a small file summary beside result.h5, so that tables
 // of thousands of cases need not read the results themselves. It is written by whatever writes or repairs
 // results, never by a query, and counts only while size, time and inode of result.h5 are what they were when
 // it was written. It may be deleted at any time.
