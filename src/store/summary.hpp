@@ -13,8 +13,9 @@ namespace vibrotrough::store {
 /// of campaign.h5 is the same from the record and from its summary.
 CaseRecord summary_of(CaseRecord const& record);
 
-/// The summary as CBOR (RFC 8949) after its SHA-256, for a cache on this machine: the facts, the estimate and the packings'
-/// values in the order of schema.hpp. The scenario is not in it, because the case's id stands for it.
+/// The summary as CBOR (RFC 8949) after its SHA-256, for a cache on this machine: the facts, the estimate and
+/// the packings' values in the order of schema.hpp. The scenario is not in it, because the case's id stands
+/// for it.
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record);
 
 /// Converts a packed summary back.
