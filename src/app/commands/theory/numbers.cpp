@@ -37,9 +37,8 @@ double read_number(std::string const& option, std::string const& text, std::stri
     char const* const end = text.data() + text.size();
     auto const [stop, failure] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
     if (failure != std::errc() || stop != end || !std::isfinite(value)) {
-        throw core::InputError(
-            fmt::format("{} {}: '{}' is not a finite number; write for example {} {}", option, text,
-                        text, option, example));
+        throw core::InputError(fmt::format("{} {}: '{}' is not a finite number; write for example {} {}",
+                                           option, text, text, option, example));
     }
     return value;
 }
