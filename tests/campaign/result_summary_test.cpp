@@ -87,6 +87,12 @@ TEST_F(ResultSummary, AChangedByteIsNoticed) {
     }
 }
 
+// Each 0x81 opens an array within the one before: read without the digest, they overflow the stack.
+TEST(Summary, DeeplyNestedBytesAreRefused) {
+    std::vector<std::uint8_t> const bytes(1'000'000, 0x81);
+    EXPECT_THROW(store::unpack_summary(bytes, scenario::Scenario{}), core::InputError);
+}
+
 TEST(Summary, EndsTooEarlyAnywhere) {
     auto const record = store::sample_record("0123456789ab");
     std::vector<std::uint8_t> const bytes = store::pack_summary(record);

@@ -1,5 +1,5 @@
-// Whatever bytes stand where a result should be: they are a whole result, or refused. The same for the index
-// of results. result.h5 carries a digest of itself, so that HDF5 sees only what the program has written.
+// Whatever bytes stand where a result or its summary should be: they are whole, or refused. Both carry a
+// digest of themselves, so that HDF5 and the reader of CBOR see only what the program has written.
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
