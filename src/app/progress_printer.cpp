@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 std::string describe(campaign::Progress const& progress) {
-    std::string text = fmt::format("{} done, {} engines running, {} left", progress.finished,
+    std::string text = fmt::format("{} done, {} running, {} left", progress.finished,
                                    progress.running, progress.left);
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
     text += fmt::format("; packings {}/{}; {} elapsed", progress.packings_done, progress.packings,
@@ -25,10 +25,10 @@ std::string describe(campaign::Progress const& progress) {
     return text;
 }
 
-/// "  6f285f55cce4 packing 2: cycle 45 of at most 300, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
+/// "  6f285f55cce4 packing 2: cycle 21 of 24, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
-    std::string text = fmt::format("  {} packing {}: cycle {} of at most {}", one.planned->id, one.packing,
-                                   one.cycles, one.planned->scenario().measure.max_cycles);
+    std::string text = fmt::format("  {} packing {}: cycle {} of {}", one.planned->id, one.packing,
+                                   one.cycles, one.cycles_wanted);
     if (one.estimate && std::isfinite(one.estimate->mean))
         text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
     text += fmt::format(", {} elapsed", clock_time(one.elapsed));

@@ -62,7 +62,7 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
         *row.cycles_discarded += packing.estimate.discarded;
         *row.wall_s += packing.wall_time;
     }
-    if (record.outcome == core::Outcome::not_steady) return;  // no mean is reported unless the case is steady
+    if (!has_mean(record.outcome)) return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     row.efficiency_dem_half_width = record.estimate.half_width;
     if (record.estimate.mean) row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;

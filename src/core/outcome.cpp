@@ -13,19 +13,22 @@ using enum Outcome;
 using enum Retry;
 
 constexpr std::array table{
-    OutcomeEntry{
-        finished, "finished",
-        "Every packing is steady and as precise as asked. The interval of the case, which comes from "
-        "all packings, can still be wider.",
-        useless, ""},
+    OutcomeEntry{finished, "finished",
+                 "The case is steady, and the interval of its velocity efficiency, which comes from all "
+                 "packings, is at most as wide as `half_width` asks.",
+                 useless, ""},
     OutcomeEntry{not_precise, "not-precise",
-                 "The case is steady, but after `max_cycles` the interval of at least one packing is wider "
-                 "than asked, or rests on fewer than 20 cycles or 3 independent ones. The mean is reported "
-                 "with its interval.",
-                 useless, "raise measure.max_cycles or measure.half_width"},
+                 "The case is steady, but its interval is still wider than asked after `max_packings`, or "
+                 "more packings would have exceeded `max_core_time`. The mean is reported with its interval.",
+                 useless, "raise measure.max_packings, measure.max_core_time or measure.half_width"},
     OutcomeEntry{not_steady, "not-steady",
-                 "At least one packing never became steady. No mean is reported unless the case is steady "
-                 "(NaN in the HDF5 files).",
+                 "The packings still drift in the same direction after `max_cycles`. No mean is reported "
+                 "unless the case is steady (NaN in the HDF5 files).",
+                 useless, "raise measure.max_cycles"},
+    OutcomeEntry{bistable_or_slow, "bistable-or-slow",
+                 "After `max_cycles`, packings that started below the expected speed still differ from "
+                 "those that started above it: the layer has two ways to move, or forgets its start very "
+                 "slowly. Both branches are reported with their intervals, but no mean.",
                  useless, "raise measure.max_cycles"},
     OutcomeEntry{lost_grains, "lost-grains", "Grains left the simulation box.", useless,
                  "choose a smaller throw number or stiffer grains"},
@@ -89,7 +92,11 @@ std::optional<Outcome> outcome_named(std::string_view name) {
 }
 
 bool has_result(Outcome outcome) {
-    return outcome == finished || outcome == not_precise || outcome == not_steady;
+    return has_mean(outcome) || outcome == not_steady || outcome == bistable_or_slow;
+}
+
+bool has_mean(Outcome outcome) {
+    return outcome == finished || outcome == not_precise;
 }
 
 bool retry_makes_sense(Outcome outcome) {

@@ -12,6 +12,7 @@ enum class Outcome {
     finished,
     not_precise,
     not_steady,
+    bistable_or_slow,
     lost_grains,
     mesh_left_domain,
     insertion_incomplete,
@@ -52,8 +53,11 @@ std::string_view name_of(Outcome outcome);
 /// The outcome with this name; none for any other text.
 std::optional<Outcome> outcome_named(std::string_view name);
 
-/// Whether a case that ended so has a result: finished, not-precise or not-steady.
+/// Whether a case that ended so has a result: finished, not-precise, not-steady or bistable-or-slow.
 bool has_result(Outcome outcome);
+
+/// Whether such a result has a mean: finished or not-precise.
+bool has_mean(Outcome outcome);
 
 /// Whether [run] retries applies to this outcome.
 bool retry_makes_sense(Outcome outcome);

@@ -52,11 +52,23 @@ std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared)
     return files;
 }
 
+/// What the deck reads after each cycle. The last cycle ends in a checkpoint like those within the run (see
+/// input_templates/cycles.mustache).
+std::string control_for(int cycles) {
+    if (cycles == 0) return control_go_on;
+    return fmt::format(
+        "variable stop equal ${{done}}>={0}\n"
+        "if \"${{done}} == {0}\" then \"run 0\" \"write_restart {1}\" \"print '{0}' append {2}\"\n",
+        cycles, checkpoint_file(cycles), checkpoint_list);
+}
+
 }  // namespace
 
-Deck make_deck(prepare::PreparedCase const& prepared, int packing) {
-    if (packing < 1 || packing > 1000)
-        throw std::invalid_argument(fmt::format("make_deck: packing {} is not from 1 to 1000", packing));
+Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing) {
+    if (packing.number < 1 || packing.number > 1000) {
+        throw std::invalid_argument(
+            fmt::format("make_deck: packing {} is not from 1 to 1000", packing.number));
+    }
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
@@ -64,7 +76,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, int packing) {
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data));
     deck.files = deck.settle_files;
     deck.files[drive_file] = tidy(render_template(drive_file, data));
-    deck.files[control_file] = control_go_on;
+    deck.files[control_file] = control_for(packing.cycles);
     return deck;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace vibrotrough::deck {
@@ -34,13 +35,21 @@ constexpr char const* checkpoint_list =
 
 constexpr char const* control_file = "control.in";  ///< File that the deck reads after each cycle.
 constexpr char const* control_go_on =
-    "variable stop equal 0\n";  ///< Its content while the run is to continue.
-constexpr char const* control_stop = "variable stop equal 1\n";  ///< Its content that ends the run.
+    "variable stop equal 0\n";  ///< Its content when only max_cycles ends the run.
 
-/// The deck of packing number `packing` (from 1). The packings of a case differ only in their seeds, and the
-/// first one may write frames.
-/// @throws std::invalid_argument when `packing` is below 1 or above 1000
-Deck make_deck(prepare::PreparedCase const& prepared, int packing);
+/// How one packing of a case is run.
+struct PackingPlan {
+    int number;      ///< from 1 to 1000
+    int cycles = 0;  ///< after which the run ends; 0: after measure.max_cycles
+    /// Velocity efficiency with which all grains start; none: at rest.
+    std::optional<double> start_efficiency{};
+};
+
+/// The deck of one packing. The packings of a case differ in their seeds and in how they start, and the first
+/// one may write frames. The number of cycles stands in control.in only, with a checkpoint after the last of
+/// them, so that the same run can be continued later.
+/// @throws std::invalid_argument when the number is below 1 or above 1000
+Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing);
 
 /// The seed of packing number `packing` (from 1), a prime as the engine requires.
 int packing_seed(int packing);

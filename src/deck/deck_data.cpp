@@ -243,22 +243,26 @@ int seed_number(int index) {
     return static_cast<int>(boost::math::prime(static_cast<unsigned>(1229 + index)));
 }
 
-core::TemplateData describe(prepare::PreparedCase const& n, int packing) {
+core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& packing) {
     scenario::Scenario const& s = n.scenario;
     core::TemplateData data;
-    std::vector<core::TemplateData> const classes = describe_classes(n, packing);
+    std::vector<core::TemplateData> const classes = describe_classes(n, packing.number);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
     data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));
     data.set("class_count", std::to_string(classes.size()));
     data.set("classes", classes);
-    data.set("packing_number", std::to_string(packing));
-    data.set("seed", std::to_string(seed_number(3 * (packing - 1))));
+    data.set("packing_number", std::to_string(packing.number));
+    data.set("seed", std::to_string(seed_number(3 * (packing.number - 1))));
+    double const start = packing.start_efficiency.value_or(0);
+    data.set("start", packing.start_efficiency.has_value());
+    data.set("start_efficiency", text(start));
+    data.set("start_speed", rounded(start * n.velocity_scale));
     describe_inputs(data, s);
     describe_contact(data, n);
     describe_packing(data, n);
     describe_drive(data, n);
-    describe_output(data, s, n.time, packing);
+    describe_output(data, s, n.time, packing.number);
     return data;
 }
 

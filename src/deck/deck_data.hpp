@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/template.hpp"
-#include "prepare/prepared_case.hpp"
+#include "deck/deck.hpp"
 
 namespace vibrotrough::deck {
 
@@ -9,7 +9,6 @@ namespace vibrotrough::deck {
 int seed_number(int index);
 
 /// The data of the templates of both decks of one packing.
-/// @param packing  number of the packing, from 1
-core::TemplateData describe(prepare::PreparedCase const& prepared, int packing);
+core::TemplateData describe(prepare::PreparedCase const& prepared, PackingPlan const& packing);
 
 }  // namespace vibrotrough::deck

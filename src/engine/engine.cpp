@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include <boost/process/posix.hpp>
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -122,8 +125,35 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
     return words;
 }
 
-ExitStatus decode(int native) {
-    return WIFSIGNALED(native) ? ExitStatus{0, WTERMSIG(native)} : ExitStatus{WEXITSTATUS(native), 0};
+ExitStatus decode(int native, double core_time) {
+    if (WIFSIGNALED(native)) return {0, WTERMSIG(native), core_time};
+    return {WEXITSTATUS(native), 0, core_time};
+}
+
+/// s, processor time of the processes that have ended since the last call, with their own children.
+double time_of_ended_processes() {
+    static double known = 0;  // every engine is started and awaited by one thread
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    auto const seconds = [](timeval const& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    double const total = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    return total - std::exchange(known, total);
+}
+
+/// s, processor time of a process that runs; 0 when it does not.
+double time_of_process(pid_t process) {
+    std::ifstream file(fmt::format("/proc/{}/stat", process));
+    std::string const line{std::istreambuf_iterator<char>(file), {}};
+    std::size_t const name_end = line.rfind(')');  // the name may contain anything
+    if (name_end == std::string::npos) return 0;
+    std::istringstream fields(line.substr(name_end + 1));
+    std::string skipped;
+    for (int field = 3; field < 14; ++field) fields >> skipped;
+    double user = 0, system = 0;
+    fields >> user >> system;
+    return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
 }  // namespace
@@ -144,6 +174,9 @@ struct EngineProcess::State {
     bp::child process;
     boost::asio::steady_timer patience;
     std::function<void(ExitStatus)> on_exit;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    int ranks = 1;
+    double core_time = 0;
     bool ended = false;
 };
 
@@ -151,16 +184,19 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                              std::function<void(ExitStatus)> on_exit, Launch const& launch)
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
+    state_->ranks = engine.ranks;
     // The exit handler owns the state; a destroyed EngineProcess no longer has a handler. The handler is
     // posted, because Boost 1.74 iterates over its list of children while it calls handlers and must not find
     // a new child there. The number that Boost passes may be an exit code or a signal; only the process
     // status tells which.
     auto const ended = [state = state_, &context](int, std::error_code const&) {
         state->ended = true;
+        state->core_time = time_of_ended_processes();
         state->patience.cancel();
         boost::asio::post(context, [state] {
             if (state->on_exit)
-                std::exchange(state->on_exit, nullptr)(decode(state->process.native_exit_code()));
+                std::exchange(state->on_exit,
+                              nullptr)(decode(state->process.native_exit_code(), state->core_time));
         });
     };
     // Boost opens the file without truncating it, so that the end of the output of an earlier, interrupted
@@ -182,6 +218,14 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
 EngineProcess::~EngineProcess() {
     state_->on_exit = nullptr;
     state_->signal(SIGKILL);
+}
+
+double EngineProcess::core_time() const {
+    if (state_->ended) return state_->core_time;
+    if (state_->ranks == 1) return time_of_process(state_->process.id());
+    // mpirun does not know the time of ranks that still run; they do not wait for anything else.
+    std::chrono::duration<double> const elapsed = std::chrono::steady_clock::now() - state_->start;
+    return elapsed.count() * state_->ranks;
 }
 
 void EngineProcess::terminate() {

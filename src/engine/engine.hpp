@@ -29,6 +29,9 @@ Engine find_engine(std::optional<std::filesystem::path> const& requested);
 struct ExitStatus {
     int code;    ///< exit code; 0 if it was killed by a signal
     int signal;  ///< 0 if it exited by itself
+    /// s, processor time of the engine on all ranks. When several engines end at the same moment, the first
+    /// to be handled is given the time of all of them.
+    double core_time = 0;
 };
 
 /// The file in the run's folder that receives what the engine prints.
@@ -53,6 +56,9 @@ class EngineProcess {
     ~EngineProcess();
     EngineProcess(EngineProcess const&) = delete;
     EngineProcess& operator=(EngineProcess const&) = delete;
+
+    /// s, processor time so far, of the engine and of the processes that it has started.
+    double core_time() const;
 
     /// Sends SIGTERM to the engine, and kills it if it has not ended after five seconds. LIGGGHTS ends with
     /// exit code 0 after SIGTERM, so the caller must remember that the run was stopped early.

@@ -6,16 +6,18 @@
 #include <vector>
 
 namespace vibrotrough::evaluate {
-namespace {
-
-core::Outcome outcome_of(std::vector<measure::PackingEstimate> const& packings) {
-    auto const any = [&](measure::Verdict verdict) {
-        return std::ranges::any_of(packings, [&](auto const& packing) { return packing.verdict == verdict; });
-    };
-    if (any(measure::Verdict::not_steady)) return core::Outcome::not_steady;
-    if (any(measure::Verdict::not_precise)) return core::Outcome::not_precise;
-    return core::Outcome::finished;
+measure::Start start_of(int packing) {
+    return packing % 2 == 1 ? measure::Start::below : measure::Start::above;
 }
+
+core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_width) {
+    if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
+    if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
+    bool const is_precise = estimate.half_width && *estimate.half_width <= half_width;
+    return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
+}
+
+namespace {
 
 /// Of the first packing, from the start of the earliest to the end of the latest.
 store::Provenance provenance_of(EvaluatedPackings const& packings, std::string const& engine_version) {
@@ -30,7 +32,31 @@ store::Provenance provenance_of(EvaluatedPackings const& packings, std::string c
     return provenance;
 }
 
+/// The estimate of the case, and of its packings with the start-up that they have in common.
+void add_estimate(store::CaseRecord& record) {
+    scenario::MeasurementPlan const& plan = record.scenario.measure;
+    measure::Precision const wanted{plan.confidence, plan.half_width};
+    std::vector<measure::PackingValues> values;
+    for (store::PackingRecord const& packing : record.packings)
+        values.push_back({packing.efficiency, start_of(static_cast<int>(values.size()) + 1)});
+    record.estimate = measure::estimate_case(values, wanted);
+    for (store::PackingRecord& packing : record.packings) {
+        packing.estimate =
+            measure::estimate_packing_after(record.estimate.discarded, packing.efficiency, wanted);
+    }
+    record.outcome = outcome_of(record.estimate, plan.half_width);
+    if (has_mean(record.outcome)) return;
+    // No mean is reported unless the case is steady; the cycles stay in the record.
+    record.estimate.mean.reset();
+    record.estimate.half_width.reset();
+}
+
 }  // namespace
+
+void correct_outcome(store::CaseRecord& record) {
+    if (record.outcome == core::Outcome::finished)
+        record.outcome = outcome_of(record.estimate, record.scenario.measure.half_width);
+}
 
 store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::string const& id,
                                 std::string const& engine_version, EvaluatedPackings packings) {
@@ -39,19 +65,9 @@ store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::stri
     record.scenario = prepared.scenario;
     record.scenario_toml = to_toml(prepared.scenario);
     record.provenance = provenance_of(packings, engine_version);
-    std::vector<measure::PackingEstimate> estimates;
-    for (auto& [number, packing] : packings) {
-        estimates.push_back(packing.record.estimate);
-        record.packings.push_back(std::move(packing.record));
-    }
-    record.estimate = measure::combine(estimates, prepared.scenario.measure.confidence);
-    record.outcome = outcome_of(estimates);
+    for (auto& [number, packing] : packings) record.packings.push_back(std::move(packing.record));
+    add_estimate(record);
     record.layer_mode = common_mode(record.packings);
-    if (record.outcome == core::Outcome::not_steady) {
-        // No mean is reported unless the case is steady; the cycles stay in the record.
-        record.estimate.mean.reset();
-        record.estimate.half_width.reset();
-    }
     return record;
 }
 

@@ -8,6 +8,17 @@
 
 namespace vibrotrough::evaluate {
 
+/// The group of a packing: odd numbers start below the expected speed, even numbers above it.
+measure::Start start_of(int packing);
+
+/// What an estimate makes of a case: finished only when it is steady and its interval is as narrow as wanted.
+/// @param half_width  wanted of the interval
+core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_width);
+
+/// Corrects the outcome of a result of version 0.1, which called a case finished when each of its packings
+/// was precise, however much they differed.
+void correct_outcome(store::CaseRecord& record);
+
 /// The result of a case from its packings.
 /// @param id        of the case
 /// @param packings  at least one; those that the campaign's policy calls enough

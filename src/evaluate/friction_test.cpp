@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/outcome.hpp"
+#include "evaluate/case.hpp"
 #include "evaluate/layer.hpp"
 #include "measure/shake_test.hpp"
 #include "scenario/reader/shake_test.hpp"
@@ -46,21 +47,22 @@ Slides read_slides(prepare::PreparedCase const& prepared, store::PackingRecord c
 void add_displacement(LayerFriction& test, prepare::PreparedCase const& prepared,
                       store::CaseRecord const& record, std::filesystem::path const& case_folder) {
     scenario::MeasurementPlan const& wanted = prepared.scenario.measure;
-    std::vector<measure::PackingEstimate> estimates;
+    std::vector<std::vector<double>> ranges;
+    std::vector<measure::PackingValues> values;
     auto const count = static_cast<double>(record.packings.size());
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
-        Slides const slides =
+        Slides slides =
             read_slides(prepared, record.packings[i], case_folder / fmt::format("packing-{}", i + 1));
-        estimates.push_back(measure::estimate_packing(slides.ranges, {wanted.confidence, wanted.half_width}));
         test.creep += slides.creep / count;
+        ranges.push_back(std::move(slides.ranges));
     }
-    bool const unsteady = std::ranges::any_of(
-        estimates, [](auto const& one) { return one.verdict == measure::Verdict::not_steady; });
-    if (unsteady) {
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+        values.push_back({ranges[i], start_of(static_cast<int>(i) + 1)});
+    measure::CaseEstimate const mean = measure::estimate_case(values, {wanted.confidence, wanted.half_width});
+    if (mean.steadiness != measure::Steadiness::steady) {
         test.message = "the displacement never became steady; allow more cycles (measure.max_cycles)";
         return;
     }
-    measure::CaseEstimate const mean = measure::combine(estimates, wanted.confidence);
     test.displacement = mean.mean;
     test.half_width = mean.half_width;
 }
@@ -115,7 +117,7 @@ LayerFriction failed_friction_test(prepare::PreparedCase const& prepared, std::s
 LayerFriction evaluate_friction_test(prepare::PreparedCase const& prepared, std::string const& case_id,
                                      store::CaseRecord const& record,
                                      std::filesystem::path const& case_folder) {
-    if (record.outcome == core::Outcome::not_steady) {
+    if (!has_mean(record.outcome)) {
         return failed_friction_test(prepared, case_id,
                                     "the layer never became steady; allow more cycles (measure.max_cycles)");
     }

@@ -37,20 +37,27 @@ measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile
     return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains);
 }
 
+measure::CycleSeries first_of(measure::CycleSeries const& series, int cycles, fs::path const& folder) {
+    if (series.cycles() < cycles) {
+        throw core::InputError(fmt::format("{} holds {} cycles and should hold {}",
+                                           (folder / "cycles.csv").string(), series.cycles(), cycles));
+    }
+    return measure::first_cycles(series, cycles);
+}
+
 /// Measures a packing from its cycles and the phases within them.
 /// @throws core::InputError when its snapshots are damaged, or phases and cycles do not belong together
 store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int packing,
-                                     PackingFiles const& files, measure::CycleSeries const& all,
+                                     PackingFiles const& files, measure::CycleSeries const& series,
                                      measure::PhaseSeries const& phases) {
-    auto const answer = measure::estimate_sequentially(efficiency_of(prepared, all), wanted(prepared));
     store::PackingRecord record{};
     record.seed = deck::packing_seed(packing);
     record.steps_per_cycle = prepared.time.steps_per_cycle;
     record.time_step = prepared.time.time_step;
     record.mass = prepared.mass;
-    record.series = measure::first_cycles(all, answer.used);
+    record.series = series;
     record.efficiency = efficiency_of(prepared, record.series);
-    record.estimate = answer.estimate;
+    record.estimate = measure::estimate_packing(record.efficiency, wanted(prepared));
     measure_layer(record, prepared, files, phases);
     return record;
 }
@@ -83,27 +90,35 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
 
 InterimEstimate estimate_so_far(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
     auto const series = parse(prepared, core::read_text_file(packing_folder / "cycles.csv"));
-    InterimEstimate interim{series.cycles(), {}, false};
-    if (interim.cycles < 2) return interim;
-    std::vector<double> const efficiency = efficiency_of(prepared, series);
-    auto const needed = measure::cycles_needed(efficiency, wanted(prepared));
-    interim.is_enough = needed.has_value();
-    auto const used = static_cast<std::size_t>(needed.value_or(interim.cycles));
-    interim.estimate = measure::estimate_packing(std::span(efficiency).first(used), wanted(prepared));
+    InterimEstimate interim{series.cycles(), {}};
+    if (interim.cycles >= 2)
+        interim.estimate = measure::estimate_packing(efficiency_of(prepared, series), wanted(prepared));
     return interim;
 }
 
-std::optional<measure::PackingEstimate> estimate_finished(prepare::PreparedCase const& prepared,
-                                                          fs::path const& packing_folder) {
+std::optional<FinishedCycles> read_finished_cycles(prepare::PreparedCase const& prepared,
+                                                   fs::path const& packing_folder) {
     if (!has_marker(packing_folder)) return {};
     try {
         PackingFiles const files = read_packing_files(packing_folder);
-        if (!read_marker(files)) return {};
-        auto const efficiency = efficiency_of(prepared, parse(prepared, files.cycles));
-        return measure::estimate_sequentially(efficiency, wanted(prepared)).estimate;
+        auto const marker = read_marker(files);
+        if (!marker) return {};
+        return FinishedCycles{efficiency_of(prepared, parse(prepared, files.cycles)), marker->core_time};
     } catch (core::Error const&) {
         return {};  // damaged: the packing is as good as not run
     }
+}
+
+std::vector<double> read_efficiency(prepare::PreparedCase const& prepared, fs::path const& packing_folder,
+                                    int cycles) {
+    auto const series = parse(prepared, core::read_text_file(packing_folder / "cycles.csv"));
+    return efficiency_of(prepared, first_of(series, cycles, packing_folder));
+}
+
+void add_run(store::PackingRecord& record, PackingMarker const& marker) {
+    record.wall_time = marker.wall_time;
+    record.core_time = marker.core_time;
+    record.start_efficiency = marker.start_efficiency;
 }
 
 std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::PreparedCase const& prepared,
@@ -120,15 +135,15 @@ std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::Pr
 }
 
 std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepared, int packing,
-                                             fs::path const& packing_folder) {
+                                             fs::path const& packing_folder, int cycles) {
     if (!has_marker(packing_folder)) return {};
     PackingFiles const files = read_packing_files(packing_folder);
     auto const marker = read_marker(files);
     if (!marker) return {};
     auto const phases = packing_phases(prepared, files.phases);
-    EvaluatedPacking evaluated{
-        *marker, measure_packing(prepared, packing, files, parse(prepared, files.cycles), phases)};
-    evaluated.record.wall_time = marker->wall_time;
+    auto const series = first_of(parse(prepared, files.cycles), cycles, packing_folder);
+    EvaluatedPacking evaluated{*marker, measure_packing(prepared, packing, files, series, phases)};
+    add_run(evaluated.record, *marker);
     evaluated.record.deck = core::read_file(packing_folder / deck::drive_file);
     return evaluated;
 }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace vibrotrough::evaluate {
 
@@ -28,7 +29,12 @@ using EvaluatedPackings = std::map<int, EvaluatedPacking>;
 struct InterimEstimate {
     int cycles;                                        ///< written
     std::optional<measure::PackingEstimate> estimate;  ///< none before the second cycle
-    bool is_enough;                                    ///< as precise as the campaign asks
+};
+
+/// The cycles of a packing whose run has ended.
+struct FinishedCycles {
+    std::vector<double> efficiency;  ///< velocity efficiency of each cycle
+    double core_time;                ///< s, see PackingMarker
 };
 
 /// Reads the cycles of a packing that is being simulated.
@@ -36,9 +42,15 @@ struct InterimEstimate {
 InterimEstimate estimate_so_far(prepare::PreparedCase const& prepared,
                                 std::filesystem::path const& packing_folder);
 
-/// The estimate of a finished packing, from its cycles alone; none when it is not finished or damaged.
-std::optional<measure::PackingEstimate> estimate_finished(prepare::PreparedCase const& prepared,
-                                                          std::filesystem::path const& packing_folder);
+/// The cycles of a finished packing; none when it is not finished or damaged.
+std::optional<FinishedCycles> read_finished_cycles(prepare::PreparedCase const& prepared,
+                                                   std::filesystem::path const& packing_folder);
+
+/// The velocity efficiency of the first cycles of a packing, whatever became of its run.
+/// @throws core::InputError when cycles.csv is damaged or has fewer cycles, core::MissingError when there is
+/// none
+std::vector<double> read_efficiency(prepare::PreparedCase const& prepared,
+                                    std::filesystem::path const& packing_folder, int cycles);
 
 /// Why the outputs of a run cannot be used.
 struct UnusableOutputs {
@@ -56,9 +68,14 @@ std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::Pr
                                                                      long last_step);
 
 /// A finished packing from its folder; none when it is not finished.
-/// @throws core::InputError when its files are damaged, core::MissingError when some are missing
+/// @param cycles  of the run that are used; the others are left out
+/// @throws core::InputError when its files are damaged or it has fewer cycles, core::MissingError when some
+/// are missing
 std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepared, int packing,
-                                             std::filesystem::path const& packing_folder);
+                                             std::filesystem::path const& packing_folder, int cycles);
+
+/// Copies how a packing was run into its record.
+void add_run(store::PackingRecord& record, PackingMarker const& marker);
 
 /// How far an unfinished or failed run has come.
 struct RunExtent {

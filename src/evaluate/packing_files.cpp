@@ -66,7 +66,11 @@ std::optional<PackingMarker> read_marker(PackingFiles const& files) {
                              json.at("program_version"),
                              json.at("git_commit"),
                              json.at("host"),
-                             json.value("engine_certificate", std::string())};
+                             json.value("engine_certificate", std::string()),
+                             json.value("core_time", json.at("wall_time").get<double>()),
+                             json.contains("start_efficiency")
+                                 ? std::optional(json.at("start_efficiency").get<double>())
+                                 : std::nullopt};
     } catch (Json::exception const&) {
         return {};
     }
@@ -78,15 +82,17 @@ std::optional<PackingMarker> read_marker(fs::path const& packing_folder) {
 }
 
 void write_marker(PackingFiles const& files, PackingMarker const& marker) {
-    Json const json{{"wall_time", marker.wall_time},
-                    {"started", marker.started},
-                    {"finished", marker.finished},
-                    {"program_version", marker.program_version},
-                    {"git_commit", marker.git_commit},
-                    {"host", marker.host},
-                    {"engine_certificate", marker.engine_certificate},
-                    {"cycles_sha256", files.cycles_sha256},
-                    {"layer_sha256", files.layer_sha256}};
+    Json json{{"wall_time", marker.wall_time},
+              {"core_time", marker.core_time},
+              {"started", marker.started},
+              {"finished", marker.finished},
+              {"program_version", marker.program_version},
+              {"git_commit", marker.git_commit},
+              {"host", marker.host},
+              {"engine_certificate", marker.engine_certificate},
+              {"cycles_sha256", files.cycles_sha256},
+              {"layer_sha256", files.layer_sha256}};
+    if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
     core::write_file_atomically(files.folder / marker_file, json.dump(2) + "\n");
 }
 

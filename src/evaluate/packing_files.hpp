@@ -28,6 +28,10 @@ struct PackingMarker {
     std::string started, finished;                                 ///< ISO 8601, UTC
     std::string program_version = "", git_commit = "", host = "";  ///< that ran it
     std::string engine_certificate = "";                           ///< JSON; empty when it was not probed
+    /// s, processor time of the engine on all of its ranks; up to version 0.1 the wall time stands for it
+    double core_time = 0;
+    /// Velocity efficiency with which all grains started; none when they started at rest.
+    std::optional<double> start_efficiency = {};
 };
 
 /// Whether the folder has a marker, whatever it is worth.

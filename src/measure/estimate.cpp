@@ -1,5 +1,7 @@
 #include "measure/estimate.hpp"
 
+#include "measure/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,23 +9,10 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <Eigen/Core>
-#include <boost/math/distributions/students_t.hpp>
-
 namespace vibrotrough::measure {
 namespace {
 
 using Values = Eigen::Map<Eigen::ArrayXd const>;
-
-Values as_array(std::span<double const> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-/// The two-sided quantile of Student's t, also for fractional degrees of freedom.
-double student_quantile(double confidence, double degrees_of_freedom) {
-    boost::math::students_t const distribution(degrees_of_freedom);
-    return boost::math::quantile(distribution, 0.5 + confidence / 2);
-}
 
 double sample_deviation(Values const& values) {
     if (values.size() < 2) return 0;
@@ -57,12 +46,6 @@ bool still_starting_up(std::span<double const> values, PackingEstimate const& es
     if (n < 4) return true;
     double const before = as_array(values.subspan(n / 4, n / 4)).mean();
     return std::abs(before - estimate.mean) > wanted.half_width;
-}
-
-/// 20, 30, 40, 55, 75, 100, 130 ...: the more often the precision is checked, the more often a run ends by
-/// chance.
-std::size_t next_check(std::size_t cycles) {
-    return (cycles * 13 + 49) / 50 * 5;
 }
 
 }  // namespace
@@ -128,8 +111,12 @@ double statistical_inefficiency(std::span<double const> values) {
 }
 
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted) {
+    return estimate_packing_after(startup_length(values), values, wanted);
+}
+
+PackingEstimate estimate_packing_after(int discarded, std::span<double const> values,
+                                       Precision const& wanted) {
     int const n = static_cast<int>(values.size());
-    int const discarded = startup_length(values);
     std::span<double const> const kept = values.subspan(static_cast<std::size_t>(discarded));
     double const g = statistical_inefficiency(kept);
     PackingEstimate estimate{std::numeric_limits<double>::quiet_NaN(),
@@ -146,39 +133,6 @@ PackingEstimate estimate_packing(std::span<double const> values, Precision const
     estimate.verdict =
         enough && estimate.half_width <= wanted.half_width ? Verdict::precise : Verdict::not_precise;
     return estimate;
-}
-
-std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted) {
-    for (std::size_t used = 20; used <= values.size(); used = next_check(used)) {
-        if (estimate_packing(values.first(used), wanted).verdict == Verdict::precise)
-            return static_cast<int>(used);
-    }
-    return {};
-}
-
-SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted) {
-    int const used = cycles_needed(values, wanted).value_or(static_cast<int>(values.size()));
-    return {estimate_packing(values.first(static_cast<std::size_t>(used)), wanted), used};
-}
-
-CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence) {
-    if (packings.empty()) throw std::invalid_argument("there are no packings to combine");
-    std::vector<double> means;
-    double widest = 0;
-    for (PackingEstimate const& packing : packings) {
-        means.push_back(packing.mean);
-        widest = std::max(widest, packing.half_width);
-    }
-    Values const values = as_array(means);
-    int const count = static_cast<int>(means.size());
-    double scatter = 0;
-    if (count > 1) {
-        scatter = student_quantile(confidence, count - 1) * sample_deviation(values) / std::sqrt(count);
-    }
-    auto const known = [](double value) {
-        return std::isfinite(value) ? std::optional(value) : std::nullopt;
-    };
-    return {known(values.mean()), known(std::max(scatter, widest)), count};
 }
 
 }  // namespace vibrotrough::measure

@@ -26,14 +26,6 @@ struct PackingEstimate {
     Verdict verdict;          ///< whether the mean may be used
 };
 
-/// The mean over independent packings.
-struct CaseEstimate {
-    std::optional<double> mean;  ///< no value when a packing has no cycles, or is not steady (assemble)
-    std::optional<double>
-        half_width;  ///< of its confidence interval; no value when the interval is unbounded
-    int packings;    ///< number of packings
-};
-
 /// The required confidence interval.
 struct Precision {
     double confidence;  ///< confidence level, in [0.5, 1)
@@ -74,28 +66,10 @@ double statistical_inefficiency(std::span<double const> values);
 /// cycles kept differ by more than their combined intervals and by more than the required half-width. It is
 /// not precise if fewer than 20 cycles, or cycles equivalent to fewer than 3 independent ones, are kept.
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted);
-/// The number of cycles after which the mean is precise, checked after 20, 30, 40, 55, 75, 100, 130 ...
-/// cycles; std::nullopt if it is not precise at any of these checks. The result depends on the values only
-/// and not on when they are evaluated, so that the same run always gives the same result. For first-order
-/// autoregressive cycles with rho = 0, 0.5, 0.8 and 0.9 the 95 % interval at that time contains the true mean
-/// in 95, 86, 72 and 59 % of 1000 runs (the combined interval of three packings in 98 % or more): slow
-/// fluctuations cannot be recognised from one run, but from several packings.
-std::optional<int> cycles_needed(std::span<double const> values, Precision const& wanted);
 
-/// The estimate from the cycles needed or, if there is no such number, from all values; `used` is the number
-/// of cycles on which it is based.
-struct SequentialEstimate {
-    PackingEstimate estimate;  ///< from these cycles
-    int used;                  ///< number of cycles that it rests on
-};
-/// See SequentialEstimate and cycles_needed().
-SequentialEstimate estimate_sequentially(std::span<double const> values, Precision const& wanted);
-
-/// The mean over packings. Its interval follows from Student's t for their means (packings - 1 degrees of
-/// freedom), but is at least as wide as the widest interval of a single run, because the scatter of a few
-/// packings can be small by chance. With one packing the interval is that of the run and does not include the
-/// scatter between packings.
-/// @param packings  at least one
-CaseEstimate combine(std::span<PackingEstimate const> packings, double confidence);
+/// The same with a start-up that is known otherwise.
+/// @param discarded  number of cycles to leave out, at most the number of values
+PackingEstimate estimate_packing_after(int discarded, std::span<double const> values,
+                                       Precision const& wanted);
 
 }  // namespace vibrotrough::measure

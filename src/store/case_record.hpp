@@ -1,12 +1,14 @@
 #pragma once
 
 #include "core/outcome.hpp"
+#include "measure/case_estimate.hpp"
 #include "measure/cycle_series.hpp"
 #include "measure/estimate.hpp"
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
 #include "scenario/model/scenario.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,14 @@ namespace vibrotrough::store {
 
 /// One packing's run and what was measured in it.
 struct PackingRecord {
-    int seed;                           ///< of the random positions of the grains
-    int steps_per_cycle;                ///< of the engine
-    double time_step;                   ///< of the engine, s
-    double mass;                        ///< kg, of all grains
-    double wall_time;                   ///< s, of the engine
+    int seed;             ///< of the random positions of the grains
+    int steps_per_cycle;  ///< of the engine
+    double time_step;     ///< of the engine, s
+    double mass;          ///< kg, of all grains
+    double wall_time;     ///< s, of the engine
+    double core_time;     ///< s, processor time of the engine, all ranks
+    /// Velocity efficiency with which all grains started; none when they started at rest.
+    std::optional<double> start_efficiency;
     measure::CycleSeries series;        ///< the cycles used (what the engine wrote beyond them is left out)
     std::vector<double> efficiency;     ///< velocity efficiency of cycle 1 ... n
     measure::PackingEstimate estimate;  ///< of `efficiency`
@@ -44,7 +49,7 @@ struct CaseRecord {
     std::string id;                       ///< of the case
     scenario::Scenario scenario;          ///< its input
     std::string scenario_toml;            ///< to_toml(scenario)
-    core::Outcome outcome;                ///< finished, not_steady or not_precise
+    core::Outcome outcome;                ///< one of those that has_result() names
     measure::CaseEstimate estimate;       ///< of velocity efficiency
     std::vector<PackingRecord> packings;  ///< in the order of their numbers
     Provenance provenance;                ///< of the result

@@ -126,6 +126,9 @@ class Hdf5Table {
     /// Number of rows.
     std::size_t rows() const { return rows_; }
 
+    /// Whether there is a column with this name.
+    bool has(std::string const& name) const;
+
     /// Values of a column: int, double or std::string.
     /// @throws Hdf5Error when the column is missing or of another type
     template <typename Value>

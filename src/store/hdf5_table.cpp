@@ -102,6 +102,17 @@ Hdf5Table::Place Hdf5Table::find(std::string const& name, H5T_class_t kind) cons
     return place;
 }
 
+bool Hdf5Table::has(std::string const& name) const {
+    int const columns = H5Tget_nmembers(type_.id());
+    for (int c = 0; c < columns; ++c) {
+        char* const found = H5Tget_member_name(type_.id(), static_cast<unsigned int>(c));
+        bool const is_it = found != nullptr && name == found;
+        H5free_memory(found);
+        if (is_it) return true;
+    }
+    return false;
+}
+
 template <>
 std::vector<int> Hdf5Table::values(std::string const& name) const {
     Place const place = find(name, H5T_INTEGER);

@@ -52,6 +52,7 @@ std::string_view group_of(PackingTable const& table) {
 
 /// Reads one PackingValue of all packings.
 void read_column(Hdf5Table const& table, PackingValue const& value, std::vector<PackingRecord>& packings) {
+    if (value.may_be_missing && !table.has(std::string(value.entry.name))) return;
     std::visit(
         [&](auto const& field) {
             using Stored = decltype(to_stored(field(packings.front())));
@@ -65,6 +66,8 @@ void read_packings(Hdf5MemoryFileReader const& file, std::vector<PackingRecord>&
     Hdf5Table const table = file.table("packings", Rank::array);
     packings.resize(table.rows());
     for (PackingValue const& value : packing_values()) read_column(table, value, packings);
+    if (table.has("core_time")) return;
+    for (PackingRecord& packing : packings) packing.core_time = packing.wall_time;
 }
 
 /// Reads the columns of all tables of a packing.
@@ -93,6 +96,22 @@ measure::CaseEstimate read_case_values(Hdf5MemoryFileReader const& file) {
     from_stored(table.values<double>("efficiency").front(), estimate.mean);
     from_stored(table.values<double>("efficiency_half_width").front(), estimate.half_width);
     estimate.packings = table.values<int>("packings").front();
+    if (!table.has("packing_deviation")) return estimate;  // of version 0.1
+    auto const number = [&](char const* name) {
+        std::optional<double> value;
+        from_stored(table.values<double>(name).front(), value);
+        return value;
+    };
+    estimate.deviation = number("packing_deviation");
+    estimate.deviation_within = number("packing_deviation_within").value_or(0);
+    estimate.correlation_time = number("correlation_time").value_or(1);
+    int const below = (estimate.packings + 1) / 2;  // odd numbers
+    if (auto const mean = number("efficiency_below"))
+        estimate.below = measure::Branch{*mean, number("efficiency_below_half_width"), below};
+    if (auto const mean = number("efficiency_above")) {
+        estimate.above =
+            measure::Branch{*mean, number("efficiency_above_half_width"), estimate.packings - below};
+    }
     return estimate;
 }
 

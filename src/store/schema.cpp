@@ -23,13 +23,18 @@ std::optional<double> wall_time(Case record) {
                            [](double sum, PackingRecord const& packing) { return sum + packing.wall_time; });
 }
 
+std::optional<double> core_time(Case record) {
+    return std::accumulate(record.packings.begin(), record.packings.end(), 0.0,
+                           [](double sum, PackingRecord const& packing) { return sum + packing.core_time; });
+}
+
 }  // namespace
 
 std::vector<CaseFact> const& case_facts() {
     static std::vector<CaseFact> const facts{
         {{"case", "1", "Case id: hash of the scenario, the deck and the engine's version"},
          case_field([](auto& r) -> auto& { return r.id; })},
-        {{"outcome", "1", "How the case ended: finished, not-steady or not-precise"},
+        {{"outcome", "1", "How the case ended: finished, not-precise, not-steady or bistable-or-slow"},
          case_field([](auto& r) -> auto& { return r.outcome; })},
         {{"program_version", "1", "Version of Vibrotrough that ran the case"},
          case_field([](auto& r) -> auto& { return r.provenance.program_version; })},
@@ -100,11 +105,11 @@ std::vector<CaseValue> drive_and_result_values() {
         {{"velocity_scale", "m/s", "omega r cos(beta), the speed at velocity efficiency 1"},
          real([](Case c) { return velocity_scale(c.scenario.trough); })},
         {{"efficiency", "1",
-          "Velocity efficiency eta, mean over the packings; NaN when outcome is not-steady"},
+          "Velocity efficiency eta, mean over the packings; NaN unless outcome is finished or not-precise"},
          real([](Case c) { return c.estimate.mean; })},
         {{"efficiency_half_width", "1",
-          "Half-width of the confidence interval of efficiency over the packings; NaN when outcome is "
-          "not-steady"},
+          "Half-width of the confidence interval of efficiency, which allows for the fluctuations within runs "
+          "and between packings; NaN unless outcome is finished or not-precise"},
          Real(half_width)},
         {{"confidence", "1", "Confidence of every interval in this file"},
          real([](Case c) { return c.scenario.measure.confidence; })},
@@ -119,6 +124,39 @@ std::vector<CaseValue> drive_and_result_values() {
         {{"cycles_discarded", "1", "Cycles cut as start-up, sum over the packings"},
          Integer([](Case c) { return sum_over_packings(c, &measure::PackingEstimate::discarded); })},
         {{"wall_time", "s", "Wall time of the engine, sum over the packings"}, Real(wall_time)},
+        {{"core_time", "s", "Processor time of the engine on all ranks, sum over the packings"},
+         Real(core_time)},
+    };
+}
+
+std::optional<double> mean_of(std::optional<measure::Branch> const& branch) {
+    return branch ? std::optional(branch->mean) : std::nullopt;
+}
+
+std::optional<double> half_width_of(std::optional<measure::Branch> const& branch) {
+    return branch ? branch->half_width : std::nullopt;
+}
+
+std::vector<CaseValue> start_and_scatter_values() {
+    return {
+        {{"efficiency_below", "1", "Mean efficiency of the packings that started below the expected speed"},
+         real([](Case c) { return mean_of(c.estimate.below); })},
+        {{"efficiency_below_half_width", "1", "Half-width of the confidence interval of efficiency_below"},
+         real([](Case c) { return half_width_of(c.estimate.below); })},
+        {{"efficiency_above", "1", "Mean efficiency of the packings that started above the expected speed"},
+         real([](Case c) { return mean_of(c.estimate.above); })},
+        {{"efficiency_above_half_width", "1", "Half-width of the confidence interval of efficiency_above"},
+         real([](Case c) { return half_width_of(c.estimate.above); })},
+        {{"packing_deviation", "1", "Standard deviation of the mean efficiency of one packing"},
+         real([](Case c) { return c.estimate.deviation; })},
+        {{"packing_deviation_within", "1",
+          "The part of packing_deviation that the fluctuations within a run explain"},
+         real([](Case c) { return c.estimate.deviation_within; })},
+        {{"correlation_time", "1",
+          "Statistical inefficiency g, pooled over the packings: so many cycles are worth one independent one"},
+         real([](Case c) { return c.estimate.correlation_time; })},
+        {{"half_width_wanted", "1", "Half-width of the interval that the campaign file asks for"},
+         real([](Case c) { return c.scenario.measure.half_width; })},
     };
 }
 
@@ -168,6 +206,7 @@ std::vector<CaseValue> grain_and_layer_values() {
 std::vector<CaseValue> const& case_values() {
     static std::vector<CaseValue> const values = [] {
         std::vector<CaseValue> all = drive_and_result_values();
+        for (CaseValue const& value : start_and_scatter_values()) all.push_back(value);
         for (CaseValue const& value : grain_and_layer_values()) all.push_back(value);
         for (CaseValue const& value : layer_case_values()) all.push_back(value);
         return all;
@@ -193,7 +232,13 @@ std::vector<PackingValue> run_packing_values() {
         {{"efficiency_half_width", "1",
           "Half-width of the confidence interval of efficiency, corrected for correlation between cycles"},
          packing_field([](auto& p) -> auto& { return p.estimate.half_width; })},
-        {{"cycles_discarded", "1", "Cycles cut as start-up (MSER)"},
+        {{"core_time", "s", "Processor time of the engine on all ranks"},
+         packing_field([](auto& p) -> auto& { return p.core_time; }),
+         true},
+        {{"start_efficiency", "1", "Velocity efficiency with which all grains started; NaN: at rest"},
+         packing_field([](auto& p) -> auto& { return p.start_efficiency; }),
+         true},
+        {{"cycles_discarded", "1", "Cycles cut as start-up, the same for all packings (pooled MSER)"},
          packing_field([](auto& p) -> auto& { return p.estimate.discarded; })},
         {{"cycles_measured", "1", "Cycles kept for the mean"},
          packing_field([](auto& p) -> auto& { return p.estimate.measured; })},

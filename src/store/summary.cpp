@@ -45,6 +45,11 @@ Json to_json(core::Outcome value) {
     return std::string(name_of(value));
 }
 
+Json to_json(std::optional<measure::Branch> const& branch) {
+    if (!branch) return nullptr;
+    return Json::array({branch->mean, to_json(branch->half_width), branch->packings});
+}
+
 void from_json(Json const& json, int& value) {
     value = json.get<int>();
 }
@@ -53,6 +58,14 @@ void from_json(Json const& json, double& value) {
 }
 void from_json(Json const& json, std::optional<double>& value) {
     value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+void from_json(Json const& json, std::optional<measure::Branch>& branch) {
+    branch.reset();
+    if (json.is_null()) return;
+    branch.emplace();
+    from_json(json.at(0), branch->mean);
+    from_json(json.at(1), branch->half_width);
+    from_json(json.at(2), branch->packings);
 }
 void from_json(Json const& json, std::string& value) {
     auto const& bytes = json.get_binary();
@@ -100,6 +113,11 @@ CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) 
     from_json(estimate.at(0), record.estimate.mean);
     from_json(estimate.at(1), record.estimate.half_width);
     from_json(estimate.at(2), record.estimate.packings);
+    from_json(estimate.at(3), record.estimate.deviation);
+    from_json(estimate.at(4), record.estimate.deviation_within);
+    from_json(estimate.at(5), record.estimate.correlation_time);
+    from_json(estimate.at(6), record.estimate.below);
+    from_json(estimate.at(7), record.estimate.above);
     for (Json const& packing : summary.at(2)) record.packings.push_back(packing_from(packing));
     return record;
 }
@@ -116,7 +134,9 @@ std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
         std::visit([&](auto const& field) { facts.push_back(to_json(field(record))); }, fact.field);
     for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
     Json estimate = Json::array({to_json(record.estimate.mean), to_json(record.estimate.half_width),
-                                 to_json(record.estimate.packings)});
+                                 to_json(record.estimate.packings), to_json(record.estimate.deviation),
+                                 record.estimate.deviation_within, record.estimate.correlation_time,
+                                 to_json(record.estimate.below), to_json(record.estimate.above)});
     std::vector<std::uint8_t> const cbor =
         Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
     std::string const digest = digest_of(cbor);

@@ -48,7 +48,7 @@ TEST(Ranks, AreWhatTheCampaignSays) {
 }
 
 TEST(Ranks, ShareOutTheFloorAndNotTheHeight) {
-    deck::Deck const deck = deck::make_deck(prepare::prepare_case(with_grains(500)), 1);
+    deck::Deck const deck = deck::make_deck(prepare::prepare_case(with_grains(500)), {1});
     EXPECT_EQ(deck::for_ranks(deck.files, 1), deck.files);
     auto const files = deck::for_ranks(deck.files, 2);
     for (char const* name : {deck::settle_file, deck::drive_file}) {

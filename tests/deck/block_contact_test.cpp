@@ -72,7 +72,7 @@ std::vector<double> numbers_of(std::string const& deck, std::string const& prope
 TEST(BlockContact, IsWhatTheDecksSay) {
     scenario::Scenario const s = block();
     double const duration = 1 / (s.trough.frequency * s.solver.block_stiffness);
-    Deck const deck = make_deck(prepare::prepare_case(s), 1);
+    Deck const deck = make_deck(prepare::prepare_case(s), {1});
     for (auto const& name : {"settle.liggghts", "in.liggghts"}) {
         std::string const& text = deck.files.at(name);
         EXPECT_NE(text.find("pair_style      gran model hooke/stiffness tangential no_history limitForce on "
@@ -95,7 +95,7 @@ TEST(BlockContact, APlateMayPull) {
     scenario::Scenario plate = block();
     plate.layer.block = scenario::Block::plate;
     plate.grains.rotation = scenario::Rotation::free;
-    Deck const deck = make_deck(prepare::prepare_case(plate), 1);
+    Deck const deck = make_deck(prepare::prepare_case(plate), {1});
     for (auto const& name : {"settle.liggghts", "in.liggghts"})
         EXPECT_NE(deck.files.at(name).find("no_history limitForce off tangential_damping on\n"),
                   std::string::npos);

@@ -79,7 +79,7 @@ TEST(Estimates, FlightTime) {
 
 TEST(Estimates, SkinIsTheDecks) {
     scenario::Scenario const s = scenario();
-    EXPECT_NE(make_deck(prepared(s), 1)
+    EXPECT_NE(make_deck(prepared(s), {1})
                   .files.at("in.liggghts")
                   .find(fmt::format("neighbor        {} bin", skin_in_diameters * s.grains.diameter)),
               std::string::npos);

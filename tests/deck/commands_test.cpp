@@ -31,7 +31,7 @@ TEST(Commands, DifferWhereDecksRunDifferently) {
 TEST(Commands, OfARealDeckDoNotChangeWithItsComments) {
     auto const prepared =
         prepare::prepare_case(scenario::parse_campaign(example_campaign, "c").cases.front());
-    auto files = make_deck(prepared, 1).files;
+    auto files = make_deck(prepared, {1}).files;
     std::string const digest = digest_of_commands(files);
     std::string& drive = files.at(drive_file);
     drive = "# another title\n" + drive + "\n# and a last word\n";

@@ -23,7 +23,7 @@ scenario::Scenario scenario(std::string const& text = example_campaign) {
 
 /// Both decks, one after the other.
 std::string decks(scenario::Scenario const& s, int packing = 1) {
-    Deck const deck = make_deck(prepare::prepare_case(s), packing);
+    Deck const deck = make_deck(prepare::prepare_case(s), {packing});
     return deck.files.at("settle.liggghts") + deck.files.at("in.liggghts");
 }
 
@@ -117,7 +117,7 @@ TEST(Deck, AvoidsTheKnownPitfalls) {
 // A sweep over drives settles each packing once, because the first deck does not depend on the drive.
 TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
     auto const settle = [](std::string const& text) {
-        return make_deck(prepare::prepare_case(scenario(text)), 1).settle_files;
+        return make_deck(prepare::prepare_case(scenario(text)), {1}).settle_files;
     };
     auto const first = settle(example_campaign);
     EXPECT_EQ(first, settle(with("throw_number = 2.0", "throw_number = 3.0")));
@@ -129,7 +129,7 @@ TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
               settle(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"3, 0.1, 0 deg\"]")));
     EXPECT_NE(first, settle(with("friction = 0.23", "friction = 0.24")));
     EXPECT_NE(first, settle(with("\"0 deg\"", "\"1 deg\"")));
-    EXPECT_NE(first, make_deck(prepare::prepare_case(scenario()), 2).settle_files);
+    EXPECT_NE(first, make_deck(prepare::prepare_case(scenario()), {2}).settle_files);
 }
 
 // Every order has 50 steps in its period.
@@ -173,14 +173,14 @@ TEST(Deck, SoftGrainsNeedAnExtraCommand) {
 TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
     scenario::Scenario s = scenario();
     s.output.frames_per_cycle = 10;
-    Deck const first = make_deck(prepare::prepare_case(s), 1),
-               second = make_deck(prepare::prepare_case(s), 2);
+    Deck const first = make_deck(prepare::prepare_case(s), {1}),
+               second = make_deck(prepare::prepare_case(s), {2});
     EXPECT_NE(packing_seed(1), packing_seed(2));
     EXPECT_NE(first.files.at("in.liggghts").find("dump            frames"), std::string::npos);
     EXPECT_EQ(second.files.at("in.liggghts").find("dump            frames"), std::string::npos);
-    EXPECT_THROW(make_deck(prepare::prepare_case(s), 0), std::invalid_argument);
-    EXPECT_THROW(make_deck(prepare::prepare_case(s), 1001), std::invalid_argument);
-    EXPECT_NO_THROW(make_deck(prepare::prepare_case(s), 1000));
+    EXPECT_THROW(make_deck(prepare::prepare_case(s), {0}), std::invalid_argument);
+    EXPECT_THROW(make_deck(prepare::prepare_case(s), {1001}), std::invalid_argument);
+    EXPECT_NO_THROW(make_deck(prepare::prepare_case(s), {1000}));
 }
 
 // Gold deck: a change of the deck shows here, a change of the physics in tests/end_to_end. When a template
@@ -189,7 +189,7 @@ TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
 TEST(Deck, IsTheGoldDeck) {
     std::filesystem::path const gold = GOLD_FOLDER;
     Deck const deck =
-        make_deck(prepare::prepare_case(scenario::read_campaign(gold / "campaign.toml").cases.front()), 2);
+        make_deck(prepare::prepare_case(scenario::read_campaign(gold / "campaign.toml").cases.front()), {2});
     for (auto const& [name, content] : deck.files) EXPECT_EQ(content, core::read_file(gold / name)) << name;
 }
 

@@ -129,7 +129,8 @@ TEST_F(Probe, AnEngineThatLosesItsOutputFails) {
 // The probes are meaningful only if campaigns use the same contact options.
 TEST_F(Probe, TheDecksUseWhatIsProbed) {
     scenario::Scenario const scenario = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
-    std::string const campaign = deck::make_deck(prepare::prepare_case(scenario), 1).files.at("in.liggghts");
+    std::string const campaign =
+        deck::make_deck(prepare::prepare_case(scenario), {1}).files.at("in.liggghts");
     for (ProbeDeck const& probe : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
                                    drive_deck(), speed_deck(1)}) {
         for (std::string const& text : {campaign, probe.files.at("in.liggghts")}) {

@@ -31,7 +31,8 @@ int run(Options const& options) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
         fs::path const folder = fs::path(options.output) / fmt::format("case-{:03}", ++number);
         for (int packing = 1; packing <= scenario.measure.packings; ++packing) {
-            deck::write_deck(deck::make_deck(prepared, packing), folder / fmt::format("packing-{}", packing));
+            deck::write_deck(deck::make_deck(prepared, {packing}),
+                             folder / fmt::format("packing-{}", packing));
         }
         campaign::write_scenario(scenario, folder);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",

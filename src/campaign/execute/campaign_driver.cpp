@@ -48,7 +48,8 @@ struct DrivenCase {
     KnownCase known;
     evaluate::EvaluatedPackings evaluated = {};  ///< measured by this process, until the case has its result
     std::set<int> in_hand = {};                  ///< packings that the executor has
-    int counted = 0;                             ///< packings of it in Progress::packings
+    int counted = 0, done = 0;                   ///< packings of it in Progress
+    double expected = 0;                         ///< grain-steps of it in the remaining time
     int attempts = 0;                            ///< failed ones of earlier runs
     bool was_repaired = false;                   ///< its packings were found damaged once
     bool has_ended = false;
@@ -91,50 +92,96 @@ class Driver {
     void take_stock(PlannedCase const& planned) {
         DrivenCase& one = cases_.emplace_back(DrivenCase{{&planned, {}, {}, {}}});
         by_id_[planned.id] = &one;
-        if (auto found = find_summary(planned)) {
+        auto found = find_summary(planned);
+        if (found) {
             if (found->is_from_result) write_summary(planned, found->record);
-            for (auto const& packing : found->record.packings) progress_.core_time += packing.wall_time;
+            for (auto const& packing : found->record.packings) progress_.core_time += packing.core_time;
+            if (!may_go_on(planned, found->record)) {
+                count_result(found->record.outcome);
+                one.known.result = std::move(found->record);
+                one.has_ended = true;
+                return;
+            }
+        }
+        ++progress_.left;
+        one.known = know(planned);
+        if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
+        if (found && is_exhausted(one.known, found->record)) {
+            one.known.packings.clear();
+            --progress_.left;
             count_result(found->record.outcome);
             one.known.result = std::move(found->record);
             one.has_ended = true;
             return;
         }
-        ++progress_.left;
-        one.known = know(planned);
-        if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
-        progress_.packings_done += static_cast<int>(one.known.finished.size());
         decide(one);
+    }
+
+    /// Whether more packings or cycles could still make a result precise or steady, if the policy wants them.
+    static bool may_go_on(PlannedCase const& planned, store::CaseRecord const& record) {
+        return record.outcome != core::Outcome::finished && planned.scenario().measure.max_packings > 1;
+    }
+
+    /// Whether the policy is content with the packings that a result was made of.
+    /// Also when the packings' folders are no longer there.
+    bool is_exhausted(KnownCase const& known, store::CaseRecord const& record) const {
+        return known.packings.size() < record.packings.size() || !policy_.decide(known).result.empty();
     }
 
     /// Asks the policy about a case, and does what it says.
     void decide(DrivenCase& one) {
         CaseDecision const decision = policy_.decide(one.known);
-        if (!decision.result.empty()) return finish(one, decision.result);
-        auto const wanted = std::max(decision.wanted.size(), one.known.finished.size());
-        progress_.packings += static_cast<int>(wanted) - one.counted;
-        one.counted = static_cast<int>(wanted);
-        for (int const packing : decision.wanted) {
-            if (!one.known.finished.contains(packing) && !one.in_hand.contains(packing)) order(one, packing);
+        count(one, decision);
+        if (!decision.result.empty()) return finish(one, decision);
+        for (deck::PackingPlan const& packing : decision.wanted) {
+            // A run that was cut while it was continued needs nothing while fewer cycles are wanted; when it
+            // is all that is missing, it is run again.
+            bool const is_needed = !is_enough(one.known, packing) || !is_any_missing(one, decision);
+            if (!is_done(one.known, packing) && is_needed && !one.in_hand.contains(packing.number))
+                order(one, packing);
         }
     }
 
-    void order(DrivenCase& one, int packing) {
+    static bool is_any_missing(DrivenCase const& one, CaseDecision const& decision) {
+        return !std::ranges::all_of(
+            decision.wanted, [&](deck::PackingPlan const& packing) { return is_enough(one.known, packing); });
+    }
+
+    /// Brings the progress up to date with what the policy wants of a case.
+    void count(DrivenCase& one, CaseDecision const& decision) {
+        auto const done = std::ranges::count_if(
+            decision.wanted, [&](deck::PackingPlan const& packing) { return is_enough(one.known, packing); });
+        progress_.packings += static_cast<int>(decision.wanted.size()) - one.counted;
+        progress_.packings_done += static_cast<int>(done) - one.done;
+        one.counted = static_cast<int>(decision.wanted.size());
+        one.done = static_cast<int>(done);
+        double cycles = 0;
+        for (auto const& [number, packing] : one.known.packings)
+            cycles += static_cast<double>(packing.efficiency.size());
+        double const left =
+            one.known.planned->prepared->grain_steps(std::max(0.0, decision.expected - cycles));
+        remaining_time_.expect(left - one.expected);
+        one.expected = left;
+    }
+
+    void order(DrivenCase& one, deck::PackingPlan const& wanted) {
         PlannedCase const& planned = *one.known.planned;
+        int const packing = wanted.number;
         if (is_with_executor({planned.id, packing})) {
-            executor_.adopt({&planned, packing});
+            executor_.adopt({&planned, wanted});
             one.in_hand.insert(packing);
-            remaining_time_.expect(*planned.prepared);
             ++summary_.in_queue;
             return;
         }
+        // A packing that is continued is no longer finished; its checkpoint keeps what is known of it.
+        if (one.known.packings.contains(packing)) evaluate::remove_marker(planned.packing_folder(packing));
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
         fs::path const remains = planned.packing_folder(packing);
         if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains))
             fs::remove_all(remains);
         one.in_hand.insert(packing);
-        remaining_time_.expect(*planned.prepared);
-        orders_.push_back({&planned, packing});
+        orders_.push_back({&planned, wanted});
     }
 
     /// Whether an earlier run gave the packing to the executor, which still has it.
@@ -169,29 +216,28 @@ class Driver {
         one.in_hand.erase(ended.id.packing);
         progress_.core_time += ended.core_time;
         if (!ended.failure) {
-            ++progress_.packings_done;
-            remaining_time_.done(*planned.prepared, ended.cycles);
+            remaining_time_.done(planned.prepared->grain_steps(ended.cycles));
             take_in(one, ended);
             if (!one.has_ended) decide(one);
         } else if (!one.has_ended && may_retry(ended)) {
-            one.in_hand.insert(ended.id.packing);
-            orders_.push_back({&planned, ended.id.packing});
-        } else {
-            remaining_time_.drop(*planned.prepared);
-            if (!one.has_ended && ended.failure != core::Outcome::interrupted) fail(one, ended);
+            decide(one);  // wants the same packing
+        } else if (!one.has_ended && ended.failure != core::Outcome::interrupted) {
+            fail(one, ended);
         }
     }
 
     static void take_in(DrivenCase& one, EndedPacking& ended) {
         int const packing = ended.id.packing;
         if (ended.evaluated) {
-            one.known.finished.insert_or_assign(packing, ended.evaluated->record.estimate);
+            store::PackingRecord const& record = ended.evaluated->record;
+            one.known.packings[packing] = {record.efficiency, record.core_time, true};
             one.evaluated.insert_or_assign(packing, std::move(*ended.evaluated));
             return;
         }
         PlannedCase const& planned = *one.known.planned;
-        auto const estimate = evaluate::estimate_finished(*planned.prepared, planned.packing_folder(packing));
-        if (estimate) one.known.finished.insert_or_assign(packing, *estimate);
+        auto finished = evaluate::read_finished_cycles(*planned.prepared, planned.packing_folder(packing));
+        if (finished)
+            one.known.packings[packing] = {std::move(finished->efficiency), finished->core_time, true};
     }
 
     bool may_retry(EndedPacking const& ended) {
@@ -200,20 +246,20 @@ class Driver {
     }
 
     /// Writes the result of a case. Packings that turn out to be damaged are run again, once.
-    void finish(DrivenCase& one, std::vector<int> const& packings) {
+    void finish(DrivenCase& one, CaseDecision const& decision) {
         PlannedCase const& planned = *one.known.planned;
         try {
-            store::CaseRecord const result =
-                finish_case(planned, plan_.engine_version, packings, std::move(one.evaluated));
+            store::CaseRecord const result = finish_case(
+                planned, plan_.engine_version, {decision.result, decision.cycles}, std::move(one.evaluated));
             one.known.result = store::summary_of(result);
             end_case(one);
             count_result(result.outcome);
             observer_.case_ended(planned, result.outcome, {});
         } catch (core::InputError const&) {
             if (std::exchange(one.was_repaired, true)) throw;
-            for (int const packing : packings) evaluate::remove_marker(planned.packing_folder(packing));
-            progress_.packings_done -= static_cast<int>(one.known.finished.size());
-            one.known.finished.clear();
+            for (int const packing : decision.result)
+                evaluate::remove_marker(planned.packing_folder(packing));
+            one.known.packings.clear();
             decide(one);
             return;
         }
@@ -236,6 +282,9 @@ class Driver {
 
     void end_case(DrivenCase& one) {
         one.has_ended = true;
+        remaining_time_.expect(-one.expected);
+        one.expected = 0;
+        one.known.packings.clear();
         one.evaluated.clear();
         --progress_.left;
     }

@@ -1,6 +1,7 @@
 #include "campaign/execute/case_files.hpp"
 
 #include "campaign/state/case_state.hpp"
+#include "campaign/state/checkpoint.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
@@ -30,19 +31,28 @@ void remove_partial_files(PlannedCase const& planned) {
     }
 }
 
+bool is_made_of(store::CaseRecord const& record, ResultParts const& parts) {
+    return record.packings.size() == parts.packings.size() &&
+           std::ranges::all_of(record.packings, [&](store::PackingRecord const& packing) {
+               return packing.series.cycles() == parts.cycles;
+           });
+}
+
 }  // namespace
 
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
-                              std::vector<int> const& packings, evaluate::EvaluatedPackings evaluated) {
+                              ResultParts const& parts, evaluate::EvaluatedPackings evaluated) {
     FileLock const lock = lock_case(planned);
-    if (auto result = read_whole_result(planned)) return std::move(*result);
+    if (auto result = read_whole_result(planned); result && is_made_of(*result, parts))
+        return std::move(*result);
     remove_partial_files(planned);
     evaluate::EvaluatedPackings used;
-    for (int const packing : packings) {
+    for (int const packing : parts.packings) {
         auto known = evaluated.extract(packing);
-        auto one = known.empty()
-                       ? evaluate::read_packing(*planned.prepared, packing, planned.packing_folder(packing))
-                       : std::optional(std::move(known.mapped()));
+        bool const is_known = !known.empty() && known.mapped().record.series.cycles() == parts.cycles;
+        auto one = is_known ? std::optional(std::move(known.mapped()))
+                            : evaluate::read_packing(*planned.prepared, packing,
+                                                     planned.packing_folder(packing), parts.cycles);
         if (!one) {
             throw core::InputError(
                 fmt::format("packing {} of case {} is not finished or is damaged", packing, planned.id));
@@ -54,6 +64,7 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     store::write_result(planned.result_file(), record);
     write_summary(planned, record);
     std::filesystem::remove(planned.failure_file());
+    for (int const packing : parts.packings) remove_checkpoints(planned.packing_folder(packing));
     return record;
 }
 

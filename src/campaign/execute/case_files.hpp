@@ -12,14 +12,20 @@ namespace vibrotrough::campaign {
 // The end of a case, whichever process ran its packings. Several processes, also on several machines, may
 // call these at once: a lock of the case lets one at a time through.
 
-/// Writes the case's result when it has none yet.
-/// @param packings   that the result is made of; all of them are finished
+/// What a result is made of.
+struct ResultParts {
+    std::vector<int> packings;  ///< by number; all of them are finished
+    int cycles;                 ///< of each of them, from the first
+};
+
+/// Writes the case's result, unless it has one from as many packings and cycles. The packings' checkpoints
+/// are removed.
 /// @param evaluated  those of them that this process measured itself; the others are read from their folders
 /// @return the result, also when it was there before
 /// @throws core::InputError when a packing is not finished or its files are damaged
 /// @throws core::MissingError when the disk refuses
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
-                              std::vector<int> const& packings, evaluate::EvaluatedPackings evaluated = {});
+                              ResultParts const& parts, evaluate::EvaluatedPackings evaluated = {});
 
 /// Writes failure.json for a packing that failed, and counts the attempts.
 /// @param attempts_before  that are known to have failed, when failure.json may have been removed since

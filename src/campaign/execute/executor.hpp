@@ -3,6 +3,7 @@
 #include "campaign/state/overview.hpp"
 #include "campaign/state/plan.hpp"
 #include "core/outcome.hpp"
+#include "deck/deck.hpp"
 #include "evaluate/packing.hpp"
 #include "measure/estimate.hpp"
 
@@ -15,10 +16,10 @@ namespace vibrotrough::campaign {
 /// A packing that an executor is to run.
 struct PackingOrder {
     PlannedCase const* planned;  ///< the case
-    int packing;                 ///< its number, from 1
+    deck::PackingPlan packing;   ///< its number, its start and how many cycles are wanted of it
 
     /// Which packing it is.
-    PackingId id() const { return {planned->id, packing}; }
+    PackingId id() const { return {planned->id, packing.number}; }
 };
 
 /// A packing that an executor has finished with.
@@ -27,7 +28,7 @@ struct EndedPacking {
     std::optional<core::Outcome> failure;  ///< none when the packing is finished and has its marker
     std::string message;                   ///< why it failed
     int cycles = 0;                        ///< simulated
-    double core_time = 0;                  ///< s, wall time of the engine times its ranks
+    double core_time = 0;                  ///< s, processor time of the engine in this run, all ranks
     /// What was measured, when this process measured it; otherwise it is read from the packing's folder.
     std::optional<evaluate::EvaluatedPacking> evaluated = {};
     bool is_recorded = false;  ///< failure.json was written already, by the process that ran the packing
@@ -38,6 +39,7 @@ struct RunningPacking {
     PlannedCase const* planned;                        ///< the case
     int packing;                                       ///< its number, from 1
     int cycles;                                        ///< simulated so far
+    int cycles_wanted;                                 ///< in the end
     std::optional<measure::PackingEstimate> estimate;  ///< of velocity efficiency, from the cycles so far
     double elapsed;                                    ///< s
     double time_to_go;                                 ///< s, negative while unknown

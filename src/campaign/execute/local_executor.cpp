@@ -35,19 +35,6 @@ struct Running {
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 };
 
-/// Cycles that a packing will still take, from the width of its interval: the width falls as 1/sqrt(n).
-double cycles_to_go(Running const& one) {
-    scenario::MeasurementPlan const& plan = one.order.planned->scenario().measure;
-    int const done = one.run->cycles();
-    double needed = 30;  // typical
-    if (auto const& estimate = one.run->estimate()) {
-        double const width = estimate->half_width / plan.half_width;
-        needed = std::max<double>(measure::fewest_cycles, estimate->measured * width * width) +
-                 estimate->discarded;
-    }
-    return std::clamp<double>(needed, done, std::max(done, plan.max_cycles)) - done;
-}
-
 class LocalExecutor : public Executor {
   public:
     explicit LocalExecutor(ExecutorInputs const& inputs)
@@ -93,10 +80,10 @@ class LocalExecutor : public Executor {
     std::vector<RunningPacking> running() const override {
         std::vector<RunningPacking> shown;
         for (Running const& one : running_) {
-            int const cycles = one.run->cycles();
-            double const to_go = cycles > 0 ? one.elapsed() / cycles * cycles_to_go(one) : -1;
-            shown.push_back({one.order.planned, one.order.packing, cycles, one.run->estimate(), one.elapsed(),
-                             to_go, one.ranks});
+            int const cycles = one.run->cycles(), wanted = one.order.packing.cycles;
+            double const to_go = cycles > 0 ? one.elapsed() / cycles * (wanted - cycles) : -1;
+            shown.push_back({one.order.planned, one.order.packing.number, cycles, wanted, one.run->estimate(),
+                             one.elapsed(), to_go, one.ranks});
         }
         return shown;
     }
@@ -165,9 +152,9 @@ class LocalExecutor : public Executor {
             end = {core::Outcome::time_limit,
                    fmt::format("not finished after {:.0f} s", inputs_.settings.time_limit.value_or(0))};
         }
-        end = find_cause(*order.planned, order.packing, end, place->memory_kills);
+        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills);
         EndedPacking result{order.id(), end.failure, end.message, place->run->cycles(),
-                            place->elapsed() * place->ranks};
+                            place->run->core_time()};
         if (!end.failure) result.evaluated = place->run->take_evaluated();
         // The run is in the middle of its own call: it is destroyed after it has returned.
         boost::asio::post(context_, [run = std::shared_ptr<PackingRun>(std::move(place->run))] {});

@@ -42,7 +42,7 @@ void link_file(std::filesystem::path const& from, std::filesystem::path const& t
 }  // namespace
 
 PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& engine,
-                       SettledPackings& settled, PlannedCase const& planned, int packing,
+                       SettledPackings& settled, PlannedCase const& planned, deck::PackingPlan const& packing,
                        std::function<void(PackingEnd const&)> on_end)
     : context_(context),
       engine_(engine),
@@ -50,14 +50,15 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       planned_(planned),
       packing_(packing),
       on_end_(std::move(on_end)),
-      folder_(planned.packing_folder(packing)),
+      folder_(planned.packing_folder(packing.number)),
       deck_(deck::make_deck(*planned.prepared, packing)),
       start_(std::chrono::steady_clock::now()),
       started_(core::utc_now()),
       engine_certificate_(std::filesystem::is_regular_file(planned.certificate_file())
                               ? core::read_file(planned.certificate_file())
                               : std::string()) {
-    if (auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle)) {
+    auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
+    if (checkpoint && checkpoint->cycle < packing_.cycles) {
         cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
         start_engine(checkpoint);
         return;
@@ -95,6 +96,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
                             "-var", "done",  std::to_string(checkpoint->cycle)};
         started_ = checkpoint->started;
         earlier_wall_time_ = checkpoint->wall_time;
+        earlier_core_time_ = checkpoint->core_time;
         sealed_cycle_ = checkpoint->cycle;
         // Perhaps on another number of ranks than before.
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
@@ -112,7 +114,9 @@ double PackingRun::wall_time() const {
 void PackingRun::seal() {
     auto const cycle = last_checkpoint(folder_);
     if (!cycle || *cycle <= sealed_cycle_) return;
-    seal_checkpoint(folder_, deck_, {*cycle, deck::checkpoint_file(*cycle), started_, wall_time()});
+    seal_checkpoint(folder_, deck_,
+                    {*cycle, deck::checkpoint_file(*cycle), started_, wall_time(),
+                     earlier_core_time_ + (core_time_ > 0 ? core_time_ : process_->core_time())});
     sealed_cycle_ = *cycle;
 }
 
@@ -121,18 +125,15 @@ void PackingRun::inspect() {
     seal();
     std::error_code missing;
     auto const size = std::filesystem::file_size(folder_ / "cycles.csv", missing);
-    if (missing || size == seen_size_ || told_to_end_) return;
+    if (missing || size == seen_size_) return;
     seen_size_ = size;
     try {
         auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
-        if (!interim.is_enough) return;
     } catch (core::InputError const&) {
-        return;  // judged when the engine has ended
+        // Judged when the engine has ended.
     }
-    core::replace_file(folder_ / deck::control_file, deck::control_stop);
-    told_to_end_ = true;
 }
 
 void PackingRun::interrupt() {
@@ -145,14 +146,14 @@ void PackingRun::interrupt() {
 }
 
 PackingEnd PackingRun::judge(engine::ExitStatus status) {
-    // Run by hand, the deck goes on to max_cycles.
-    if (told_to_end_) core::replace_file(folder_ / deck::control_file, deck::control_go_on);
+    core_time_ = status.core_time;
     if (interrupted_) return interrupted_end();
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.failure) return {report.failure, report.message, report.signal};
     // What the case's result needs must be there now; later it would be too late to run again.
     auto const files = evaluate::read_packing_files(folder_);
-    auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_, files, report.last_step);
+    auto evaluation =
+        evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, report.last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
         return {fault->outcome, fault->message};
     evaluate::PackingMarker const marker{wall_time(),
@@ -161,12 +162,15 @@ PackingEnd PackingRun::judge(engine::ExitStatus status) {
                                          std::string(core::program_version()),
                                          std::string(core::program_commit()),
                                          core::host_name(),
-                                         engine_certificate_};
+                                         engine_certificate_,
+                                         earlier_core_time_ + core_time_,
+                                         packing_.start_efficiency};
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
-    evaluated_->record.wall_time = marker.wall_time;
+    evaluate::add_run(evaluated_->record, marker);
     evaluated_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
-    remove_checkpoints(folder_);
     evaluate::write_marker(files, marker);
+    // The policy may want more cycles of this packing, which then continue from its end.
+    seal();
     return {};
 }
 

@@ -22,20 +22,20 @@ struct PackingEnd {
     int signal = 0;                        ///< that killed the engine; 0 when none did
 };
 
-/// One packing being simulated: its settled packing, then the engine on the moving trough, with the question
-/// at each inspection of its cycles whether they are enough. A run that was cut continues from its last
-/// checkpoint.
+/// One packing being simulated: its settled packing, then the engine on the moving trough until it has the
+/// cycles that are wanted. A run that was cut, or that has fewer cycles than are wanted now, continues from
+/// its last checkpoint.
 class PackingRun {
   public:
     /// Starts the run. `on_end` is called once, from `context`; not after destruction. All references must
     /// outlive the run.
     /// @throws MissingError when the disk refuses or the engine cannot be started (also from `context`)
     PackingRun(boost::asio::io_context& context, engine::Engine const& engine, SettledPackings& settled,
-               PlannedCase const& planned, int packing, std::function<void(PackingEnd const&)> on_end);
+               PlannedCase const& planned, deck::PackingPlan const& packing,
+               std::function<void(PackingEnd const&)> on_end);
     ~PackingRun();
 
-    /// Inspects the cycles written so far, seals a new checkpoint, and asks the engine to stop when the mean
-    /// is known as precisely as the campaign asks.
+    /// Inspects the cycles written so far, and seals a new checkpoint.
     void inspect();
 
     /// Ends the engine soon; `on_end` then reports "interrupted".
@@ -43,10 +43,10 @@ class PackingRun {
 
     /// The case.
     PlannedCase const& planned() const { return planned_; }
-    /// The number of the packing, from 1.
-    int packing() const { return packing_; }
     /// Cycles seen so far.
     int cycles() const { return cycles_; }
+    /// s, processor time of the engine in this run, all ranks.
+    double core_time() const { return core_time_; }
 
     /// What was measured, once the packing is finished.
     evaluate::EvaluatedPacking take_evaluated() { return std::move(evaluated_.value()); }
@@ -65,19 +65,20 @@ class PackingRun {
     engine::Engine const& engine_;
     SettledPackings& settled_;
     PlannedCase const& planned_;
-    int packing_;
+    deck::PackingPlan packing_;
     std::function<void(PackingEnd const&)> on_end_;
     std::filesystem::path folder_;
     deck::Deck deck_;
     std::chrono::steady_clock::time_point start_;
     double earlier_wall_time_ = 0;  ///< s, of the engine before the checkpoint
+    double earlier_core_time_ = 0;  ///< s, the same of its processor time
+    double core_time_ = 0;          ///< s, of the engine in this run
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
     std::optional<measure::PackingEstimate> estimate_;
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;
-    bool told_to_end_ = false;
     bool interrupted_ = false;
     std::uintmax_t seen_size_ = 0;
     std::unique_ptr<engine::EngineProcess> process_;

@@ -7,6 +7,7 @@
 #include "campaign/state/file_lock.hpp"
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 
@@ -23,7 +24,7 @@ using namespace std::chrono_literals;
 class Attempt {
   public:
     Attempt(engine::Engine const& engine, std::filesystem::path const& campaign_folder,
-            PlannedCase const& planned, int packing,
+            PlannedCase const& planned, deck::PackingPlan const& packing,
             std::optional<std::chrono::steady_clock::time_point> deadline)
         : settled_(context_, engine, campaign_folder),
           deadline_(deadline),
@@ -80,12 +81,25 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
                     planned.program.string(), here.version, planned.version));
 }
 
+/// What the policy wants of a packing; none when it does not want it.
+std::optional<deck::PackingPlan> find_wanted(CaseDecision const& decision, int packing) {
+    auto const found = std::ranges::find(decision.wanted, packing, &deck::PackingPlan::number);
+    return found == decision.wanted.end() ? std::nullopt : std::optional(*found);
+}
+
 WorkResult finish_if_enough(PlannedCase const& planned, std::string const& engine_version,
                             Policy const& policy) {
-    CaseDecision const decision = policy.decide(know(planned));
-    if (decision.result.empty())
-        return {WorkResult::finished, fmt::format("case {}: other packings are missing", planned.id)};
-    auto const result = finish_case(planned, engine_version, decision.result);
+    KnownCase const known = know(planned);
+    CaseDecision const decision = policy.decide(known);
+    if (decision.result.empty()) {
+        auto const missing = std::ranges::count_if(
+            decision.wanted, [&](deck::PackingPlan const& packing) { return !is_done(known, packing); });
+        return {WorkResult::finished,
+                fmt::format("case {}: {} packings are missing; 'vibrotrough run' starts those that no task "
+                            "works on",
+                            planned.id, missing)};
+    }
+    auto const result = finish_case(planned, engine_version, {decision.result, decision.cycles});
     return {WorkResult::finished, fmt::format("case {}: {}", planned.id, name_of(result.outcome))};
 }
 
@@ -106,13 +120,14 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         return {WorkResult::busy,
                 fmt::format("another process runs packing {} of case {}", id.packing, planned.id)};
     }
-    if (evaluate::read_marker(planned.packing_folder(id.packing)))
-        return finish_if_enough(planned, engine.version, policy);
+    KnownCase const known = know(planned);
+    auto const packing = find_wanted(policy.decide(known), id.packing);
+    if (!packing || is_done(known, *packing)) return finish_if_enough(planned, engine.version, policy);
     for (int attempt = 0;; ++attempt) {
         long const memory_kills = count_memory_kills();
         PackingEnd const end =
             find_cause(planned, id.packing,
-                       Attempt(engine, campaign_folder, planned, id.packing, deadline).run(), memory_kills);
+                       Attempt(engine, campaign_folder, planned, *packing, deadline).run(), memory_kills);
         if (!end.failure) return finish_if_enough(planned, engine.version, policy);
         if (end.failure == core::Outcome::interrupted) return {WorkResult::interrupted, end.message};
         if (attempt < limits.retries && retry_makes_sense(*end.failure)) continue;

@@ -2,7 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/plan.hpp"
-#include "measure/estimate.hpp"
+#include "deck/deck.hpp"
 #include "store/case_record.hpp"
 
 #include <map>
@@ -15,18 +15,20 @@ namespace vibrotrough::campaign {
 
 /// What is known of one case when a policy is asked.
 struct KnownCase {
-    PlannedCase const* planned;                        ///< the case
-    std::map<int, measure::PackingEstimate> finished;  ///< packings, by number
-    std::optional<store::CaseRecord> result;           ///< its summary, when the case has a result
-    std::optional<core::Outcome> failure;              ///< when it failed
+    PlannedCase const* planned;               ///< the case
+    KnownPackings packings;                   ///< those of which something is known, by number
+    std::optional<store::CaseRecord> result;  ///< its summary, when the case has a result
+    std::optional<core::Outcome> failure;     ///< when it failed
 };
 
 /// What a policy says about one case.
 struct CaseDecision {
     /// Packings that the case needs, in the order in which they are wanted; finished ones may be among them.
-    std::vector<int> wanted;
+    std::vector<deck::PackingPlan> wanted;
     /// The packings that the result is made of, once they are enough; empty while they are not.
-    std::vector<int> result;
+    std::vector<int> result = {};
+    int cycles = 0;       ///< of each of these packings, from the first, that the result is made of
+    double expected = 0;  ///< cycles of all packings that the case will probably have had in the end
 };
 
 /// Answers one question: given what is known, which packings and cases come next, and which are enough?
@@ -40,8 +42,8 @@ class Policy {
   public:
     virtual ~Policy() = default;
 
-    /// Decides about a case that has no result and has not failed. Each answer must either name a result or
-    /// want a packing that is not finished.
+    /// Decides about a case that has not failed. Each answer must either name a result or want a packing that
+    /// is_enough() does not find.
     virtual CaseDecision decide(KnownCase const& known) const = 0;
 
     /// Cases that the campaign should have beside those that it has. Asked at the start of a run and after
@@ -51,6 +53,12 @@ class Policy {
         return {};
     }
 };
+
+/// Whether a packing has the cycles that are wanted of it.
+bool is_enough(KnownCase const& known, deck::PackingPlan const& wanted);
+
+/// Whether it has them, and its run has ended.
+bool is_done(KnownCase const& known, deck::PackingPlan const& wanted);
 
 /// The policy that a campaign asks for.
 std::unique_ptr<Policy> make_policy();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "prepare/prepared_case.hpp"
-
 #include <chrono>
 
 namespace vibrotrough::campaign {
@@ -9,9 +7,8 @@ namespace vibrotrough::campaign {
 /// Estimates how long the rest of a campaign takes, from the grain-steps done so far and how fast they went.
 class RemainingTime {
   public:
-    void expect(prepare::PreparedCase const& prepared);  ///< one more packing to run
-    void drop(prepare::PreparedCase const& prepared);    ///< a packing that will not be run, or failed
-    void done(prepare::PreparedCase const& prepared, int cycles);  ///< a packing that took this many cycles
+    void expect(double grain_steps);  ///< so much more is to be done than was known; negative: less
+    void done(double grain_steps);    ///< a packing has ended that took so much
 
     double elapsed() const;  ///< s since the start
 
@@ -20,13 +17,9 @@ class RemainingTime {
     double seconds(double under_way) const;
 
   private:
-    double mean_cycles() const;
-
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double expected_ = 0;  ///< grain-steps per cycle, summed over the packings not yet done
+    double expected_ = 0;  ///< grain-steps of the packings that are not done
     double done_ = 0;      ///< grain-steps
-    double cycles_ = 0;
-    int packings_ = 0;
 };
 
 }  // namespace vibrotrough::campaign

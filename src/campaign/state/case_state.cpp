@@ -1,8 +1,10 @@
 #include "campaign/state/case_state.hpp"
 
+#include "campaign/state/checkpoint.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "evaluate/case.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -57,6 +59,7 @@ std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned) {
     if (!fs::is_regular_file(planned.result_file(), missing)) return {};
     try {
         store::CaseRecord record = store::read_result(planned.result_file());
+        evaluate::correct_outcome(record);
         if (record.id == planned.id) return record;
     } catch (core::Error const&) {
         // Damaged: the case is as good as not run, and will be run.
@@ -82,14 +85,25 @@ std::vector<int> finished_packings(PlannedCase const& planned) {
     return finished;
 }
 
-std::map<int, measure::PackingEstimate> read_estimates(PlannedCase const& planned) {
-    std::map<int, measure::PackingEstimate> estimates;
+KnownPackings read_known_packings(PlannedCase const& planned) {
+    KnownPackings known;
+    prepare::PreparedCase const& prepared = *planned.prepared;
     for (int const packing : started_packings(planned)) {
-        if (auto const estimate =
-                evaluate::estimate_finished(*planned.prepared, planned.packing_folder(packing)))
-            estimates.emplace(packing, *estimate);
+        fs::path const folder = planned.packing_folder(packing);
+        if (auto finished = evaluate::read_finished_cycles(prepared, folder)) {
+            known[packing] = {std::move(finished->efficiency), finished->core_time, true};
+            continue;
+        }
+        auto const checkpoint = read_own_checkpoint(folder, prepared.time.steps_per_cycle);
+        if (!checkpoint) continue;
+        try {
+            known[packing] = {evaluate::read_efficiency(prepared, folder, checkpoint->cycle),
+                              checkpoint->core_time, false};
+        } catch (core::Error const&) {
+            // Damaged: the packing starts anew.
+        }
     }
-    return estimates;
+    return known;
 }
 
 }  // namespace vibrotrough::campaign

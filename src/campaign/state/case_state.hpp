@@ -37,7 +37,18 @@ std::vector<int> started_packings(PlannedCase const& planned);
 /// Numbers of the packings that are finished (marker and files belong together), in order.
 std::vector<int> finished_packings(PlannedCase const& planned);
 
-/// The estimates of the finished packings by number, from their cycles.
-std::map<int, measure::PackingEstimate> read_estimates(PlannedCase const& planned);
+/// The cycles of a packing that later runs do not change any more.
+struct KnownPacking {
+    std::vector<double> efficiency;  ///< velocity efficiency of each cycle
+    double core_time = 0;            ///< s, processor time of the engine so far, all ranks
+    bool is_finished = false;  ///< its run has ended and was found usable; else it was cut while it was being
+                               ///< continued, and these are the cycles up to its checkpoint
+};
+
+/// Packings by number, from 1.
+using KnownPackings = std::map<int, KnownPacking>;
+
+/// The finished packings, and those that were interrupted and have a checkpoint.
+KnownPackings read_known_packings(PlannedCase const& planned);
 
 }  // namespace vibrotrough::campaign

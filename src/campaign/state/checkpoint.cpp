@@ -94,6 +94,28 @@ std::vector<fs::path> restart_files(fs::path const& folder) {
     return files;
 }
 
+/// The sealed checkpoint, if it was made with the commands of `drive` and is still what was sealed.
+std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string const& drive,
+                                          int steps_per_cycle) {
+    try {
+        if (!fs::is_regular_file(folder / seal_file)) return {};
+        Json const seal = Json::parse(core::read_file(folder / seal_file));
+        Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
+                                    seal.at("wall_time"),
+                                    seal.value("core_time", seal.at("wall_time").get<double>())};
+        bool const known =
+            checkpoint_cycle(checkpoint.file) && belongs_to(seal, folder, drive) &&
+            seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
+        if (known && has_row(core::read_file(folder / "cycles.csv"),
+                             static_cast<long>(checkpoint.cycle) * steps_per_cycle))
+            return checkpoint;
+    } catch (Json::exception const&) {
+        // Damaged: the run starts anew.
+    } catch (core::Error const&) {
+    }
+    return {};
+}
+
 }  // namespace
 
 std::optional<int> last_checkpoint(fs::path const& folder) {
@@ -112,7 +134,8 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
                     {"restart_sha256", core::sha256_hex(core::read_file(folder / checkpoint.file))},
                     {"commands_sha256", digest_of_drive(deck.files.at(deck::drive_file))},
                     {"started", checkpoint.started},
-                    {"wall_time", checkpoint.wall_time}};
+                    {"wall_time", checkpoint.wall_time},
+                    {"core_time", checkpoint.core_time}};
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
     for (fs::path const& file : restart_files(folder)) {
         // The engine may be writing the next one.
@@ -123,22 +146,17 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
 
 std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck const& deck,
                                           int steps_per_cycle) {
+    return find_checkpoint(folder, deck.files.at(deck::drive_file), steps_per_cycle);
+}
+
+std::optional<Checkpoint> read_own_checkpoint(fs::path const& folder, int steps_per_cycle) {
     try {
-        if (!fs::is_regular_file(folder / seal_file)) return {};
-        Json const seal = Json::parse(core::read_file(folder / seal_file));
-        Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
-                                    seal.at("wall_time")};
-        bool const known =
-            checkpoint_cycle(checkpoint.file) && belongs_to(seal, folder, deck.files.at(deck::drive_file)) &&
-            seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
-        if (known && has_row(core::read_file(folder / "cycles.csv"),
-                             static_cast<long>(checkpoint.cycle) * steps_per_cycle))
-            return checkpoint;
-    } catch (Json::exception const&) {
-        // Damaged: the run starts anew.
+        if (!has_checkpoint(folder)) return {};
+        std::string const drive = deck::for_one_rank(core::read_file(folder / deck::drive_file));
+        return find_checkpoint(folder, drive, steps_per_cycle);
     } catch (core::Error const&) {
+        return {};
     }
-    return {};
 }
 
 bool has_checkpoint(fs::path const& folder) {

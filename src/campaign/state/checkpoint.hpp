@@ -11,10 +11,11 @@ namespace vibrotrough::campaign {
 /// A place from which a cut run of a packing goes on. The engine writes the restart file; the driver seals it
 /// with checkpoint.json once it is complete, and trusts nothing that is not sealed.
 struct Checkpoint {
-    int cycle;            ///< the last cycle before the checkpoint
-    std::string file;     ///< the restart file in the packing's folder
-    std::string started;  ///< ISO 8601, UTC: when the packing's first run started
-    double wall_time;     ///< s, of the engine up to here
+    int cycle;             ///< the last cycle before the checkpoint
+    std::string file;      ///< the restart file in the packing's folder
+    std::string started;   ///< ISO 8601, UTC: when the packing's first run started
+    double wall_time;      ///< s, of the engine up to here
+    double core_time = 0;  ///< s, processor time of the engine up to here, all ranks
 };
 
 /// The last cycle with a complete restart file, as the deck's own list says; none without one.
@@ -30,6 +31,9 @@ void seal_checkpoint(std::filesystem::path const& folder, deck::Deck const& deck
 std::optional<Checkpoint> read_checkpoint(std::filesystem::path const& folder, deck::Deck const& deck,
                                           int steps_per_cycle);
 
+/// The same for the deck that lies in the folder.
+std::optional<Checkpoint> read_own_checkpoint(std::filesystem::path const& folder, int steps_per_cycle);
+
 /// Whether there is a sealed checkpoint, whatever it is worth.
 bool has_checkpoint(std::filesystem::path const& folder);
 
@@ -37,7 +41,7 @@ bool has_checkpoint(std::filesystem::path const& folder);
 /// @throws MissingError when the disk refuses
 void cut_outputs(std::filesystem::path const& folder, Checkpoint const& checkpoint, int steps_per_cycle);
 
-/// Removes all checkpoints of a packing that needs them no more.
+/// Removes all checkpoints of a packing that will not be continued.
 void remove_checkpoints(std::filesystem::path const& folder);
 
 }  // namespace vibrotrough::campaign

@@ -71,7 +71,7 @@ std::optional<std::string> OlderCases::find(std::string const& id, prepare::Prep
     if (auto const known = ids_by_current_id_.find(id); known != ids_by_current_id_.end())
         return known->second;
     if (ids_by_identity_.empty()) return {};
-    std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, 1).files);
+    std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, {1}).files);
     auto const found = ids_by_identity_.find(identity(commands, prepared.scenario.measure));
     return found == ids_by_identity_.end() ? std::nullopt : std::optional(found->second);
 }

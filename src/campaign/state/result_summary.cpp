@@ -3,6 +3,7 @@
 #include "campaign/state/case_state.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "evaluate/case.hpp"
 #include "store/summary.hpp"
 
 #include <cstdint>
@@ -23,7 +24,7 @@ std::filesystem::path summary_file(PlannedCase const& planned) {
 }
 
 std::string layout() {
-    return "vibrotrough summary 2 " + store::summary_layout();
+    return "vibrotrough summary 3 " + store::summary_layout();
 }
 
 /// Size, time and inode of a file; none when it is not a regular file.
@@ -47,6 +48,7 @@ std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json cons
         if (!file.starts_with(expected)) return {};
         std::span const bytes(reinterpret_cast<std::uint8_t const*>(file.data()), file.size());
         store::CaseRecord record = store::unpack_summary(bytes.subspan(expected.size()), planned.scenario());
+        evaluate::correct_outcome(record);
         if (record.id == planned.id) return record;
     } catch (core::Error const&) {
         // Not readable, or not a summary: the same as if it were not there.

@@ -66,10 +66,12 @@ struct Layer {
 
 /// What is measured, and how precisely.
 struct MeasurementPlan {
-    int packings;       ///< independent packings per case
-    double confidence;  ///< level of every interval, e.g. 0.95
-    double half_width;  ///< of the interval of velocity efficiency at which a packing ends
-    int max_cycles;     ///< largest number of cycles of a packing
+    int packings;                           ///< least number of independent packings per case
+    double confidence;                      ///< level of every interval, e.g. 0.95
+    double half_width;                      ///< wanted of the interval of the case's velocity efficiency
+    int max_cycles;                         ///< largest number of cycles of a packing
+    int max_packings = 24;                  ///< largest number of packings of a case
+    std::optional<double> max_core_time{};  ///< s, largest core time that a case may take
 };
 
 /// What a run writes in addition to its measurements.

@@ -100,12 +100,24 @@ class CaseBuilder {
         }
         scenario.grains.rotation = scenario.layer.block == Block::point ? Rotation::blocked : Rotation::free;
         scenario.grains.rolling_friction = 0;
-        scenario.measure.packings = 1;
+        scenario.measure.packings = scenario.measure.max_packings = 1;
     }
 
     MeasurementPlan measure() const {
-        return {given_.integer("measure.packings"), given_.number("measure.confidence"),
-                given_.number("measure.half_width"), given_.integer("measure.max_cycles")};
+        MeasurementPlan plan{given_.integer("measure.packings"), given_.number("measure.confidence"),
+                             given_.number("measure.half_width"), given_.integer("measure.max_cycles"),
+                             given_.integer("measure.max_packings")};
+        bool const is_given = given_.find("measure.max_packings") != nullptr;
+        if (plan.max_packings < plan.packings && is_given) {
+            given_.fail("measure.max_packings",
+                        fmt::format("{} is less than measure.packings, which is {}", plan.max_packings,
+                                    plan.packings),
+                        "write a number that is not smaller, or fewer packings");
+        }
+        plan.max_packings = std::max(plan.max_packings, plan.packings);
+        if (given_.find("measure.max_core_time") != nullptr)
+            plan.max_core_time = given_.number("measure.max_core_time");
+        return plan;
     }
 
     GivenValues const& given_;

@@ -104,11 +104,16 @@ constexpr std::array keys{
         "a plate of nine spheres"},
 
     Key{"measure.packings", integer, "", 1, 1000, "1 to 1000", "", 3.0, "3",
-        "independent packings per case; the confidence interval is computed from all of them"},
+        "least number of independent packings per case; more are added until the case's interval is narrow "
+        "enough"},
+    Key{"measure.max_packings", integer, "", 1, 1000, "1 to 1000", "", 24.0, "24",
+        "largest number of packings per case; at least measure.packings"},
+    Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
+        "largest core time that one case may take: when more would be needed, it ends as not-precise"},
     Key{"measure.confidence", number, "", 0.5, 0.9999, "0.5 to 0.9999", "", 0.95, "0.95",
         "confidence level of every interval"},
     Key{"measure.half_width", number, "", 1e-5, 1, "0.00001 to 1", "", 0.02, "0.02",
-        "half-width of the confidence interval of the velocity efficiency at which a packing ends"},
+        "half-width of the confidence interval of the case's velocity efficiency that is wanted"},
     Key{"measure.max_cycles", integer, "", 20, 1e6, "20 to 1000000", "", 200.0, "200",
         "largest number of cycles of a packing"},
 

@@ -1,0 +1,212 @@
+#include "campaign/schedule/until_precise.hpp"
+
+#include "evaluate/case.hpp"
+#include "measure/case_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace vibrotrough::campaign {
+namespace {
+
+/// Packings of each kind of start with which two branches are reported.
+constexpr int packings_per_branch = 4;
+constexpr double least_growth = 1.3, most_growth = 2;
+
+/// Velocity efficiencies at which packings start, relative to the one expected. In its first cycle a layer
+/// whose grains all have the same speed gains about 0.13, so that these are 0.12 below and 0.18 above.
+constexpr double below = -0.25, above = 0.05;
+
+/// Starts are rounded, so that machines with different arithmetic start alike.
+double rounded(double efficiency) {
+    return std::round(1000 * efficiency) / 1000;
+}
+
+bool may_start_moving(scenario::Scenario const& scenario) {
+    return scenario.layer.block == scenario::Block::none && scenario.trough.vibration_angle > 0;
+}
+
+/// The state of the replay: packings with their starts, and the cycles that all of them have.
+struct Round {
+    std::vector<deck::PackingPlan> packings;
+    int cycles;
+
+    int count() const { return static_cast<int>(packings.size()); }
+    double total() const { return static_cast<double>(packings.size()) * cycles; }
+};
+
+/// One decision about one case, from its first round to the one that is not complete.
+class Replay {
+  public:
+    explicit Replay(KnownCase const& known)
+        : known_(known),
+          prepared_(*known.planned->prepared),
+          plan_(known.planned->scenario().measure),
+          wanted_{plan_.confidence, plan_.half_width} {}
+
+    CaseDecision decide() {
+        Round round{{}, std::min(cycles_of_first_round, plan_.max_cycles)};
+        bool const is_single = plan_.packings == 1;
+        extend(round, is_single ? 1 : plan_.packings + plan_.packings % 2, predicted());
+        while (true) {
+            for (deck::PackingPlan& packing : round.packings) packing.cycles = round.cycles;
+            auto const has_all = [&](deck::PackingPlan const& packing) { return is_enough(known_, packing); };
+            if (!std::ranges::all_of(round.packings, has_all))
+                return {round.packings, {}, 0, expected(round)};
+            estimate_ = estimate(round);
+            if (!advance(round)) return finish(round);
+        }
+    }
+
+  private:
+    /// The result, or the packings whose run was cut when its cycles were already enough.
+    CaseDecision finish(Round const& round) const {
+        CaseDecision decision{round.packings, {}, 0, round.total()};
+        for (deck::PackingPlan const& packing : round.packings) {
+            if (!known_.packings.at(packing.number).is_finished) return decision;
+        }
+        for (deck::PackingPlan const& packing : round.packings) decision.result.push_back(packing.number);
+        decision.cycles = round.cycles;
+        return decision;
+    }
+
+    /// The efficiency that the theory predicts; 0 where it has no answer.
+    double predicted() const {
+        if (!may_start_moving(prepared_.scenario)) return 0;
+        auto const motion = prepare::solve(prepared_.point_mass);
+        return motion.converged ? motion.velocity_efficiency : 0;
+    }
+
+    void extend(Round& round, int packings, double expected) const {
+        for (int number = round.count() + 1; number <= std::min(packings, plan_.max_packings); ++number) {
+            deck::PackingPlan packing{number, round.cycles, {}};
+            if (may_start_moving(prepared_.scenario) && plan_.max_packings > 1)
+                packing.start_efficiency = start(number, expected);
+            round.packings.push_back(packing);
+        }
+    }
+
+    static std::optional<double> start(int number, double expected) {
+        bool const is_below = evaluate::start_of(number) == measure::Start::below;
+        double const wanted = rounded(expected + (is_below ? below : above));
+        if (is_below && expected >= 0 && wanted <= 0) return {};  // at rest
+        return wanted;
+    }
+
+    measure::CaseEstimate estimate(Round const& round) const {
+        std::vector<measure::PackingValues> values;
+        for (deck::PackingPlan const& packing : round.packings) {
+            std::span const all(known_.packings.at(packing.number).efficiency);
+            values.push_back(
+                {all.first(static_cast<std::size_t>(round.cycles)), evaluate::start_of(packing.number)});
+        }
+        return measure::estimate_case(values, wanted_);
+    }
+
+    /// The next round; false when the case ends with this one.
+    bool advance(Round& round) const {
+        if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
+        if (evaluate::outcome_of(estimate_, plan_.half_width) == core::Outcome::finished) return false;
+        if (round.count() >= plan_.max_packings) {
+            return half_width_with(lengthened(round)) <= plan_.half_width && lengthen(round);
+        }
+        if (round.count() > 1 && cycles_are_cheaper(round) && lengthen(round)) return true;
+        return grow(round, packings_of_next_round(round));
+    }
+
+    /// For a case that is not steady: more cycles, and at the end enough packings to report both branches.
+    bool settle(Round& round) const {
+        if (lengthen(round)) return true;
+        bool const shows_branches = round.count() >= 2 * packings_per_branch;
+        if (estimate_.steadiness == measure::Steadiness::drifting || shows_branches) return false;
+        return grow(round, 2 * packings_per_branch);
+    }
+
+    int packings_of_next_round(Round const& round) const {
+        double const count = round.count();
+        double const needed = measure::packings_needed(estimate_, wanted_).value_or(1);
+        double const most = std::max(most_growth * count, count + 2);
+        int const next = static_cast<int>(
+            std::ceil(std::clamp(needed, std::min(most, std::max(least_growth * count, count + 2)), most)));
+        return next + next % 2;
+    }
+
+    bool grow(Round& round, int packings) const {
+        int const target = std::min(packings, plan_.max_packings);
+        if (target <= round.count() || !is_affordable((target - round.count()) * round.cycles)) return false;
+        extend(round, target, estimate_.mean.value_or(0));
+        return true;
+    }
+
+    int lengthened(Round const& round) const { return std::min(2 * round.cycles, plan_.max_cycles); }
+
+    bool lengthen(Round& round) const {
+        int const cycles = lengthened(round);
+        if (cycles <= round.cycles || !is_affordable((cycles - round.cycles) * round.count())) return false;
+        round.cycles = cycles;
+        return true;
+    }
+
+    /// Twice the cycles cost as much as twice the packings. They leave the variance b + w (L - s) / (2 L - s)
+    /// of a packing's mean, with the part b that runs do not share, the part w of the fluctuations, the
+    /// length L and the start-up s, where twice the packings leave the equivalent of (b + w) / 2.
+    bool cycles_are_cheaper(Round const& round) const {
+        double const within = std::pow(estimate_.deviation_within, 2);
+        double const between = std::max(0.0, std::pow(estimate_.deviation.value_or(0), 2) - within);
+        double const startup = estimate_.discarded;
+        return between < within * startup / (2 * round.cycles - startup);
+    }
+
+    /// The half-width that the same number of packings would probably have with so many cycles.
+    double half_width_with(int cycles) const {
+        if (!estimate_.half_width || !estimate_.deviation || *estimate_.deviation == 0) return 0;
+        double const within = std::pow(estimate_.deviation_within, 2);
+        double const total = std::pow(*estimate_.deviation, 2);
+        double const between = std::max(0.0, total - within);
+        double const kept = estimate_.measured;
+        double const longer = between + within * kept / (cycles - estimate_.discarded);
+        return *estimate_.half_width * std::sqrt(longer / total);
+    }
+
+    /// Whether measure.max_core_time allows so many more cycles.
+    bool is_affordable(int more_cycles) const {
+        if (!plan_.max_core_time) return true;
+        double spent = 0, cycles = 0;
+        for (auto const& [number, packing] : known_.packings) {
+            spent += packing.core_time;
+            cycles += static_cast<double>(packing.efficiency.size());
+        }
+        return cycles == 0 || spent * (1 + more_cycles / cycles) <= *plan_.max_core_time;
+    }
+
+    /// Cycles in the end: of this round, whose packings are not all there, and of those that will probably
+    /// follow.
+    double expected(Round const& round) const {
+        int const packings = expected_packings(plan_, estimate_.deviation);
+        return std::max(round.count(), packings) * static_cast<double>(round.cycles);
+    }
+
+    KnownCase const& known_;
+    prepare::PreparedCase const& prepared_;
+    scenario::MeasurementPlan const& plan_;
+    measure::Precision wanted_;
+    measure::CaseEstimate estimate_;  ///< of the last complete round
+};
+
+}  // namespace
+
+int expected_packings(scenario::MeasurementPlan const& plan, std::optional<double> deviation) {
+    if (plan.packings == 1) return 1;
+    measure::CaseEstimate estimate;
+    estimate.deviation = deviation.value_or(typical_deviation);
+    int const needed =
+        measure::packings_needed(estimate, {plan.confidence, plan.half_width}).value_or(plan.packings);
+    return std::clamp(needed + needed % 2, std::min(plan.packings, plan.max_packings), plan.max_packings);
+}
+
+CaseDecision UntilPrecise::decide(KnownCase const& known) const {
+    return Replay(known).decide();
+}
+
+}  // namespace vibrotrough::campaign

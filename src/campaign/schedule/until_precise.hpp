@@ -1,0 +1,40 @@
+#pragma once
+
+#include "campaign/schedule/policy.hpp"
+
+namespace vibrotrough::campaign {
+
+/// Adds packings, or cycles to all packings, until the interval of the case is as narrow as
+/// measure.half_width asks.
+///
+/// The work is done in rounds. All packings of a round have the same number of cycles, and the next round is
+/// decided only when all of them have them, from these cycles alone. So the answer does not depend on which
+/// packing happened to end first, and it can be found again from the files after a crash.
+/// - The first round has measure.packings packings (one, or an even number) of 24 cycles. They start in turn
+///   below and above the speed that the theory predicts; those of later rounds below and above the mean so
+///   far.
+/// - While the case is not steady, all packings are continued to twice the number of cycles, up to
+///   measure.max_cycles. If packings that started below and above still differ then, at least four of each
+///   kind are run, and the case ends as bistable-or-slow.
+/// - A steady case whose interval is too wide gets as many packings as it probably needs, at least 30 % more
+///   and at most twice as many. It gets cycles instead where they cost less: where the packings hardly differ
+///   by more than the fluctuations within a run explain, a longer run saves the start-up of another.
+/// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
+///   measure.max_core_time do not allow another round.
+class UntilPrecise : public Policy {
+  public:
+    CaseDecision decide(KnownCase const& known) const override;
+};
+
+/// Cycles of a packing in the first round: about three start-ups. Longer runs bring less than more packings.
+constexpr int cycles_of_first_round = 24;
+
+/// Standard deviation of the mean of one packing of 24 cycles, where nothing better is known: that of the
+/// layers in validation/demo and tests/measure/reference at throw numbers from 1.2 to 3.
+constexpr double typical_deviation = 0.03;
+
+/// The number of packings that a case will probably have in the end.
+/// @param deviation  of the mean of one packing; none when it is not known yet
+int expected_packings(scenario::MeasurementPlan const& plan, std::optional<double> deviation);
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,252 @@
+#include "measure/case_estimate.hpp"
+
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace vibrotrough::measure {
+namespace {
+
+/// Share of the error probability that an interval may use after packings were added until it was narrow.
+constexpr double stopping_share = 0.75;
+/// Level of the tests for drift and for branches: they are repeated after every round of packings.
+constexpr double test_level = 0.99;
+/// Fewest packings of a group that can be compared with the other group.
+constexpr int fewest_of_group = 2;
+
+double mean_of(std::span<double const> values) {
+    return as_array(values).mean();
+}
+
+double variance_of(std::span<double const> values) {
+    if (values.size() < 2) return 0;
+    return (as_array(values) - mean_of(values)).square().sum() / static_cast<double>(values.size() - 1);
+}
+
+/// Sums of products of neighbours at each lag, over all packings, each about its own mean.
+class PooledCorrelation {
+  public:
+    PooledCorrelation(std::span<PackingValues const> packings, int discarded)
+        : length_(packings.front().values.size() - static_cast<std::size_t>(discarded)),
+          count_(packings.size()),
+          sums_(std::max<std::size_t>(2, length_ / 2), 0.0) {
+        for (PackingValues const& packing : packings) {
+            auto const kept = as_array(packing.values.subspan(static_cast<std::size_t>(discarded)));
+            Eigen::ArrayXd const centred = kept - kept.mean();
+            auto const n = static_cast<Eigen::Index>(length_);
+            for (Eigen::Index lag = 0; lag < static_cast<Eigen::Index>(sums_.size()) && lag < n; ++lag)
+                sums_[static_cast<std::size_t>(lag)] += (centred.head(n - lag) * centred.tail(n - lag)).sum();
+        }
+    }
+
+    /// Of a cycle about the mean of its packing.
+    double variance() const {
+        double const freedom = static_cast<double>(count_ * (length_ - 1));
+        return freedom > 0 ? sums_[0] / freedom : 0;
+    }
+
+    /// g, see statistical_inefficiency(). At most the number of cycles.
+    double inefficiency() const {
+        if (!(sums_[0] > 0) || length_ < 4) return 1;
+        double sum = 0;
+        for (std::size_t m = 0; 2 * m + 1 < sums_.size(); ++m) {
+            double const pair = (sums_[2 * m] + sums_[2 * m + 1]) / sums_[0];
+            if (pair <= 0) break;
+            sum += pair;
+        }
+        double const size = static_cast<double>(length_);
+        double const biased = sums_[1] / sums_[0];
+        double const rho = std::clamp(biased + (1 + 3 * biased) / size, 0.0, 1 - 1 / size);
+        return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size);
+    }
+
+  private:
+    std::size_t length_, count_;
+    std::vector<double> sums_;
+};
+
+std::vector<double> means_of(std::span<PackingValues const> packings, int first, int last) {
+    std::vector<double> means;
+    for (PackingValues const& packing : packings) {
+        means.push_back(mean_of(
+            packing.values.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first))));
+    }
+    return means;
+}
+
+/// Whether the mean of a sample differs from zero.
+bool is_significant(std::span<double const> differences) {
+    auto const n = static_cast<double>(differences.size());
+    if (n < 2) return false;
+    return std::abs(mean_of(differences)) >
+           student_quantile(test_level, n - 1) * std::sqrt(variance_of(differences) / n);
+}
+
+/// Whether the start-up takes half of the cycles and the mean of all packings still changes.
+bool is_starting_up(std::span<PackingValues const> packings, int discarded, double tolerated) {
+    int const n = static_cast<int>(packings.front().values.size());
+    if (2 * discarded + 1 < n) return false;
+    if (n < 4) return true;
+    double const before = mean_of(means_of(packings, n / 4, n / 2));
+    return std::abs(mean_of(means_of(packings, discarded, n)) - before) > tolerated;
+}
+
+/// Whether the packings drift in the same direction.
+bool is_drifting(std::span<PackingValues const> packings, int discarded, double tolerated) {
+    int const n = static_cast<int>(packings.front().values.size());
+    int const middle = (discarded + n) / 2;
+    if (middle == discarded) return false;
+    std::vector<double> differences = means_of(packings, middle, n);
+    std::vector<double> const before = means_of(packings, discarded, middle);
+    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] -= before[i];
+    return std::abs(mean_of(differences)) > tolerated && is_significant(differences);
+}
+
+struct Group {
+    std::vector<double> means;  ///< one per packing
+
+    std::optional<Branch> branch(double confidence) const {
+        if (means.empty()) return {};
+        Branch branch{mean_of(means), {}, static_cast<int>(means.size())};
+        if (branch.packings < 2) return branch;
+        branch.half_width = student_quantile(confidence, branch.packings - 1) *
+                            std::sqrt(variance_of(means) / branch.packings);
+        return branch;
+    }
+};
+
+/// Whether the two groups differ: the two-sample t test with a common variance.
+bool is_branching(Group const& below, Group const& above, double tolerated) {
+    auto const n = static_cast<double>(below.means.size()), m = static_cast<double>(above.means.size());
+    if (std::min(n, m) < fewest_of_group) return false;
+    double const difference = std::abs(mean_of(above.means) - mean_of(below.means));
+    double const variance =
+        ((n - 1) * variance_of(below.means) + (m - 1) * variance_of(above.means)) / (n + m - 2);
+    return difference > tolerated &&
+           difference > student_quantile(test_level, n + m - 2) * std::sqrt(variance * (1 / n + 1 / m));
+}
+
+/// Student's interval of a mean over `packings`.
+struct Deviation {
+    double value;               ///< of the mean of one packing
+    double degrees_of_freedom;  ///< that it rests on
+};
+
+Deviation deviation_of(std::vector<double> const& means, double within, double freedom_within) {
+    double const between = variance_of(means);  // contains the fluctuations within the runs
+    double const freedom = static_cast<double>(means.size()) - 1;
+    double const variance_within = within * within;
+    if (between > variance_within) return {std::sqrt(between), freedom};
+    double const both = freedom + freedom_within;
+    double const pooled = (freedom * between + freedom_within * variance_within) / both;
+    return {std::sqrt(std::max(pooled, variance_within)), both};
+}
+
+double level_after_stopping(double confidence) {
+    return 1 - stopping_share * (1 - confidence);
+}
+
+CaseEstimate estimate_single(PackingValues const& packing, Precision const& wanted) {
+    PackingEstimate const one = estimate_packing(packing.values, wanted);
+    CaseEstimate estimate;
+    estimate.packings = 1;
+    estimate.discarded = one.discarded;
+    estimate.measured = one.measured;
+    estimate.correlation_time = one.correlation_time;
+    if (std::isfinite(one.mean)) estimate.mean = one.mean;
+    if (std::isfinite(one.half_width)) estimate.half_width = one.half_width;
+    if (one.verdict == Verdict::not_steady) estimate.steadiness = Steadiness::drifting;
+    return estimate;
+}
+
+}  // namespace
+
+int common_startup_length(std::span<PackingValues const> packings) {
+    int const n = static_cast<int>(packings.front().values.size());
+    std::vector<double> squares(static_cast<std::size_t>(n), 0.0);  // without the first d cycles
+    for (PackingValues const& packing : packings) {
+        double const origin = n > 0 ? packing.values.back() : 0;  // the squares of small numbers are accurate
+        double sum = 0, square = 0;
+        for (int d = n - 1; d >= 0; --d) {
+            double const value = packing.values[static_cast<std::size_t>(d)] - origin;
+            sum += value;
+            square += value * value;
+            squares[static_cast<std::size_t>(d)] += std::max(0.0, square - sum * sum / (n - d));
+        }
+    }
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int d = 0; 2 * d <= n && d < n; ++d) {
+        double const size = n - d;
+        double const error = squares[static_cast<std::size_t>(d)] / (size * size);
+        if (!(error < least)) continue;
+        least = error;
+        best = d;
+    }
+    return best;
+}
+
+CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted) {
+    if (packings.empty()) throw std::invalid_argument("there are no packings to combine");
+    std::size_t const n = packings.front().values.size();
+    if (!std::ranges::all_of(packings, [&](PackingValues const& one) { return one.values.size() == n; }))
+        throw std::invalid_argument("the packings to combine have different numbers of cycles");
+    if (packings.size() == 1) return estimate_single(packings.front(), wanted);
+    CaseEstimate estimate;
+    estimate.packings = static_cast<int>(packings.size());
+    if (n == 0) {
+        estimate.steadiness = Steadiness::drifting;
+        return estimate;
+    }
+    estimate.discarded = common_startup_length(packings);
+    estimate.measured = static_cast<int>(n) - estimate.discarded;
+    std::vector<double> const means = means_of(packings, estimate.discarded, static_cast<int>(n));
+    PooledCorrelation const correlation(packings, estimate.discarded);
+    estimate.correlation_time = correlation.inefficiency();
+    estimate.deviation_within =
+        std::sqrt(correlation.variance() * estimate.correlation_time / estimate.measured);
+    double const independent = estimate.packings * (estimate.measured / estimate.correlation_time);
+    Deviation const deviation =
+        deviation_of(means, estimate.deviation_within, std::max(1.0, independent - estimate.packings));
+    double const level = level_after_stopping(wanted.confidence);
+    estimate.mean = mean_of(means);
+    estimate.deviation = deviation.value;
+    estimate.half_width = student_quantile(level, deviation.degrees_of_freedom) * deviation.value /
+                          std::sqrt(estimate.packings);
+
+    Group below, above;
+    for (std::size_t i = 0; i < packings.size(); ++i)
+        (packings[i].start == Start::below ? below : above).means.push_back(means[i]);
+    estimate.below = below.branch(level);
+    estimate.above = above.branch(level);
+    double const tolerated = wanted.half_width;
+    if (is_branching(below, above, tolerated)) {
+        estimate.steadiness = Steadiness::branching;
+    } else if (is_starting_up(packings, estimate.discarded, tolerated) ||
+               is_drifting(packings, estimate.discarded, tolerated)) {
+        estimate.steadiness = Steadiness::drifting;
+    }
+    return estimate;
+}
+
+std::optional<int> packings_needed(CaseEstimate const& estimate, Precision const& wanted) {
+    constexpr int most = 1'000'000;
+    if (!estimate.deviation) return {};
+    double const level = level_after_stopping(wanted.confidence);
+    // The quantile depends on the number that is looked for; a few rounds settle it.
+    double needed = std::max(2, estimate.packings);
+    for (int round = 0; round < 50; ++round) {
+        double const quantile = student_quantile(level, std::max(1.0, needed - 1));
+        double const next =
+            std::clamp(std::pow(quantile * *estimate.deviation / wanted.half_width, 2), 2.0, 1.0 * most);
+        if (std::abs(next - needed) < 0.5) break;
+        needed = (needed + next) / 2;
+    }
+    return static_cast<int>(std::min<double>(most, std::ceil(needed)));
+}
+
+}  // namespace vibrotrough::measure
