@@ -58,10 +58,11 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
         ++total.cases;
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
-        total.grain_steps += expected_work(prepared);
+        double const packings = expected_packings(scenario.measure);
+        total.grain_steps += packings * expected_work(prepared);
         total.bytes += expected_bytes(prepared);
-        total.packings += scenario.measure.packings;
-        total.cycles += scenario.measure.packings * expected_cycles(prepared);
+        total.packings += packings;
+        total.cycles += packings * expected_cycles(scenario.measure);
     }
     return total;
 }

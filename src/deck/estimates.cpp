@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace vibrotrough::deck {
 namespace {
 
@@ -49,23 +51,31 @@ double steps_between_rebuilds(prepare::PreparedCase const& c, double speed) {
     return skin_in_diameters * s.grains.diameter / 2 / (speed * c.time.time_step);
 }
 
-double expected_cycles(prepare::PreparedCase const& c) {
-    scenario::Scenario const& s = c.scenario;
-    constexpr double start_up = 12, scatter = 0.03, fewest = 20;
-    double const measured = std::pow(2 * scatter / s.measure.half_width, 2);
-    return std::min(start_up + std::max(fewest, measured), static_cast<double>(s.measure.max_cycles));
+int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience) {
+    if (plan.packings == 1) return 1;
+    int packings = plan.packings + plan.packings % 2;
+    for (; packings < plan.max_packings; ++packings) {
+        boost::math::students_t const distribution(packings - 1);
+        double const quantile = boost::math::quantile(distribution, 0.5 + plan.confidence / 2);
+        if (quantile * experience.deviation <= plan.half_width * std::sqrt(packings)) break;
+    }
+    return std::min(packings, plan.max_packings);
 }
 
-double expected_work(prepare::PreparedCase const& c) {
+double expected_cycles(scenario::MeasurementPlan const& plan, Experience const& experience) {
+    return std::min<double>(experience.cycles, plan.max_cycles);
+}
+
+double expected_work(prepare::PreparedCase const& c, Experience const& experience) {
     double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
-    return c.scenario.measure.packings *
-           c.grain_steps(settling / c.time.steps_per_cycle + expected_cycles(c));
+    return c.grain_steps(settling / c.time.steps_per_cycle + expected_cycles(c.scenario.measure, experience));
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    double const cycles = expected_cycles(c);
-    return 120.0 * s.layer.grains * s.output.frames_per_cycle * cycles + 160 * cycles * s.measure.packings;
+    double const cycles = expected_cycles(s.measure);
+    return 120.0 * s.layer.grains * s.output.frames_per_cycle * cycles +
+           160 * cycles * expected_packings(s.measure);
 }
 
 }  // namespace vibrotrough::deck

@@ -29,15 +29,25 @@ double flight_time(prepare::PreparedCase const& prepared);
 /// which they must be rebuilt.
 double steps_between_rebuilds(prepare::PreparedCase const& prepared, double speed);
 
-/// Number of cycles that one packing will take: 12 of start-up and as many as its own interval needs, which
-/// is (2 s / half_width)^2 with a scatter of s = 0.03 per independent cycle, at least 20. The sum is at most
-/// max_cycles. In 18 packings of validation/demo, s was 0.011 to 0.068 (median 0.027) and the start-up 5 to
-/// 27 cycles (median 11).
-double expected_cycles(prepare::PreparedCase const& prepared);
+/// What the cost of a case is expected from: what other cases have shown, or what was seen before.
+struct Experience {
+    /// Standard deviation of the mean efficiency of one packing of 24 cycles. In the layer of
+    /// tests/measure/reference it was 0.01 to 0.04 at throw numbers from 0.8 to 3, in validation/demo the
+    /// same.
+    double deviation = 0.03;
+    double cycles = 24;  ///< of one packing; those of the first round of a campaign
+};
 
-/// Grain-steps of the whole case: all packings, including settling (five times the time of a free fall; less
-/// if another case has settled the same packing). A clump counts with the number of its spheres.
-double expected_work(prepare::PreparedCase const& prepared);
+/// The number of packings that a case will probably have: as many as make Student's interval as narrow as
+/// measure.half_width asks, from measure.packings to measure.max_packings; 1 when measure.packings is 1.
+int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience = {});
+
+/// Number of cycles that one packing will take, at most max_cycles.
+double expected_cycles(scenario::MeasurementPlan const& plan, Experience const& experience = {});
+
+/// Grain-steps of one packing, including settling (five times the time of a free fall; less if another case
+/// has settled the same packing). A clump counts with the number of its spheres.
+double expected_work(prepare::PreparedCase const& prepared, Experience const& experience = {});
 
 /// Number of bytes that the case will write: 120 per grain and frame of the first packing, 160 per cycle.
 double expected_bytes(prepare::PreparedCase const& prepared);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace vibrotrough::evaluate {
 measure::Start start_of(int packing) {
     return packing % 2 == 1 ? measure::Start::below : measure::Start::above;
@@ -56,6 +58,36 @@ void add_estimate(store::CaseRecord& record) {
 void correct_outcome(store::CaseRecord& record) {
     if (record.outcome == core::Outcome::finished)
         record.outcome = outcome_of(record.estimate, record.scenario.measure.half_width);
+}
+
+namespace {
+
+std::string in_words(std::optional<measure::Branch> const& branch) {
+    if (!branch) return "unknown";
+    if (!branch->half_width) return fmt::format("{:.3f}", branch->mean);
+    return fmt::format("{:.3f} +- {:.3f}", branch->mean, *branch->half_width);
+}
+
+std::string what_it_would_take(store::CaseRecord const& record) {
+    scenario::MeasurementPlan const& plan = record.scenario.measure;
+    auto const needed = measure::packings_needed(record.estimate, {plan.confidence, plan.half_width});
+    auto const packings = static_cast<int>(record.packings.size());
+    if (!needed || *needed <= packings) return "needs longer or more packings";
+    double core_time = 0;
+    for (store::PackingRecord const& packing : record.packings) core_time += packing.core_time;
+    return fmt::format("needs about {} packings, {} more than it has, which take {:.2g} core-hours", *needed,
+                       *needed - packings, core_time / packings * (*needed - packings) / 3600);
+}
+
+}  // namespace
+
+std::string remark_on(store::CaseRecord const& record) {
+    if (record.outcome == core::Outcome::not_precise) return what_it_would_take(record);
+    if (record.outcome == core::Outcome::bistable_or_slow) {
+        return fmt::format("velocity efficiency {} when it starts below, {} when it starts above",
+                           in_words(record.estimate.below), in_words(record.estimate.above));
+    }
+    return {};
 }
 
 store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::string const& id,

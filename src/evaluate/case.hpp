@@ -19,6 +19,10 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_widt
 /// was precise, however much they differed.
 void correct_outcome(store::CaseRecord& record);
 
+/// What more a case would take that is not precise, or the branches of one that is bistable or slow: one line
+/// for people, empty for other outcomes.
+std::string remark_on(store::CaseRecord const& record);
+
 /// The result of a case from its packings.
 /// @param id        of the case
 /// @param packings  at least one; those that the campaign's policy calls enough

@@ -12,7 +12,7 @@ namespace vibrotrough::measure {
 namespace {
 
 /// Share of the error probability that an interval may use after packings were added until it was narrow.
-constexpr double stopping_share = 0.75;
+constexpr double stopping_share = 0.7;
 /// Level of the tests for drift and for branches: they are repeated after every round of packings.
 constexpr double test_level = 0.99;
 /// Fewest packings of a group that can be compared with the other group.

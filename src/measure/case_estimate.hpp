@@ -67,9 +67,9 @@ int common_startup_length(std::span<PackingValues const> packings);
 /// autoregression of statistical_inefficiency()). So when S < w, the interval rests on the pooled variance of
 /// S and w, but not less than w, and their common degrees of freedom.
 ///
-/// The half-width is that of Student's t at the level 1 - 0.75 (1 - confidence): packings are added until the
+/// The half-width is that of Student's t at the level 1 - 0.7 (1 - confidence): packings are added until the
 /// interval is narrow enough, which favours intervals that are too narrow by chance (Chow & Robbins, Annals
-/// of Mathematical Statistics 36, 1965, 457-462). tests/measure/coverage_test.cpp measures what this
+/// of Mathematical Statistics 36, 1965, 457-462). tests/campaign/until_precise_test.cpp measures what this
 /// achieves.
 ///
 /// The case is not steady if the common start-up takes half of the cycles and the ensemble mean still changes

@@ -12,7 +12,7 @@ using RemainingTimeTest = CampaignFolder;
 TEST_F(RemainingTimeTest, IsUnknownAtFirst) {
     RemainingTime time;
     EXPECT_LT(time.seconds(0), 0);
-    time.expect(*planned.prepared);
+    time.expect(planned.prepared->grain_steps(24));
     EXPECT_LT(time.seconds(0), 0);
     double const seconds = time.seconds(planned.prepared->grain_steps(5));
     // A busy machine may let this test wait here for longer than that.
@@ -23,27 +23,26 @@ TEST_F(RemainingTimeTest, IsUnknownAtFirst) {
 
 TEST_F(RemainingTimeTest, FollowsTheSpeedSoFar) {
     RemainingTime time;
-    for (int packing = 0; packing < 4; ++packing) time.expect(*planned.prepared);
+    auto const cycles = [&](double number) { return planned.prepared->grain_steps(number); };
+    time.expect(cycles(160));
     while (time.elapsed() < 1) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_LT(time.seconds(0), 0) << "nothing done, nothing known";
 
-    // A packing of 40 cycles is done and another is at cycle 20: the first took two thirds of the time, and
-    // what is left is half a packing and two whole ones, 100 cycles; t = elapsed * 100 / 60. The clock runs
+    // 40 cycles are done and 20 more are under way; 100 are left, so t = elapsed * 100 / 60. The clock runs
     // between the calls.
-    time.done(*planned.prepared, 40);
+    time.done(cycles(40));
+    time.expect(-cycles(40));
     double const before = time.elapsed();
-    double const seconds = time.seconds(planned.prepared->grain_steps(20));
+    double const seconds = time.seconds(cycles(20));
     EXPECT_GE(seconds, before * 100 / 60 * (1 - 1e-12));
     EXPECT_LE(seconds, time.elapsed() * 100 / 60 * (1 + 1e-12));
 
-    // Packings that will not be run no longer count; a packing that takes longer than the others leaves
-    // nothing negative behind.
-    time.drop(*planned.prepared);
-    time.drop(*planned.prepared);
-    double const dropped = time.seconds(planned.prepared->grain_steps(20));
+    // When less is needed than was expected, nothing negative is left.
+    time.expect(-cycles(80));
+    double const dropped = time.seconds(cycles(20));
     EXPECT_GE(dropped, before * 20 / 60 * (1 - 1e-12));
     EXPECT_LE(dropped, time.elapsed() * 20 / 60 * (1 + 1e-12));
-    EXPECT_EQ(time.seconds(planned.prepared->grain_steps(90)), 0);
+    EXPECT_EQ(time.seconds(cycles(90)), 0);
 }
 
 }  // namespace

@@ -85,21 +85,26 @@ TEST(Estimates, SkinIsTheDecks) {
               std::string::npos);
 }
 
-TEST(Estimates, CyclesAreWhatTheHalfWidthNeeds) {
-    EXPECT_EQ(expected_cycles(prepared(scenario())), 32);  // the fewest, and the start-up
-    EXPECT_NEAR(expected_cycles(prepared(scenario(with("half_width = 0.02", "half_width = 0.005")))),
-                12 + 144, 1e-9);
-    EXPECT_EQ(expected_cycles(prepared(scenario(with("half_width = 0.02", "half_width = 0.001")))), 200);
+// Student's t(0.975; P - 1) x 0.03 / sqrt(P) is 0.0194 for P = 12 and 0.0215 for P = 10 (t = 2.201, 2.262).
+TEST(Estimates, PackingsAreWhatTheHalfWidthNeeds) {
+    scenario::MeasurementPlan plan = scenario().measure;
+    plan.half_width = 0.02;
+    EXPECT_NEAR(expected_packings(plan), 12, 1);
+    plan.half_width = 0.1;
+    EXPECT_EQ(expected_packings(plan), 4) << "the least number, in pairs";
+    plan.half_width = 0.001;
+    EXPECT_EQ(expected_packings(plan), 24) << "the largest";
+    plan.packings = 1;
+    EXPECT_EQ(expected_packings(plan), 1);
+    EXPECT_EQ(expected_cycles(plan), 24);
+    plan.max_cycles = 20;
+    EXPECT_EQ(expected_cycles(plan), 20);
 }
 
-TEST(Estimates, WorkGrowsWithPackingsAndGrains) {
+TEST(Estimates, WorkIsThatOfCyclesAndSettling) {
     scenario::Scenario const s = scenario();
-    scenario::Scenario twice = s;
-    twice.measure.packings *= 2;
-    EXPECT_EQ(expected_work(prepared(twice)), 2 * expected_work(prepared(s)));
     // Settling comes to the cycles: 5 falls are a few cycles long.
-    double const cycles =
-        3.0 * s.layer.grains * prepared(s).time.steps_per_cycle * expected_cycles(prepared(s));
+    double const cycles = s.layer.grains * prepared(s).time.steps_per_cycle * expected_cycles(s.measure);
     EXPECT_GT(expected_work(prepared(s)), cycles);
     EXPECT_LT(expected_work(prepared(s)), 2 * cycles);
 }

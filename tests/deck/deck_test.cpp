@@ -154,7 +154,7 @@ TEST(Deck, RotationChoosesTheIntegrator) {
 TEST(Deck, SideWallsAreMeshesThatMove) {
     Deck const deck = make_deck(prepare::prepare_case(scenario(with(
                                     "restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"))),
-                                1);
+                                {1});
     std::string const& text = deck.files.at("in.liggghts");
     EXPECT_TRUE(deck.files.contains("left.stl") && deck.files.contains("right.stl"));
     EXPECT_NE(text.find("boundary        p f f"), std::string::npos);

@@ -123,74 +123,12 @@ TEST(Estimate, SaysWhenAMeanIsNotPrecise) {
     EXPECT_NE(estimate_packing(std::vector<double>(5, 0.8), wanted).verdict, Verdict::precise);
 }
 
-TEST(Estimate, EndsAtTheFirstCheckpointWhoeverLooks) {
-    auto const values = Series{.start = -0.6, .sigma = 0.04}.make(200, 5);
-    auto const needed = cycles_needed(values, wanted);
-    ASSERT_TRUE(needed);
-    EXPECT_EQ(*needed % 5, 0);
-    EXPECT_GE(*needed, 20);
-    for (std::size_t seen = 0; seen <= values.size(); ++seen) {
-        auto const early = cycles_needed(std::span(values).first(seen), wanted);
-        if (seen < static_cast<std::size_t>(*needed)) {
-            EXPECT_FALSE(early) << seen;
-        } else {
-            EXPECT_EQ(early, needed) << seen;
-        }
-    }
-    auto const answer = estimate_sequentially(values, wanted);
-    EXPECT_EQ(answer.used, *needed);
-    EXPECT_EQ(answer.estimate.discarded + answer.estimate.measured, *needed);
-}
-
-// The result of a case has the interval over packings. Each run ends according to its own interval, which is
-// too narrow if cycles are strongly correlated; the scatter between packings is not. The combined interval
-// contains the true mean in 98 % or more of 1000 trials; 95 % is required.
-TEST(Estimate, IntervalOverPackingsCoversTheTruthAlsoWhenCyclesWander) {
-    for (double const rho : {0.0, 0.5, 0.8, 0.9}) {
-        int covered = 0;
-        for (unsigned trial = 0; trial < 200; ++trial) {
-            std::vector<PackingEstimate> packings;
-            for (unsigned packing = 1; packing <= 3; ++packing) {
-                auto const values =
-                    Series{.start = -0.5, .rho = rho, .sigma = 0.03}.make(200, 3 * trial + packing);
-                packings.push_back(estimate_sequentially(values, {0.95, 0.03}).estimate);
-            }
-            auto const combined = combine(packings, 0.95);
-            if (std::abs(combined.mean.value() - 0.8) <= combined.half_width.value()) ++covered;
-        }
-        EXPECT_GE(covered / 200.0, 0.95) << rho;
-    }
-}
-
-PackingEstimate packing(double mean, double half_width) {
-    return {mean, half_width, 8, 20, 1, Verdict::precise};
-}
-
-// t(0.975; 2) = 4.302653 (any table): half-width = t s / sqrt(3), s = 0.01 for 0.80, 0.81, 0.82.
-TEST(Estimate, CombinesPackingsByTheirScatter) {
-    std::vector const three{packing(0.80, 0.003), packing(0.81, 0.004), packing(0.82, 0.003)};
-    auto const combined = combine(three, 0.95);
-    EXPECT_NEAR(combined.mean.value(), 0.81, 1e-12);
-    EXPECT_NEAR(combined.half_width.value(), 4.302653 * 0.01 / std::sqrt(3.0),
-                1e-8);  // the table has 7 digits
-    EXPECT_EQ(combined.packings, 3);
-}
-
-TEST(Estimate, AgreementByLuckDoesNotNarrowTheInterval) {
-    std::vector const lucky{packing(0.8, 0.02), packing(0.8, 0.03), packing(0.8, 0.01)};
-    EXPECT_EQ(combine(lucky, 0.95).half_width, 0.03);
-    std::vector const one{packing(0.8, 0.02)};
-    EXPECT_EQ(combine(one, 0.95).half_width, 0.02);
-    EXPECT_THROW(combine({}, 0.95), std::invalid_argument);
-}
-
-TEST(Estimate, AnUnboundedIntervalHasNoHalfWidth) {
-    double const unbounded = std::numeric_limits<double>::infinity();
-    std::vector const some{packing(0.8, 0.02), packing(0.7, unbounded)};
-    EXPECT_NEAR(combine(some, 0.95).mean.value(), 0.75, 1e-12);
-    EXPECT_FALSE(combine(some, 0.95).half_width);
-    std::vector const empty{packing(std::numeric_limits<double>::quiet_NaN(), unbounded)};
-    EXPECT_FALSE(combine(empty, 0.95).mean);
+TEST(Estimate, AKnownStartupIsLeftOut) {
+    std::vector<double> const values{9, 9, 0.5, 0.7, 0.5, 0.7};
+    auto const estimate = estimate_packing_after(2, values, wanted);
+    EXPECT_EQ(estimate.discarded, 2);
+    EXPECT_EQ(estimate.measured, 4);
+    EXPECT_NEAR(estimate.mean, 0.6, 1e-15);
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ void expect_equal(PackingRecord const& read, PackingRecord const& written) {
     EXPECT_EQ(read.time_step, written.time_step);
     EXPECT_EQ(read.mass, written.mass);
     EXPECT_EQ(read.wall_time, written.wall_time);
+    EXPECT_EQ(read.core_time, written.core_time);
+    EXPECT_EQ(read.start_efficiency, written.start_efficiency);
     EXPECT_EQ(read.series.x, written.series.x);
     EXPECT_EQ(read.series.z, written.series.z);
     EXPECT_EQ(read.series.vz, written.series.vz);
@@ -91,6 +93,13 @@ void expect_equal(CaseRecord const& read, CaseRecord const& written) {
     EXPECT_EQ(read.estimate.mean, written.estimate.mean);
     EXPECT_EQ(read.estimate.half_width, written.estimate.half_width);
     EXPECT_EQ(read.estimate.packings, written.estimate.packings);
+    EXPECT_EQ(read.estimate.deviation, written.estimate.deviation);
+    EXPECT_EQ(read.estimate.deviation_within, written.estimate.deviation_within);
+    ASSERT_EQ(read.estimate.below.has_value(), written.estimate.below.has_value());
+    if (read.estimate.below) {
+        EXPECT_EQ(read.estimate.below->mean, written.estimate.below->mean);
+        EXPECT_EQ(read.estimate.below->packings, written.estimate.below->packings);
+    }
     EXPECT_EQ(read.provenance.program_version, written.provenance.program_version);
     EXPECT_EQ(read.provenance.git_commit, written.provenance.git_commit);
     EXPECT_EQ(read.provenance.engine_version, written.provenance.engine_version);

@@ -55,6 +55,8 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     first.time_step = 2.4493014e-5;
     first.mass = 0.0099;
     first.wall_time = 12.5;
+    first.core_time = 11.5;
+    first.start_efficiency = 0.25;
     first.series = {.x = {0.018, 0.0241, 0.0337, 0.0431},
                     .z = {0.0096, 0.0130, 0.0095, 0.0096},
                     .vz = {0.0, 0.21, -0.04, 0.02},
@@ -77,6 +79,7 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
     second.motion.period_cycles = 2;
     second.seed = 86028121;
     second.wall_time = 11.25;
+    second.start_efficiency.reset();
     second.series = {.x = {0.018, 0.025},
                      .z = {0.0097, 0.0098},
                      .vz = {0.0, -0.03},
@@ -97,7 +100,14 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
             .scenario = scenario,
             .scenario_toml = to_toml(scenario),
             .outcome = core::Outcome::not_precise,
-            .estimate = {.mean = 0.82, .half_width = 0.127, .packings = 2},
+            .estimate = {.mean = 0.82,
+                         .half_width = 0.127,
+                         .packings = 2,
+                         .correlation_time = 1.75,
+                         .deviation = 0.0141,
+                         .deviation_within = 0.01,
+                         .below = measure::Branch{0.83, {}, 1},
+                         .above = measure::Branch{0.81, {}, 1}},
             .packings = {first, second},
             .provenance = {.program_version = "0.1.0",
                            .git_commit = "abcdef",

@@ -65,11 +65,13 @@ Json describe(deck::Finding const& finding) {
 Json describe(prepare::PreparedCase const& prepared, int number, Speed const& speed) {
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
-    double const work = deck::expected_work(prepared);
+    scenario::MeasurementPlan const& plan = prepared.scenario.measure;
+    double const work = deck::expected_packings(plan) * deck::expected_work(prepared);
     return {{"case", number},
             {"throw_number", prepared.throw_number},
             {"findings", findings},
-            {"expected_cycles_per_packing", deck::expected_cycles(prepared)},
+            {"expected_packings", deck::expected_packings(plan)},
+            {"expected_cycles_per_packing", deck::expected_cycles(plan)},
             {"expected_grain_steps", work},
             {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
 }
@@ -103,9 +105,8 @@ void print_text(deck::CampaignCheck const& found, Speed const& speed) {
         if (item.worst.severity != deck::Severity::fine)
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
-    fmt::print(
-        "{} cases, {} packings of about {:.0f} cycles (start-up and what half_width needs), {:.2g} MB\n",
-        found.cases, found.packings, found.cycles / found.packings, found.bytes / 1e6);
+    fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles, {:.2g} MB\n",
+               found.cases, found.packings, found.cycles / found.packings, found.bytes / 1e6);
     fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})\n",
                found.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
                speed.source);

@@ -47,6 +47,18 @@ std::string engine_version(Options const& options, fs::path const& folder) {
     }
 }
 
+std::string_view source_of(campaign::Forecast const& cost) {
+    switch (cost.source) {
+        case campaign::Forecast::SpeedSource::results:
+            return "measured in finished cases";
+        case campaign::Forecast::SpeedSource::certificate:
+            return "from the engine's certificate";
+        case campaign::Forecast::SpeedSource::assumed:
+            break;
+    }
+    return "assumed until the first result";
+}
+
 /// Everything that is printed.
 struct PlanView {
     scenario::Campaign const& campaign;
@@ -68,7 +80,7 @@ void print_json(PlanView const& view) {
                         {"inclination_deg", scenario::in_degrees(trough.inclination)},
                         {"friction", trough.friction},
                         {"grains", one.planned->scenario().layer.grains},
-                        {"packings", one.planned->scenario().measure.packings},
+                        {"packings", view.cost.packings[i]},
                         {"packings_done", one.packings_done},
                         {"outcome", one.label()},
                         {"core_time_s", view.cost.cases[i]}});
@@ -79,7 +91,8 @@ void print_json(PlanView const& view) {
                     {"known", view.known},
                     {"core_time_s", view.cost.core_time},
                     {"speed_grain_steps_per_s", view.cost.speed},
-                    {"speed_is_measured", view.cost.measured},
+                    {"speed_source", source_of(view.cost)},
+                    {"core_time_uncertainty_factor", view.cost.uncertainty},
                     {"left_aside", campaign::count_left_aside(view.plan)},
                     {"cases", list}};
     fmt::print("{}\n", json.dump(2));
@@ -96,7 +109,7 @@ void print_text(PlanView const& view) {
                    one.planned->prepared->machine_number,
                    scenario::in_degrees(scenario.trough.vibration_angle),
                    scenario::in_degrees(scenario.trough.inclination), scenario.trough.friction,
-                   scenario.layer.grains, one.packings_done, scenario.measure.packings, one.label(),
+                   scenario.layer.grains, one.packings_done, view.cost.packings[i], one.label(),
                    clock_time(view.cost.cases[i]));
     }
     fmt::print("campaign {}: {} cases, {} with a result", view.plan.name, view.cases.size(), view.known);
@@ -105,10 +118,12 @@ void print_text(PlanView const& view) {
         fmt::print(", {} cases of an earlier version not used", unused);
     unsigned const cores = std::max(1u, std::thread::hardware_concurrency());
     fmt::print(
-        "\nestimated cost: {:.3g} core-hours, {} on {} cores (at {:.2g} grain-steps per second and core, "
-        "{})\n",
-        view.cost.core_time / 3600, clock_time(view.cost.core_time / cores), cores, view.cost.speed,
-        view.cost.measured ? "measured in finished cases" : "assumed until the first result");
+        "\nestimated cost: {:.3g} core-hours (probably {:.2g} to {:.2g}), {} on {} cores, at {:.2g} "
+        "grain-steps per "
+        "second and core ({})\n",
+        view.cost.core_time / 3600, view.cost.core_time / view.cost.uncertainty / 3600,
+        view.cost.core_time * view.cost.uncertainty / 3600, clock_time(view.cost.core_time / cores), cores,
+        view.cost.speed, source_of(view.cost));
 }
 
 int run(Options const& options) {
@@ -117,7 +132,7 @@ int run(Options const& options) {
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
-    campaign::Forecast const cost = campaign::forecast(cases);
+    campaign::Forecast const cost = campaign::forecast(plan, cases);
     PlanView view{campaign, plan, cases, cost};
     for (campaign::CaseOverview const& one : cases) view.known += one.record ? 1 : 0;
     options.json ? print_json(view) : print_text(view);
@@ -136,8 +151,10 @@ void add_plan(CLI::App& program, int& exit_code) {
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
         R"(Prints one line per case: its id, throw number Gamma, machine number K, vibration angle beta and
-inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended, outcome, and the core
-time that it still needs. Below, the cost of the whole campaign is estimated.
+inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended and will probably be
+needed for the interval that measure.half_width asks for, outcome, and the core time that it still needs. Below, the
+cost of the whole campaign is estimated, with the range in which it probably lies. The estimate learns from the cases
+that have a result.
 
 Nothing is simulated, and no file is written. Only the version of the engine is read, because the ids of the cases
 depend on it.

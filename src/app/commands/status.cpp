@@ -69,8 +69,11 @@ void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
     Counts const counts = count(cases);
     for (campaign::CaseOverview const& one : cases) {
         if (one.status == campaign::CaseStatus::open) continue;
-        fmt::print("{}  {:<14} packings {}/{}{}{}\n", one.planned->id, one.label(), one.packings_done,
-                   one.planned->scenario().measure.packings, one.message.empty() ? "" : "  ", one.message);
+        bool const has_ended = one.status == campaign::CaseStatus::ended;
+        std::string const least =
+            has_ended ? "" : fmt::format(" of at least {}", one.planned->scenario().measure.packings);
+        fmt::print("{}  {:<16} packings {}{}{}{}\n", one.planned->id, one.label(), one.packings_done, least,
+                   one.message.empty() ? "" : "  ", one.message);
     }
     fmt::print(
         "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",

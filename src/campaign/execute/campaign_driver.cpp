@@ -9,6 +9,7 @@
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "evaluate/case.hpp"
 #include "store/summary.hpp"
 
 #include <algorithm>
@@ -254,7 +255,7 @@ class Driver {
             one.known.result = store::summary_of(result);
             end_case(one);
             count_result(result.outcome);
-            observer_.case_ended(planned, result.outcome, {});
+            observer_.case_ended(planned, result.outcome, evaluate::remark_on(result));
         } catch (core::InputError const&) {
             if (std::exchange(one.was_repaired, true)) throw;
             for (int const packing : decision.result)

@@ -1,39 +1,124 @@
 #include "campaign/schedule/forecast.hpp"
 
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "deck/estimates.hpp"
+#include "engine/certificate.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace vibrotrough::campaign {
 namespace {
 
-/// Speed and cycles from the results that are there.
-void measure_speed(std::vector<CaseOverview> const& cases, Forecast& forecast) {
+constexpr double assumed_speed = 5e6;
+/// Scatter, as a natural logarithm, of a case's cost about the forecast, before there are results.
+constexpr double unknown_scatter = 0.55;
+/// The machine is never known better than this.
+constexpr double least_scatter = 0.1;
+
+/// What the results say.
+struct Learned {
+    double speed = 0;             ///< grain-steps per second and core; 0 without results
+    deck::Experience experience;  ///< what the cost of further cases is expected from
+    std::vector<double> ratios;   ///< logarithms of true over expected cost
+};
+
+double cycles_of(store::CaseRecord const& record) {
+    double cycles = 0;
+    for (store::PackingRecord const& packing : record.packings)
+        cycles += packing.estimate.discarded + packing.estimate.measured;
+    return cycles;
+}
+
+Learned learn(std::vector<CaseOverview> const& cases) {
+    Learned learned;
     double work = 0, time = 0, cycles = 0, packings = 0;
+    std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
-        if (!one.record) continue;
-        for (store::PackingRecord const& packing : one.record->packings) {
-            double const done = packing.estimate.discarded + packing.estimate.measured;
-            work += one.planned->prepared->grain_steps(done);
-            time += packing.wall_time;
-            cycles += done;
-            ++packings;
-        }
+        if (!one.record || one.record->packings.empty()) continue;
+        double const done = cycles_of(*one.record);
+        work += one.planned->prepared->grain_steps(done);
+        for (store::PackingRecord const& packing : one.record->packings) time += packing.core_time;
+        cycles += done;
+        packings += static_cast<double>(one.record->packings.size());
+        if (one.record->estimate.deviation) deviations.push_back(*one.record->estimate.deviation);
     }
-    if (packings == 0 || time <= 0 || work <= 0) return;
-    forecast = {work / time, true, cycles / packings, 0, {}};
+    if (packings == 0 || time <= 0 || work <= 0) return learned;
+    learned.speed = work / time;
+    learned.experience.cycles = cycles / packings;
+    if (!deviations.empty()) {
+        auto const middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+        std::ranges::nth_element(deviations, middle);
+        learned.experience.deviation = *middle;
+    }
+    for (CaseOverview const& one : cases) {
+        if (!one.record || one.record->packings.empty()) continue;
+        scenario::MeasurementPlan const& wanted = one.planned->scenario().measure;
+        double const expected = deck::expected_packings(wanted, learned.experience) *
+                                deck::expected_cycles(wanted, learned.experience);
+        learned.ratios.push_back(std::log(cycles_of(*one.record) / expected));
+    }
+    return learned;
+}
+
+std::optional<double> certified_speed(Plan const& plan) {
+    try {
+        auto const certificate = engine::parse_certificate(core::read_file(plan.folder / "certificate.json"));
+        if (certificate && certificate->grain_steps_per_cpu_second > 0)
+            return certificate->grain_steps_per_cpu_second;
+    } catch (core::Error const&) {
+        // None yet.
+    }
+    return {};
+}
+
+double scatter_of(std::vector<double> const& ratios) {
+    if (ratios.size() < 2) return unknown_scatter;
+    double sum = 0, squares = 0;
+    for (double const ratio : ratios) {
+        sum += ratio;
+        squares += ratio * ratio;
+    }
+    auto const n = static_cast<double>(ratios.size());
+    return std::max(least_scatter, std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1)));
+}
+
+/// Packings that a case has or will probably have.
+int packings_of(CaseOverview const& one, Learned const& learned) {
+    if (one.record) return static_cast<int>(one.record->packings.size());
+    return std::max(one.packings_done,
+                    deck::expected_packings(one.planned->scenario().measure, learned.experience));
 }
 
 }  // namespace
 
-Forecast forecast(std::vector<CaseOverview> const& cases) {
-    Forecast result{5e6, false, 40, 0, {}};
-    measure_speed(cases, result);
-    for (CaseOverview const& one : cases) {
-        scenario::Scenario const& scenario = one.planned->scenario();
-        int const missing = one.record ? 0 : scenario.measure.packings - one.packings_done;
-        double const cycles = std::min<double>(result.cycles, scenario.measure.max_cycles + 10);
-        result.cases.push_back(missing * one.planned->prepared->grain_steps(cycles) / result.speed);
-        result.core_time += result.cases.back();
+Forecast forecast(Plan const& plan, std::vector<CaseOverview> const& cases) {
+    Learned const learned = learn(cases);
+    Forecast result;
+    result.results = static_cast<int>(learned.ratios.size());
+    auto const certified = certified_speed(plan);
+    result.speed = learned.speed > 0 ? learned.speed : certified.value_or(assumed_speed);
+    if (learned.speed > 0) {
+        result.source = Forecast::SpeedSource::results;
+    } else if (certified) {
+        result.source = Forecast::SpeedSource::certificate;
     }
+    int missing_cases = 0;
+    for (CaseOverview const& one : cases) {
+        result.packings.push_back(packings_of(one, learned));
+        int const missing = one.record ? 0 : result.packings.back() - one.packings_done;
+        result.cases.push_back(missing * deck::expected_work(*one.planned->prepared, learned.experience) /
+                               result.speed);
+        result.core_time += result.cases.back();
+        missing_cases += missing > 0 ? 1 : 0;
+    }
+    if (missing_cases == 0) return result;
+    double const scatter = scatter_of(learned.ratios);
+    double const of_what_is_learned = scatter / std::sqrt(std::max(1, result.results));
+    double const of_missing = scatter / std::sqrt(missing_cases);
+    result.uncertainty = std::exp(2 * std::hypot(least_scatter, of_what_is_learned, of_missing));
     return result;
 }
 

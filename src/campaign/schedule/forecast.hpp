@@ -2,24 +2,38 @@
 
 #include "campaign/state/overview.hpp"
 
-#include <string>
 #include <vector>
 
 namespace vibrotrough::campaign {
 
 /// What a campaign would still cost.
 struct Forecast {
-    double speed = 0;       ///< grain-steps per second and core that the estimate rests on
-    bool measured = false;  ///< `speed` and `cycles` come from the campaign's own results
-    double cycles = 0;      ///< expected per packing
-    double core_time = 0;   ///< s, of all packings that are missing
+    /// Where the speed of the engine was taken from.
+    enum class SpeedSource {
+        assumed,      ///< 5e6 grain-steps per second and core (LIGGGHTS 3.8.0, 600 to 5000 grains)
+        certificate,  ///< measured when the engine was probed
+        results,      ///< of the campaign's own cases
+    };
+    double speed = 0;                           ///< grain-steps per second and core
+    SpeedSource source = SpeedSource::assumed;  ///< where it was taken from
+    int results = 0;                            ///< cases that the forecast rests on
+    double core_time = 0;                       ///< s, of all packings that are missing
+    double uncertainty = 1;  ///< the true core time is probably within core_time / u and core_time * u
     std::vector<double>
         cases;  ///< s of a core per case, in the order of the plan; 0 where nothing is missing
+    std::vector<int> packings;  ///< per case, that it has or will probably have in the end
 };
 
-/// Estimates the cost of what is missing: grain-steps of settling and of the expected cycles over the speed.
-/// Speed and number of cycles are those of the results that are there, else 5e6 grain-steps per second and
-/// core (LIGGGHTS 3.8.0, 600 to 5000 grains) and 40 cycles, of which 10 stand for the settling.
-Forecast forecast(std::vector<CaseOverview> const& cases);
+/// Estimates the cost of what is missing.
+///
+/// A case needs so many packings that its interval becomes as narrow as measure.half_width asks
+/// (deck::expected_packings, the same as in `check`). The deviation of one packing is the median of the
+/// results that are there, and each packing takes the cycles that those of the results took; without results
+/// it is what deck::Experience says. The core time follows from the speed of the results, else of the
+/// engine's certificate.
+///
+/// The uncertainty is twice the scatter of what the results took about what the same rule would have said of
+/// them, in logarithms: for the mean of the missing cases, and for what is learned from the results.
+Forecast forecast(Plan const& plan, std::vector<CaseOverview> const& cases);
 
 }  // namespace vibrotrough::campaign

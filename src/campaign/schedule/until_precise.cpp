@@ -1,5 +1,6 @@
 #include "campaign/schedule/until_precise.hpp"
 
+#include "deck/estimates.hpp"
 #include "evaluate/case.hpp"
 #include "measure/case_estimate.hpp"
 
@@ -46,7 +47,7 @@ class Replay {
           wanted_{plan_.confidence, plan_.half_width} {}
 
     CaseDecision decide() {
-        Round round{{}, std::min(cycles_of_first_round, plan_.max_cycles)};
+        Round round{{}, static_cast<int>(deck::expected_cycles(plan_))};
         bool const is_single = plan_.packings == 1;
         extend(round, is_single ? 1 : plan_.packings + plan_.packings % 2, predicted());
         while (true) {
@@ -183,8 +184,14 @@ class Replay {
     /// Cycles in the end: of this round, whose packings are not all there, and of those that will probably
     /// follow.
     double expected(Round const& round) const {
-        int const packings = expected_packings(plan_, estimate_.deviation);
+        int const packings = deck::expected_packings(plan_, experience());
         return std::max(round.count(), packings) * static_cast<double>(round.cycles);
+    }
+
+    deck::Experience experience() const {
+        deck::Experience experience;
+        experience.deviation = estimate_.deviation.value_or(experience.deviation);
+        return experience;
     }
 
     KnownCase const& known_;
@@ -195,15 +202,6 @@ class Replay {
 };
 
 }  // namespace
-
-int expected_packings(scenario::MeasurementPlan const& plan, std::optional<double> deviation) {
-    if (plan.packings == 1) return 1;
-    measure::CaseEstimate estimate;
-    estimate.deviation = deviation.value_or(typical_deviation);
-    int const needed =
-        measure::packings_needed(estimate, {plan.confidence, plan.half_width}).value_or(plan.packings);
-    return std::clamp(needed + needed % 2, std::min(plan.packings, plan.max_packings), plan.max_packings);
-}
 
 CaseDecision UntilPrecise::decide(KnownCase const& known) const {
     return Replay(known).decide();

@@ -26,15 +26,4 @@ class UntilPrecise : public Policy {
     CaseDecision decide(KnownCase const& known) const override;
 };
 
-/// Cycles of a packing in the first round: about three start-ups. Longer runs bring less than more packings.
-constexpr int cycles_of_first_round = 24;
-
-/// Standard deviation of the mean of one packing of 24 cycles, where nothing better is known: that of the
-/// layers in validation/demo and tests/measure/reference at throw numbers from 1.2 to 3.
-constexpr double typical_deviation = 0.03;
-
-/// The number of packings that a case will probably have in the end.
-/// @param deviation  of the mean of one packing; none when it is not known yet
-int expected_packings(scenario::MeasurementPlan const& plan, std::optional<double> deviation);
-
 }  // namespace vibrotrough::campaign

@@ -2,6 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/result_summary.hpp"
+#include "evaluate/case.hpp"
 #include "store/result_file.hpp"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ CaseOverview survey_case(PlannedCase const& planned, bool has_driver) {
         overview.record = std::move(found->record);
         overview.status = CaseStatus::ended;
         overview.outcome = overview.record->outcome;
+        overview.message = evaluate::remark_on(*overview.record);
         overview.packings_done = static_cast<int>(overview.record->packings.size());
         return overview;
     }
