@@ -26,14 +26,20 @@ namespace {
 class GrowingPolicy : public campaign::Policy {
   public:
     campaign::CaseDecision decide(campaign::KnownCase const& known) const override {
+        constexpr int cycles = 20;
         int const asked = known.planned->scenario().measure.packings;
-        std::vector<int> wanted;
-        for (int packing = 1; packing <= asked; ++packing) wanted.push_back(packing);
-        auto const all_finished = [&] {
-            return std::ranges::all_of(wanted, [&](int packing) { return known.finished.contains(packing); });
+        campaign::CaseDecision decision;
+        for (int packing = 1; packing <= asked; ++packing) decision.wanted.push_back({packing, cycles, {}});
+        auto const all_done = [&] {
+            return std::ranges::all_of(decision.wanted, [&](deck::PackingPlan const& packing) {
+                return campaign::is_done(known, packing);
+            });
         };
-        if (all_finished()) wanted.push_back(asked + 1);
-        return {wanted, all_finished() ? wanted : std::vector<int>{}};
+        if (all_done()) decision.wanted.push_back({asked + 1, cycles, {}});
+        if (!all_done()) return decision;
+        for (deck::PackingPlan const& packing : decision.wanted) decision.result.push_back(packing.number);
+        decision.cycles = cycles;
+        return decision;
     }
 
     std::vector<scenario::Scenario> further_cases(

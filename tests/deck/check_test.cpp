@@ -157,7 +157,7 @@ TEST(Check, FindsWhatIsWrong) {
     auto const high = scenario(with("height = \"12 mm\"", "height = \"50 mm\""));
     EXPECT_EQ(finding(high, "periodic length / layer height").severity, Severity::warning);
     auto const many = scenario(with("frames_per_cycle = 0", "frames_per_cycle = 1000"));
-    EXPECT_NEAR(finding(many, "disk").measured / (120.0 * 1000 * 32 * many.layer.grains), 1, 1e-3);
+    EXPECT_NEAR(finding(many, "disk").measured / (120.0 * 1000 * 24 * many.layer.grains), 1, 1e-3);
 }
 
 TEST(Check, AContactMustBeShortAgainstTheFlight) {

@@ -41,17 +41,20 @@ SMALL = {
         "restitution": 0.5,
     },
     "layer": {"length": "15 mm", "width": "15 mm", "grains": 60},
-    "measure": {"packings": 2, "half_width": 0.2, "max_cycles": 300},
+    # Wide enough for two packings, whose Student factor is 18.
+    "measure": {"packings": 2, "half_width": 1.0, "max_cycles": 300},
     "output": {"frames_per_cycle": 0},
 }
 
 
 def campaign_text(changes=None, sweep=None):
-    """SMALL as TOML. `changes`: {"section.key": value}, None removes the key; `sweep`: {"section.key": values}."""
+    """SMALL as TOML, with as many packings as measure.packings says unless measure.max_packings is given. `changes`: {"section.key": value}, None removes the key; `sweep`: {"section.key": values}."""
     sections = {name: dict(keys) for name, keys in SMALL.items()}
     for path, value in (changes or {}).items():
         section, key = path.split(".")
         sections[section][key] = value
+    # Most tests count packings: only those that say so have more than the least number.
+    sections["measure"].setdefault("max_packings", sections["measure"].get("packings"))
     lines = []
     for name, keys in sections.items():
         # JSON's texts and numbers are TOML's as well.
@@ -179,7 +182,8 @@ class EndToEndTest(unittest.TestCase):
 
     def run_campaign(self, campaign, output=None, jobs=2, wanted=0):
         done = self.call(*self.run_arguments(campaign, output, jobs))
-        self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
+        if wanted is not None:
+            self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
         return done
 
     def start_campaign(self, campaign):

@@ -92,7 +92,7 @@ TEST(CaseEstimate, ACommonDriftIsNotSteady) {
 // Independent wanderers drift up and down; together they do not.
 TEST(CaseEstimate, WanderingIsNoCommonDrift) {
     Case wandering;
-    for (double const slope : {0.005, -0.004, 0.003, -0.005, 0.004, -0.003}) {
+    for (double const slope : {0.005, 0.004, -0.004, -0.005, 0.003, -0.003}) {
         wandering.runs.emplace_back();
         for (int i = 0; i < 40; ++i) wandering.runs.back().push_back(0.5 + slope * (i - 20));
     }

@@ -1,0 +1,119 @@
+"""The interval that was asked for: packings are added until the case is as precise as the campaign file says, on this machine
+and through a real Slurm, and whatever is killed on the way, the table is the same digit for digit.
+"""
+
+import os
+import random
+import signal
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
+from private_slurm import PrivateSlurm  # noqa: E402
+from trough_program import EndToEndTest, campaign_text, engines_in, wait_until, without_wall_time  # noqa: E402
+
+SLURM = """
+[run]
+executor = "slurm"
+[run.slurm]
+partition = "main"
+time = "10 minutes"
+memory = "200 MB"
+"""
+HALF_WIDTH = 0.05
+# Few grains fluctuate much, so that four packings are not enough.
+CHANGES = {"layer.grains": 30, "measure.packings": 4, "measure.max_packings": 24, "measure.half_width": HALF_WIDTH}
+SWEEP = {"trough.throw_number": [1.6, 2.4]}
+
+
+class Precision(EndToEndTest):
+    def write(self, changes=None, text=""):
+        path = self.folder / "campaign.toml"
+        path.write_text(campaign_text(CHANGES | (changes or {}), SWEEP) + text)
+        return path
+
+    def check_table(self, output=None):
+        table = self.table(output)
+        for row in table:
+            self.assertEqual(row["outcome"], "finished", row)
+            self.assertLessEqual(row["efficiency_dem_half_width"], HALF_WIDTH)
+        self.assertGreater(max(row["packings"] for row in table), 4, "packings were added")
+        return without_wall_time(table)
+
+    def kill_at_random(self, start, output, times):
+        """Kills the driver and engines at random moments; the campaign may have ended before."""
+        moments = random.Random(2)
+        for _ in range(times):
+            process = start()
+            wait_until(lambda: engines_in(output) or process.poll() is not None, "an engine ran")
+            try:
+                process.wait(moments.expovariate(1 / 3))
+            except Exception:  # noqa: BLE001, S110 - not ended: that is the case that is wanted
+                pass
+            for number in engines_in(output):
+                if moments.random() < 0.5:
+                    try:
+                        os.kill(number, signal.SIGKILL)
+                    except ProcessLookupError:
+                        pass
+            if process.poll() is None:
+                process.send_signal(signal.SIGKILL)
+            process.communicate()
+
+    def test_the_same_table_after_kills_and_on_a_cluster(self):
+        campaign = self.write()
+        undisturbed = self.folder / "undisturbed"
+        self.run_campaign(campaign, undisturbed)
+        expected = self.check_table(undisturbed)
+
+        self.kill_at_random(lambda: self.start_campaign(campaign), self.output, 4)
+        self.run_campaign(campaign)
+        self.assertEqual(self.check_table(), expected)
+
+        slurm = PrivateSlurm(cpus=2)
+        slurm.__enter__()
+        self.addCleanup(slurm.__exit__)
+        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
+        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
+        campaign = self.write(text=SLURM)
+        on_cluster = self.folder / "cluster"
+        command = [*self.run_arguments(campaign, on_cluster), "--wait"]
+        self.assertEqual(self.call(*command).returncode, 0)
+        self.assertEqual(self.check_table(on_cluster), expected)
+
+    def test_more_packings_continue_a_case_that_was_not_precise(self):
+        self.run_campaign(self.write({"measure.max_packings": 4}), wanted=1)
+        status = self.ask_json("status")
+        self.assertEqual(status["finished"], 0)
+        for case in status["cases"]:
+            self.assertEqual(case["outcome"], "not-precise")
+            self.assertRegex(case["message"], r"needs about \d+ packings, \d+ more than it has, which take [0-9.e-]+ core-hours")
+        first = self.take_starts()
+        self.assertTrue(all(int(name.rpartition("-")[2]) <= 4 for name in first))
+
+        self.run_campaign(self.write())
+        self.check_table()
+        again = [name for name in self.take_starts() if int(name.rpartition("-")[2]) <= 4]
+        # The first packings may be continued to more cycles, but the others are new.
+        self.assertLessEqual(len(again), len(first))
+        # What is precise is not run again.
+        self.run_campaign(self.write())
+        self.assertEqual(self.take_starts(), [])
+
+    def test_longer_runs_continue_from_their_checkpoint(self):
+        """Two packings that are asked for more precision than they can have are continued to max_cycles, not begun again."""
+        changes = {"measure.packings": 2, "measure.max_packings": 2, "measure.half_width": 0.2, "measure.max_cycles": 48}
+        self.run_campaign(self.write(changes), wanted=None)
+        for cycles in self.output.glob("cases/*/packing-*/cycles.csv"):
+            steps = [line.partition(",")[0] for line in cycles.read_text().splitlines() if line[:1].isdigit()]
+            self.assertEqual(len(steps), len(set(steps)), "no cycle twice")
+            self.assertIn(len(steps) - 1, (24, 48))
+            log = (cycles.parent / "log.liggghts").read_text()
+            if len(steps) == 49:
+                self.assertIn("checkpoint.24.restart", log, "the second half continued the first")
+        self.assertEqual(list(self.output.glob("cases/*/packing-*/checkpoint*")), [], "a case that has ended needs none")
+
+
+if __name__ == "__main__":
+    unittest.main()
