@@ -3,6 +3,7 @@
 #include "evaluate/layer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,8 +57,17 @@ void add_estimate(store::CaseRecord& record) {
 }  // namespace
 
 void correct_outcome(store::CaseRecord& record) {
-    if (record.outcome == core::Outcome::finished)
-        record.outcome = outcome_of(record.estimate, record.scenario.measure.half_width);
+    if (record.outcome != core::Outcome::finished) return;
+    record.outcome = outcome_of(record.estimate, record.scenario.measure.half_width);
+    if (record.outcome == core::Outcome::finished || record.estimate.deviation) return;
+    // Version 0.1 did not store the deviation of a packing, from which the packings needed follow.
+    double sum = 0, squares = 0;
+    for (store::PackingRecord const& packing : record.packings) {
+        sum += packing.estimate.mean;
+        squares += packing.estimate.mean * packing.estimate.mean;
+    }
+    auto const n = static_cast<double>(record.packings.size());
+    if (n > 1) record.estimate.deviation = std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1));
 }
 
 namespace {

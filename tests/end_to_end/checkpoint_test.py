@@ -9,7 +9,7 @@ import unittest
 from trough_program import EndToEndTest, engines_in, processes_in, wait_until, without_wall_time
 
 # One packing that runs to its last cycle, with a checkpoint every five.
-LONG = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 60, "output.checkpoint_cycles": 5}
+LONG = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 24, "output.checkpoint_cycles": 5}
 
 
 class Checkpoint(EndToEndTest):
@@ -87,9 +87,9 @@ class Checkpoint(EndToEndTest):
         # The engine says that it caught a signal. What it writes after going on is shorter: nothing may be left of that.
         campaign = self.write_campaign(LONG)
         table, _ = self.undisturbed(campaign)
-        self.kill_in_the_middle(campaign, signal.SIGINT, 45)
+        self.kill_in_the_middle(campaign, signal.SIGINT, 20)
         self.run_campaign(campaign, wanted=1)
-        self.assertGreaterEqual(self.begun(), 45)
+        self.assertGreaterEqual(self.begun(), 20)
         self.assertEqual(without_wall_time(self.table()), table)
 
     def test_a_checkpoint_is_verified_before_it_is_trusted(self):

@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "campaign/schedule/policy.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/shell.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -27,17 +28,21 @@ int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     int number = 0;
     prepare::CasePreparer preparer;
+    auto const policy = campaign::make_policy();
     for (scenario::Scenario const& scenario : campaign.cases) {
-        prepare::PreparedCase const prepared = preparer.prepare(scenario);
+        campaign::PlannedCase planned;
+        planned.prepared = std::make_shared<prepare::PreparedCase const>(preparer.prepare(scenario));
+        prepare::PreparedCase const& prepared = *planned.prepared;
         fs::path const folder = fs::path(options.output) / fmt::format("case-{:03}", ++number);
-        for (int packing = 1; packing <= scenario.measure.packings; ++packing) {
-            deck::write_deck(deck::make_deck(prepared, {packing}),
-                             folder / fmt::format("packing-{}", packing));
+        auto const first_round = policy->decide({&planned, {}, {}, {}}).wanted;
+        for (deck::PackingPlan const& packing : first_round) {
+            deck::write_deck(deck::make_deck(prepared, packing),
+                             folder / fmt::format("packing-{}", packing.number));
         }
         campaign::write_scenario(scenario, folder);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
                    folder.string(), prepared.throw_number, prepared.machine_number, scenario.layer.grains,
-                   scenario.measure.packings);
+                   first_round.size());
     }
     fmt::print(
         "{} cases written; run one by hand with: cd {} && liggghts -in settle.liggghts && liggghts -in "
@@ -59,7 +64,9 @@ void add_deck(CLI::App& program, int& exit_code) {
         ->required();
     command->footer(
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
-run one by hand. The command does not need LIGGGHTS.
+run one by hand. The packings are those with which 'vibrotrough run' begins, with the same starts and numbers of cycles;
+by hand they give the same numbers. The file control.in says after which cycle a run ends. The command does not need
+LIGGGHTS.
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");

@@ -1,0 +1,119 @@
+"""What the interval that was asked for costs, against a careful user.
+
+The careful user writes plain decks by hand: five packings, each settled for itself and started at rest, 60 cycles, the first ten
+dropped, Student's t over the five means. The program is then asked for the half-width that the user reached in each case, with
+one campaign for all cases. Both run one engine at a time on the same machine in the same minutes, case by case in turn where that
+is possible; the processor time of the engines is compared, settling included.
+
+    ctest --preset release -R bench.Precision -V
+
+VIBROTROUGH_BENCH_CASES=24 runs all cases (throw numbers 1 to 3, three vibration angles) instead of six, and
+VIBROTROUGH_BENCH_TWICE=1 repeats the comparison at half of the half-width, for which the user needs four times the packings.
+"""
+
+import json
+import math
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
+HERE = Path(__file__).resolve().parent
+STUDENT = {5: 2.776, 20: 2.093}  # t(0.975; P - 1)
+CASES = int(os.environ.get("VIBROTROUGH_BENCH_CASES", "6"))
+TWICE = os.environ.get("VIBROTROUGH_BENCH_TWICE", "") == "1"
+
+THROW_NUMBERS = [1.1, 1.3, 1.5, 1.7, 1.9, 2.2, 2.6, 3.0]
+TANGENTS = [0.35, 0.5, 0.7]
+
+
+def child_time():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def timed(*command, **settings):
+    before = child_time()
+    done = subprocess.run(command, capture_output=True, text=True, **settings)
+    return done, child_time() - before
+
+
+class PrecisionBench(unittest.TestCase):
+    def campaign(self, points, measure):
+        text = (HERE / "base.toml").read_text() + f"\n[measure]\n{measure}\n[zip]\n"
+        for key in points[0]:
+            text += f'"{key}" = {json.dumps([point[key] for point in points])}\n'
+        path = self.folder / "campaign.toml"
+        path.write_text(text)
+        return path
+
+    def careful_user(self, points, packings):
+        """Mean, half-width and core time of each case."""
+        decks = self.folder / "decks"
+        campaign = self.campaign(points, f"packings = {packings}\nmax_cycles = 60")
+        subprocess.run([PROGRAM, "deck", str(campaign), "--output", str(decks)], check=True, capture_output=True)
+        found = []
+        for number, point in enumerate(points, start=1):
+            means, seconds = [], 0.0
+            for packing in range(1, packings + 1):
+                folder = decks / f"case-{number:03d}" / f"packing-{packing}"
+                for deck in ("settle.liggghts", "in.liggghts"):
+                    done, took = timed("liggghts", "-in", deck, cwd=folder)
+                    self.assertEqual(done.returncode, 0)
+                    seconds += took
+                rows = [line.split(",") for line in (folder / "cycles.csv").read_text().splitlines() if line[:1].isdigit()]
+                x = [float(row[2]) for row in rows]
+                stroke = 2 * math.pi * 0.006 * math.cos(math.atan(point["trough.tan_vibration_angle"]))
+                eta = [(b - a) / stroke for a, b in zip(x, x[1:])]
+                means.append(sum(eta[10:]) / len(eta[10:]))
+            mean = sum(means) / packings
+            deviation = math.sqrt(sum((one - mean) ** 2 for one in means) / (packings - 1))
+            found.append((mean, STUDENT[packings] * deviation / math.sqrt(packings), seconds))
+            print(f"user    {point}: {mean:.3f} +- {found[-1][1]:.3f}, {seconds:.0f} core-seconds", flush=True)
+        return found
+
+    def ours(self, points, half_widths):
+        wanted = [dict(point, **{"measure.half_width": max(width, 1e-4)}) for point, width in zip(points, half_widths)]
+        campaign = self.campaign(wanted, "packings = 4\nmax_packings = 60")
+        output = self.folder / "runs"
+        done, seconds = timed(PROGRAM, "run", str(campaign), "--output", str(output), "--jobs", "1", "--quiet")
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        table = json.loads(subprocess.run([PROGRAM, "compare", str(output), "--json"], capture_output=True, text=True).stdout)
+        for row in table:
+            print(f"program Gamma {row['throw_number']}, {row['vibration_angle_deg']:.1f} deg: {row['efficiency_dem']} +- "
+                  f"{row['efficiency_dem_half_width']} from {row['packings']} packings, {row['outcome']}", flush=True)  # fmt: skip
+        return table, seconds
+
+    def compare(self, points, packings):
+        user = self.careful_user(points, packings)
+        table, seconds = self.ours(points, [half_width for _, half_width, _ in user])
+        spent = sum(cost for _, _, cost in user)
+        apart = sum(abs(mean - row["efficiency_dem"]) > math.hypot(width, row["efficiency_dem_half_width"])
+                    for (mean, width, _), row in zip(user, table) if row["efficiency_dem"] is not None)  # fmt: skip
+        finished = sum(row["outcome"] == "finished" for row in table)
+        print(f"{len(points)} cases: careful user {spent:.0f} core-seconds, program {seconds:.0f}: {seconds / spent:.2f} of it; "
+              f"{finished} finished; {apart} means differ by more than both intervals together")  # fmt: skip
+        return seconds / spent
+
+    def test_cost_of_what_a_careful_user_reaches(self):
+        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-precision-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        every = [{"trough.throw_number": gamma, "trough.tan_vibration_angle": tangent} for gamma in THROW_NUMBERS for tangent in TANGENTS]
+        points = every[:: max(1, len(every) // CASES)][:CASES]
+        # The engine is probed beforehand: it is probed once for all campaigns.
+        subprocess.run([PROGRAM, "probe-engine"], capture_output=True)
+        self.compare(points, 5)
+        if TWICE:
+            temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-precision-")
+            self.addCleanup(temporary.cleanup)
+            self.folder = Path(temporary.name)
+            self.compare(points, 20)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
