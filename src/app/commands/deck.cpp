@@ -59,7 +59,8 @@ void add_deck(CLI::App& program, int& exit_code) {
         ->required();
     command->footer(
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
-run one by hand. The command does not need LIGGGHTS.
+run one by hand. There are measure.packings packings of each case; their grains start at rest, and they run for
+measure.max_cycles cycles. The command does not need LIGGGHTS.
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");
