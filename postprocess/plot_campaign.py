@@ -30,7 +30,8 @@ from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUM
 Columns = dict[str, NDArray[Any]]
 Lines = dict[float, list[NDArray[np.float64]]]  # by vibration angle
 
-UNCERTAIN = "not steady or not precise"
+UNCERTAIN = "not precise or not steady"
+BISTABLE = "bistable-or-slow"  # the outcome
 
 
 def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, Any]]:
@@ -108,14 +109,29 @@ def draw(axes: Axes, columns: Columns, theory: Lines, style: dict[str, Any]) -> 
             )
 
 
-def mark_uncertain(axes: Axes, columns: Columns) -> None:
+def draw_branches(axes: Axes, columns: Columns) -> list[tuple[float, float]]:
+    """Both branches of the cases that are bistable or slow; returns their points. Older campaigns have none."""
+    points = []
+    for side, marker in (("below", "v"), ("above", "^")):
+        efficiency = columns.get(f"efficiency_{side}", np.full(len(columns["case"]), np.nan))
+        rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome == BISTABLE and np.isfinite(efficiency[row])]
+        if not rows:
+            continue
+        axes.errorbar(columns["throw_number"][rows], efficiency[rows], yerr=columns[f"efficiency_{side}_half_width"][rows],
+                      color="#777777", marker=marker, markerfacecolor="white", linestyle="none", capsize=3,
+                      label=f"bistable or slow, from {side}")
+        points += [(columns["throw_number"][row], efficiency[row]) for row in rows]
+    return points
+
+
+def mark_uncertain(axes: Axes, columns: Columns, branches: list[tuple[float, float]]) -> None:
     """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
     drawn = np.isfinite(columns["efficiency"])
     rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
-    if rows:
+    points = [(columns["throw_number"][row], columns["efficiency"][row]) for row in rows] + branches
+    if points:
         axes.scatter(
-            columns["throw_number"][rows],
-            columns["efficiency"][rows],
+            *np.array(points).T,
             s=160,
             facecolors="none",
             edgecolors="#777777",
@@ -139,7 +155,7 @@ def label(axes: Axes, columns: Columns, attributes: dict[str, Any], theory: Line
                 title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3), columnspacing=1.2,
                 handletextpad=0.4)
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
-    corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady)" if without else "")
+    corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady or bistable)" if without else "")
 
 
 def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path) -> list[pathlib.Path]:
@@ -150,7 +166,7 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     theory, style = read_theory(theory_file) if theory_file else ({}, {})
     figure, axes = new_figure()
     draw(axes, columns, theory, style)
-    mark_uncertain(axes, columns)
+    mark_uncertain(axes, columns, draw_branches(axes, columns))
     label(axes, columns, attributes, theory)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
     return save(figure, output)

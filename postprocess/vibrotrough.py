@@ -108,7 +108,7 @@ class File:
 
 
 class Campaign(File):
-    """campaign.h5: one array per column, one element per finished case."""
+    """campaign.h5: one array per column, one element per case with a result."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         super().__init__(path, "vibrotrough campaign")

@@ -39,7 +39,7 @@ struct Experience {
 };
 
 /// The number of packings that a case will probably have: as many as make Student's interval as narrow as
-/// measure.half_width asks, from measure.packings to measure.max_packings; 1 when measure.packings is 1.
+/// measure.half_width asks, from measure.packings to measure.max_packings.
 int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience = {});
 
 /// Number of cycles that one packing will take, at most max_cycles.

@@ -158,7 +158,10 @@ CaseEstimate estimate_single(PackingValues const& packing, Precision const& want
     estimate.measured = one.measured;
     estimate.correlation_time = one.correlation_time;
     if (std::isfinite(one.mean)) estimate.mean = one.mean;
-    if (std::isfinite(one.half_width)) estimate.half_width = one.half_width;
+    // The correlation of a shorter series cannot be estimated well enough.
+    bool const is_enough =
+        one.measured >= fewest_cycles && one.measured >= fewest_independent * one.correlation_time;
+    if (is_enough && std::isfinite(one.half_width)) estimate.half_width = one.half_width;
     if (one.verdict == Verdict::not_steady) estimate.steadiness = Steadiness::drifting;
     return estimate;
 }

@@ -21,7 +21,7 @@ partition = "main"
 time = "10 minutes"
 memory = "200 MB"
 """
-HALF_WIDTH = 0.05
+HALF_WIDTH = 0.025
 # Few grains fluctuate much, so that four packings are not enough.
 CHANGES = {"layer.grains": 30, "measure.packings": 4, "measure.max_packings": 24, "measure.half_width": HALF_WIDTH}
 SWEEP = {"trough.throw_number": [1.6, 2.4]}
@@ -112,7 +112,6 @@ class Precision(EndToEndTest):
             log = (cycles.parent / "log.liggghts").read_text()
             if len(steps) == 49:
                 self.assertIn("checkpoint.24.restart", log, "the second half continued the first")
-        self.assertEqual(list(self.output.glob("cases/*/packing-*/checkpoint*")), [], "a case that has ended needs none")
 
 
 if __name__ == "__main__":

@@ -85,16 +85,16 @@ TEST(Estimates, SkinIsTheDecks) {
               std::string::npos);
 }
 
-// Student's t(0.975; P - 1) x 0.03 / sqrt(P) is 0.0194 for P = 12 and 0.0215 for P = 10 (t = 2.201, 2.262).
+// Student's t(0.9825; P - 1) x 0.03 / sqrt(P) is 0.0208 for P = 12 and 0.0197 for P = 13 (t = 2.403, 2.376).
 TEST(Estimates, PackingsAreWhatTheHalfWidthNeeds) {
     scenario::MeasurementPlan plan = scenario().measure;
     plan.half_width = 0.02;
-    EXPECT_NEAR(expected_packings(plan), 12, 1);
+    EXPECT_EQ(expected_packings(plan), 13);
     plan.half_width = 0.1;
     EXPECT_EQ(expected_packings(plan), 4) << "the least number, in pairs";
     plan.half_width = 0.001;
     EXPECT_EQ(expected_packings(plan), 24) << "the largest";
-    plan.packings = 1;
+    plan.packings = plan.max_packings = 1;
     EXPECT_EQ(expected_packings(plan), 1);
     EXPECT_EQ(expected_cycles(plan), 24);
     plan.max_cycles = 20;

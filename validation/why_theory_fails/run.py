@@ -29,7 +29,7 @@ def measure(run: ValidationCase) -> None:
 
 
 def packing_efficiencies(folder: pathlib.Path, case: str) -> str:
-    """Means of the packings: the case's interval is never narrower than that of its widest single run."""
+    """Means of the packings, which show how much they differ."""
     path = folder / "cases" / case / "result.h5"
     return " ".join(f"{value:.4f}" for value in vibrotrough.open_result(path)["packings/efficiency"]) if path.exists() else ""
 

@@ -138,7 +138,8 @@ void add_check(CLI::App& program, int& exit_code) {
         R"(Checks the time step against Rayleigh and Hertz times, the steps per contact and per cycle, the
 overlaps at rest and at impact, the duration of contacts against that of flights, the periodic box, the neighbour lists
 and the disk space. Prints a table with the worst case of each item, what to change, and the expected cost in
-core-hours.
+core-hours: of as many packings as the interval that measure.half_width asks for will probably need. 'vibrotrough plan'
+uses the same rule, learns from the cases that have a result, and prints a range.
 
 'vibrotrough run' checks too: it shows warnings, and it refuses a campaign with errors unless --accept-findings is
 given.

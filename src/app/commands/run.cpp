@@ -176,21 +176,25 @@ void add_run(CLI::App& program, int& exit_code) {
                       "Run although the check of the campaign found errors (see 'vibrotrough check')");
     command->add_flag(
         "--wait", options->wait,
-        "On a cluster: stay until all packings have ended instead of returning after submission");
+        "On a cluster: stay and submit further packings until all cases have ended, instead of returning "
+        "after submission");
     command->footer(
         R"(The campaign is checked first (see 'vibrotrough check --help'), and each engine binary is
-tested once (see 'vibrotrough probe-engine --help'). Each case is then simulated in several packings until its
-velocity efficiency is known as precisely as the campaign file asks. A summary and the next command are printed
-at the end.
+tested once (see 'vibrotrough probe-engine --help'). Each case is then simulated in several packings. Packings, or
+cycles of each, are added until the interval of the case's velocity efficiency is as narrow as measure.half_width asks,
+or measure.max_packings, measure.max_cycles or measure.max_core_time is reached. What a case that is not precise would
+still need is printed when it ends. A summary and the next command are printed at the end.
 
-Ctrl-C stops the run cleanly. The same command continues it; a finished case is never simulated again.
+Ctrl-C stops the run cleanly. The same command continues it; a finished case is never simulated again. A case that
+is not precise is continued after measure.max_packings or measure.max_core_time has been raised.
 
-With executor = "slurm" under [run] in the campaign file, the packings are submitted as job arrays and the command
-returns, unless --wait is given. The same command finds tasks that died and submits them again.
+With executor = "slurm" under [run] in the campaign file, the next packings of each case are submitted as job arrays
+and the command returns. Call it again when they have ended, until it submits nothing more. With --wait it stays and
+submits further packings by itself. It also finds tasks that died and submits them again.
 
 Exit codes:
     0  all cases are finished
-    1  some cases failed, or are not steady or not precise
+    1  some cases failed, or are not precise, not steady, or bistable or slow
     2  the input is wrong
     3  something is missing: no liggghts, one that failed its probes, or no disk space
   130  interrupted

@@ -23,7 +23,7 @@ struct Options {
     bool json = false;
 };
 
-/// Number of cases by state. `unsure` counts those that are not steady or not precise.
+/// Number of cases by state. `unsure` counts those with a result and another outcome than finished.
 struct Counts {
     int finished = 0, unsure = 0, failed = 0, running = 0, left = 0;
 };
@@ -97,10 +97,12 @@ void add_status(CLI::App& program, int& exit_code) {
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
         R"(Prints one line for each case that has started: its id, its state, how many of its packings have
-ended, and why it failed or waits. The last line counts the cases. The command works while the campaign runs, and it
-changes nothing.
+ended, and why it failed or waits. Of a case that is not precise it says how many packings and core-hours it would still
+need, and of one that is bistable or slow the velocity efficiency of both branches. The last line counts the cases. The
+command works while the campaign runs, and it changes nothing.
 
-In the JSON, "unsure" is the number of cases that are not steady or not precise.
+In the JSON, "unsure" is the number of cases that are not precise, not steady, or bistable or slow, and "packings" the
+least number of packings of a case.
 
 Example:
   vibrotrough status runs/demo)");

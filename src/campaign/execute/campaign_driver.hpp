@@ -39,7 +39,7 @@ class Observer {
 /// What a run came to.
 struct Summary {
     int finished = 0;                     ///< cases with a result and outcome "finished"
-    int unsure = 0;                       ///< cases with a result that is not steady or not precise
+    int unsure = 0;                       ///< cases with a result and another outcome
     int failed = 0;                       ///< cases that failed in this run
     int submitted = 0;                    ///< packings handed to the executor
     int again = 0;                        ///< of these, those that an earlier run had handed to it

@@ -64,7 +64,9 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     store::write_result(planned.result_file(), record);
     write_summary(planned, record);
     std::filesystem::remove(planned.failure_file());
-    for (int const packing : parts.packings) remove_checkpoints(planned.packing_folder(packing));
+    if (record.outcome == core::Outcome::finished) {  // the packings of other cases may be continued
+        for (int const packing : parts.packings) remove_checkpoints(planned.packing_folder(packing));
+    }
     return record;
 }
 

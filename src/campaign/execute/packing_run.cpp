@@ -168,9 +168,9 @@ PackingEnd PackingRun::judge(engine::ExitStatus status) {
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
     evaluate::add_run(evaluated_->record, marker);
     evaluated_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
-    evaluate::write_marker(files, marker);
     // The policy may want more cycles of this packing, which then continue from its end.
     seal();
+    evaluate::write_marker(files, marker);
     return {};
 }
 

@@ -43,7 +43,7 @@ class Planner {
 
 std::string case_id(prepare::PreparedCase const& prepared, std::string const& engine_version) {
     scenario::MeasurementPlan const& measure = prepared.scenario.measure;
-    // The packings differ by their seeds only, so that the first stands for all.
+    // The packings differ by their seeds and by how they start, so that the first, at rest, stands for all.
     std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, {1}).files);
     return core::sha256_hex(fmt::format("{}\n{}\npackings {} confidence {} half_width {}\n", engine_version,
                                         commands, measure.packings, measure.confidence, measure.half_width))
