@@ -24,7 +24,7 @@ Json known(double value) {
 
 Json describe(campaign::RunningPacking const& one) {
     Json json{{"case", one.planned->id},  {"packing", one.packing},
-              {"cycles", one.cycles},     {"max_cycles", one.planned->scenario().measure.max_cycles},
+              {"cycles", one.cycles},     {"cycles_wanted", one.cycles_wanted},
               {"efficiency", nullptr},    {"efficiency_half_width", nullptr},
               {"elapsed_s", one.elapsed}, {"time_to_go_s", known(one.time_to_go)}};
     if (one.estimate && std::isfinite(one.estimate->mean)) {

@@ -52,17 +52,13 @@ std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared)
     return files;
 }
 
-/// What the deck reads after each cycle. The last cycle ends in a checkpoint like those within the run (see
-/// input_templates/cycles.mustache).
-std::string control_for(int cycles) {
-    if (cycles == 0) return control_go_on;
-    return fmt::format(
-        "variable stop equal ${{done}}>={0}\n"
-        "if \"${{done}} == {0}\" then \"run 0\" \"write_restart {1}\" \"print '{0}' append {2}\"\n",
-        cycles, checkpoint_file(cycles), checkpoint_list);
-}
-
 }  // namespace
+
+int PackingPlan::next_stop(int done) const {
+    int stop = first_pause > 0 ? first_pause : cycles;
+    while (stop <= done) stop *= 2;
+    return std::min(stop, cycles);
+}
 
 Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing) {
     if (packing.number < 1 || packing.number > 1000) {
@@ -76,12 +72,21 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data));
     deck.files = deck.settle_files;
     deck.files[drive_file] = tidy(render_template(drive_file, data));
-    deck.files[control_file] = control_for(packing.cycles);
+    deck.files[control_file] = control_until(packing.next_stop(0));
     return deck;
 }
 
 int packing_seed(int packing) {
     return seed_number(3 * (packing - 1));
+}
+
+std::string control_until(int cycles) {
+    if (cycles == 0) return control_go_on;
+    // The checkpoint is like those within the run (see input_templates/cycles.mustache).
+    return fmt::format(
+        "variable stop equal ${{done}}>={0}\n"
+        "if \"${{done}} == {0}\" then \"run 0\" \"write_restart {1}\" \"print '{0}' append {2}\"\n",
+        cycles, checkpoint_file(cycles), checkpoint_list);
 }
 
 std::string checkpoint_file(int cycle) {

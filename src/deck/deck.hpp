@@ -43,6 +43,13 @@ struct PackingPlan {
     int cycles = 0;  ///< after which the run ends; 0: after measure.max_cycles
     /// Velocity efficiency with which all grains start; none: at rest.
     std::optional<double> start_efficiency{};
+    /// A longer run pauses after this many cycles, twice as many, four times ..., and continues from the
+    /// checkpoint there, so that it gives the same digits as a run that is continued later; 0: it never
+    /// pauses.
+    int first_pause = 0;
+
+    /// The cycles after which a run that has `done` cycles pauses or ends.
+    int next_stop(int done) const;
 };
 
 /// The deck of one packing. The packings of a case differ in their seeds and in how they start, and the first
@@ -50,6 +57,10 @@ struct PackingPlan {
 /// them, so that the same run can be continued later.
 /// @throws std::invalid_argument when the number is below 1 or above 1000
 Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing);
+
+/// The content of control.in that ends a run after so many cycles, with a checkpoint; 0: after max_cycles,
+/// without one.
+std::string control_until(int cycles);
 
 /// The seed of packing number `packing` (from 1), a prime as the engine requires.
 int packing_seed(int packing);

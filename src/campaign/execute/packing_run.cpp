@@ -6,6 +6,7 @@
 #include "core/version.hpp"
 #include "engine/run_report.hpp"
 
+#include <utility>
 #include <variant>
 
 #include <boost/asio/post.hpp>
@@ -101,9 +102,15 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         // Perhaps on another number of ranks than before.
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
+    stop_ = packing_.next_stop(sealed_cycle_);
+    core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
     process_ = std::make_unique<engine::EngineProcess>(
-        context_, engine_, folder_, [this](engine::ExitStatus status) { on_end_(judge(status)); }, launch);
+        context_, engine_, folder_,
+        [this](engine::ExitStatus status) {
+            if (auto const end = judge(status)) on_end_(*end);
+        },
+        launch);
 }
 
 double PackingRun::wall_time() const {
@@ -145,17 +152,35 @@ void PackingRun::interrupt() {
     }
 }
 
-PackingEnd PackingRun::judge(engine::ExitStatus status) {
+/// Continues a run that has paused at its checkpoint.
+void PackingRun::go_on() {
+    seal();
+    auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
+    if (!checkpoint || checkpoint->cycle != stop_) {
+        throw core::MissingError(
+            fmt::format("the engine left no checkpoint after cycle {} in {}; is the disk full?", stop_,
+                        folder_.string()));
+    }
+    earlier_core_time_ = checkpoint->core_time;
+    core_time_of_pauses_ += std::exchange(core_time_, 0);
+    start_engine(checkpoint);
+}
+
+std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (interrupted_) return interrupted_end();
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
-    if (report.failure) return {report.failure, report.message, report.signal};
+    if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
+    if (stop_ < packing_.cycles) {
+        go_on();
+        return {};
+    }
     // What the case's result needs must be there now; later it would be too late to run again.
     auto const files = evaluate::read_packing_files(folder_);
     auto evaluation =
         evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, report.last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
-        return {fault->outcome, fault->message};
+        return PackingEnd{fault->outcome, fault->message};
     evaluate::PackingMarker const marker{wall_time(),
                                          started_,
                                          core::utc_now(),
@@ -171,7 +196,7 @@ PackingEnd PackingRun::judge(engine::ExitStatus status) {
     // The policy may want more cycles of this packing, which then continue from its end.
     seal();
     evaluate::write_marker(files, marker);
-    return {};
+    return PackingEnd{};
 }
 
 }  // namespace vibrotrough::campaign

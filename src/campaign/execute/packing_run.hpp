@@ -46,7 +46,7 @@ class PackingRun {
     /// Cycles seen so far.
     int cycles() const { return cycles_; }
     /// s, processor time of the engine in this run, all ranks.
-    double core_time() const { return core_time_; }
+    double core_time() const { return core_time_of_pauses_ + core_time_; }
 
     /// What was measured, once the packing is finished.
     evaluate::EvaluatedPacking take_evaluated() { return std::move(evaluated_.value()); }
@@ -59,7 +59,8 @@ class PackingRun {
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
     double wall_time() const;
-    PackingEnd judge(engine::ExitStatus status);
+    std::optional<PackingEnd> judge(engine::ExitStatus status);
+    void go_on();
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
@@ -70,12 +71,14 @@ class PackingRun {
     std::filesystem::path folder_;
     deck::Deck deck_;
     std::chrono::steady_clock::time_point start_;
-    double earlier_wall_time_ = 0;  ///< s, of the engine before the checkpoint
-    double earlier_core_time_ = 0;  ///< s, the same of its processor time
-    double core_time_ = 0;          ///< s, of the engine in this run
+    double earlier_wall_time_ = 0;    ///< s, of the engine before the checkpoint
+    double earlier_core_time_ = 0;    ///< s, the same of its processor time
+    double core_time_ = 0;            ///< s, of the engine since it was last started
+    double core_time_of_pauses_ = 0;  ///< s, of the engine in this run before
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
+    int stop_ = 0;  ///< cycle after which the engine ends
     std::optional<measure::PackingEstimate> estimate_;
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;

@@ -47,7 +47,7 @@ class Replay {
           wanted_{plan_.confidence, plan_.half_width} {}
 
     CaseDecision decide() {
-        Round round{{}, static_cast<int>(deck::expected_cycles(plan_))};
+        Round round{{}, first_cycles()};
         bool const is_single = plan_.packings == 1;
         extend(round, is_single ? 1 : plan_.packings + plan_.packings % 2, predicted());
         while (true) {
@@ -61,6 +61,9 @@ class Replay {
     }
 
   private:
+    /// Cycles of a packing in the first round.
+    int first_cycles() const { return static_cast<int>(deck::expected_cycles(plan_)); }
+
     /// The result, or the packings whose run was cut when its cycles were already enough.
     CaseDecision finish(Round const& round) const {
         CaseDecision decision{round.packings, {}, 0, round.total()};
@@ -81,7 +84,7 @@ class Replay {
 
     void extend(Round& round, int packings, double expected) const {
         for (int number = round.count() + 1; number <= std::min(packings, plan_.max_packings); ++number) {
-            deck::PackingPlan packing{number, round.cycles, {}};
+            deck::PackingPlan packing{number, round.cycles, {}, first_cycles()};
             if (may_start_moving(prepared_.scenario) && plan_.max_packings > 1)
                 packing.start_efficiency = start(number, expected);
             round.packings.push_back(packing);
