@@ -41,6 +41,8 @@ void add_error(SettingError& setting, StudyResult const& standard) {
         return;
     }
     setting.error = measure::numerical_error(means, setting.order);
+    if (setting.order && means.size() > 2 && setting.error->verdict == measure::Convergence::resolved)
+        setting.message = "not extrapolated: the values do not lie on one line of the expected order";
 }
 
 }  // namespace

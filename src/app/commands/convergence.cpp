@@ -124,6 +124,21 @@ void print(evaluate::NumericsBudget const& budget) {
     }
 }
 
+/// What to do about parts that are no more than the bounds of their own intervals.
+void print_advice(std::vector<evaluate::NumericsBudget> const& budgets) {
+    std::ptrdiff_t open = 0;
+    for (evaluate::NumericsBudget const& budget : budgets) {
+        open += std::ranges::count_if(budget.settings, [](evaluate::SettingError const& one) {
+            return one.error && one.error->verdict == measure::Convergence::not_resolved;
+        });
+    }
+    if (open > 0)
+        fmt::print(
+            "{} part{} not resolved and counted with the half-width of their intervals; a smaller "
+            "--half-width narrows them\n",
+            open, open == 1 ? " is" : "s are");
+}
+
 int run(Options const& options) {
     std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
@@ -154,8 +169,8 @@ int run(Options const& options) {
     campaign::write_numerics(original.folder, budgets);
     bool const was_run = fs::is_regular_file(original.folder / "campaign.h5");
     if (was_run) campaign::write_campaign_file(original);
-    fmt::print("written to {}; {} 'vibrotrough compare {} --budget' shows it\n",
-               campaign::numerics_file(original.folder).string(), was_run ? "" : "after 'vibrotrough run'",
+    fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
+               campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
                core::shell_word(original.folder));
     bool const all =
         std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });

@@ -235,7 +235,7 @@ void write_numerics(fs::path const& campaign_folder, std::vector<evaluate::Numer
     core::write_file_atomically(numerics_file(campaign_folder), json.dump(2) + "\n");
 }
 
-std::map<std::string, CaseNumerics> read_case_numerics(Plan const& plan) {
+std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan) {
     std::map<std::string, double> studied;
     try {
         for (Json const& one : read_list(plan.folder)) {
@@ -248,7 +248,7 @@ std::map<std::string, CaseNumerics> read_case_numerics(Plan const& plan) {
                         "nothing a second time",
                         numerics_file(plan.folder).string()));
     }
-    std::map<std::string, CaseNumerics> found;
+    std::map<std::string, store::CaseNumerics> found;
     std::vector<std::size_t> sources;
     for (std::size_t i = 0; i < plan.cases.size(); ++i) {
         if (studied.contains(plan.cases[i].id)) sources.push_back(i);
@@ -259,7 +259,7 @@ std::map<std::string, CaseNumerics> read_case_numerics(Plan const& plan) {
         std::size_t const nearest = *std::ranges::min_element(
             sources, {}, [&](std::size_t other) { return space.distance(i, other); });
         std::string const& source = plan.cases[nearest].id;
-        found[plan.cases[i].id] = {studied.at(source), source, source != plan.cases[i].id};
+        found[plan.cases[i].id] = {studied.at(source), source};
     }
     return found;
 }

@@ -2,6 +2,7 @@
 
 #include "campaign/state/plan.hpp"
 #include "evaluate/numerics_budget.hpp"
+#include "store/result_file.hpp"
 
 #include <filesystem>
 #include <map>
@@ -43,19 +44,12 @@ std::filesystem::path numerics_file(std::filesystem::path const& campaign_folder
 void write_numerics(std::filesystem::path const& campaign_folder,
                     std::vector<evaluate::NumericsBudget> const& budgets);
 
-/// The numerical error of one case.
-struct CaseNumerics {
-    double error;        ///< of the velocity efficiency, see NumericsBudget::numerical_error
-    std::string source;  ///< id of the case that was studied: the case itself or its nearest
-    bool is_borrowed;    ///< whether it is another case's
-};
-
-/// The numerical errors of the cases of a plan by id. A case that was not studied borrows that of the nearest
-/// case that was: every key in which the cases of the plan differ counts, numbers with their difference over
-/// their range, everything else with 1 when it differs; the distance is the root of the sum of the squares,
-/// and the first of equals is taken. Empty when there is no file. Budgets of cases that are no longer part of
-/// the plan, and budgets with unknown parts, are not used.
+/// The numerical errors (NumericsBudget::numerical_error) of the cases of a plan by id. A case that was not
+/// studied borrows that of the nearest case that was: every key in which the cases of the plan differ counts,
+/// numbers with their difference over their range, everything else with 1 when it differs; the distance is
+/// the root of the sum of the squares, and the first of equals is taken. Empty when there is no file. Budgets
+/// of cases that are no longer part of the plan, and budgets with unknown parts, are not used.
 /// @throws core::InputError when the file is damaged
-std::map<std::string, CaseNumerics> read_case_numerics(Plan const& plan);
+std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan);
 
 }  // namespace vibrotrough::campaign
