@@ -172,6 +172,7 @@ int run(Options const& options) {
     fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
                campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
                core::shell_word(original.folder));
+    print_advice(budgets);
     bool const all =
         std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });
     return all ? all_well : some_cases_failed;
