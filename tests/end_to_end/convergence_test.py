@@ -29,7 +29,7 @@ class Convergence(EndToEndTest):
 
     def test_a_layer_from_study_to_table(self):
         # Wide intervals keep it short: what is tested is the way of the numbers, not their size.
-        campaign = self.write_campaign({"measure.half_width": 1, "measure.max_cycles": 20})
+        campaign = self.write_campaign({"measure.half_width": 0.5})
         self.run_campaign(campaign)
         self.take_starts()
         done = self.study(self.output, output=False)

@@ -93,7 +93,10 @@ TEST_F(Probe, AttractiveNormalForces) {
 }
 
 TEST_F(Probe, WrongGravity) {
-    EXPECT_EQ(failed_by("sed -i 's/gravity 9.81/gravity 9.7/' in.liggghts"), (Names{"sliding", "rolling"}));
+    Names failed = failed_by("sed -i 's/gravity 9.81/gravity 9.7/' in.liggghts");
+    for (double const ratio : deck::probed_size_ratios)
+        EXPECT_EQ(failed.erase(fmt::format("three-grains-roll-{}", ratio)), 1u) << ratio;
+    EXPECT_EQ(failed, (Names{"sliding", "rolling"}));
 }
 
 TEST_F(Probe, WrongFriction) {
@@ -174,6 +177,12 @@ TEST_F(Probe, AnEngineThatLosesItsOutputFails) {
 TEST_F(Probe, TheDecksUseWhatIsProbed) {
     scenario::Scenario const scenario = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
     std::string const campaign = deck::make_deck(prepare::prepare_case(scenario), 1).files.at("in.liggghts");
+    for (ProbeDeck const& probe : {gap_roll_deck(), nip_deck()}) {
+        EXPECT_NE(probe.files.at("in.liggghts")
+                      .find("gran model hertz tangential history limitForce on tangential_damping off\n"),
+                  std::string::npos)
+            << probe.name << " has grains without a trough";
+    }
     for (ProbeDeck const& probe : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
                                    drive_deck(), speed_deck(1)}) {
         for (std::string const& text : {campaign, probe.files.at("in.liggghts")}) {
