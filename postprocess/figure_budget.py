@@ -76,6 +76,7 @@ def plot_budget(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
             axes.annotate(f"{statistical:.3f}", (place - BAR / 2, statistical), ha="center", va="bottom", fontsize=7)
         settings = [one for one in budget["settings"] if one["verdict"] != "left-out"]
         draw_budget(axes, place, budget | {"settings": settings}, colours)
+    axes.set_xlim(-0.6, len(budgets) - 0.4)
     axes.set_xticks(range(len(budgets)), names_of(source, budgets), fontsize=8)
     axes.set_ylabel("error of velocity efficiency \u03b7  [-]")
     axes.margins(y=0.12)

@@ -23,7 +23,7 @@ constexpr double middle = 0.05;   // m, y of the small grains
 constexpr double friction = 0.5;  // grain on grain in probe_world()
 constexpr double degree = std::numbers::pi / 180;
 constexpr int samples = 400;
-constexpr char const* paper = "Vyas et al., Comput. Phys. Commun. 310 (2025) 109524";
+constexpr char const* paper = "Vyas et al., Computer Physics Communications 310 (2025) 109524";
 
 std::string text(double number) {
     return fmt::format("{}", number);

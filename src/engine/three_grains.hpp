@@ -9,9 +9,9 @@
 
 // Is the engine right when grains differ much in size? Velocity-Verlet adds up the tangential spring of a
 // contact with velocities half a step behind the normal, and codes were found in which small grains get
-// caught between large ones from a size ratio of about 3 on (Vyas, Ottino, Lueptow & Umbanhowar, Comput.
-// Phys. Commun. 310, 2025, 109524). Two experiments with three grains, whose answers are known, ask the
-// engine.
+// caught between large ones from a size ratio of about 3 on (Vyas, Ottino, Lueptow & Umbanhowar, Computer
+// Physics Communications 310, 2025, 109524). Two experiments with three grains, whose answers are known, ask
+// the engine.
 namespace vibrotrough::engine {
 
 /// Three equal materials: a small grain above the point where two large grains touch, which it rolls over.
