@@ -14,6 +14,7 @@ import sys
 from collections.abc import Collection, Iterator
 from typing import Any
 
+import figure_budget
 import figure_cycles
 import figure_portraits
 import figure_residuals
@@ -21,7 +22,7 @@ import vibrotrough
 from figure_style import Problem
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "residuals", "cycles", "portraits", "profiles")
+KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "profiles")
 
 
 class Source:
@@ -50,6 +51,8 @@ def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Itera
         yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency")
     if "residuals" in only:
         yield figure_residuals.plot_residuals(source, source.output / "residuals")
+    if "budget" in only:
+        yield figure_budget.plot_budget(source, source.output / "budget")
     for case in source.campaign["case"]:
         if not cases or case in cases:
             yield from draw_case(source, only, case)

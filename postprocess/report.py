@@ -29,6 +29,7 @@ WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
     ("efficiency", "Velocity efficiency against throw number"),
     ("residuals", "What the theory misses"),
+    ("budget", "Statistical and numerical error"),
 ]
 CASE_FIGURES = [
     ("cycles", "Every cycle, the discarded start shaded"),

@@ -34,6 +34,8 @@ void add_status(CLI::App& program, int& exit_code);
 void add_compare(CLI::App& program, int& exit_code);
 /// Measures the friction of layers as a whole.
 void add_friction_test(CLI::App& program, int& exit_code);
+/// Measures the numerical error of a campaign's results.
+void add_convergence(CLI::App& program, int& exit_code);
 /// Writes files for ParaView.
 void add_export(CLI::App& program, int& exit_code);
 /// Draws figures.

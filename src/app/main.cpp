@@ -24,6 +24,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_deck(program, exit_code);
     add_status(program, exit_code);
     add_friction_test(program, exit_code);
+    add_convergence(program, exit_code);
     add_compare(program, exit_code);
     add_export(program, exit_code);
     add_plot(program, exit_code);

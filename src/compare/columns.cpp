@@ -122,7 +122,7 @@ std::vector<Column> efficiency_columns() {
          .meaning = "Half-width of the confidence interval of efficiency_dem over all packings",
          .format = "{:.3f}",
          .position = 80,
-         .report = ReportView{.heading = "\u00b1"}},
+         .report = ReportView{.heading = "\u00b1 statistical"}},
         {.name = "speed_dem_m_per_s",
          .unit = "m/s",
          .value = field<&Row::speed_dem_m_per_s>,
@@ -258,7 +258,57 @@ std::vector<Column> run_columns() {
     };
 }
 
+std::vector<Column> numerics_columns() {
+    return {
+        {.name = "efficiency_dem_numerical_error",
+         .unit = "1",
+         .value = field<&Row::numerical_error>,
+         .meaning =
+             "Numerical error of efficiency_dem, from 'vibrotrough convergence': how far Young's modulus, "
+             "time step and box are from their limits",
+         .format = "{:.3f}",
+         .position = 82,
+         .report = ReportView{.heading = "\u00b1 numerical"}},
+        {.name = "numerical_error_case",
+         .unit = "1",
+         .value = field<&Row::numerical_error_case>,
+         .meaning = "Case that was studied for efficiency_dem_numerical_error: this one, or the nearest one "
+                    "that was",
+         .position = 84,
+         .report = ReportView{.heading = "numerical error of case"}},
+        {.name = "larger_error",
+         .unit = "1",
+         .value = larger_error,
+         .meaning = "Which error of efficiency_dem is larger: statistical (efficiency_dem_half_width) or "
+                    "numerical",
+         .position = 86,
+         .report = ReportView{.heading = "larger error"}},
+    };
+}
+
+std::string budget_cell(Row const& row) {
+    return efficiency_cell(row) + " +- " + three_digits(row.numerical_error) + (is_borrowed(row) ? "*" : "");
+}
+
+std::string larger_error_colour(Row const& row) {
+    return larger_error(row) == "numerical" ? "\x1b[1m" : "";
+}
+
 }  // namespace
+
+std::vector<Column> budget_columns() {
+    std::vector<Column> columns(all_columns().begin(), all_columns().end());
+    for (Column& column : columns) {
+        if (column.name == "efficiency_dem") {
+            column.terminal->subheading = "+- stat. +- num.";
+            column.terminal->cell = budget_cell;
+        } else if (column.name == "larger_error") {
+            column.terminal = TerminalView{
+                .heading = "larger", .subheading = "error", .priority = 8, .colour = larger_error_colour};
+        }
+    }
+    return columns;
+}
 
 std::optional<Value> Column::of(Row const& row) const {
     return std::visit(
@@ -278,7 +328,8 @@ std::string Column::shown(Row const& row) const {
 std::span<Column const> all_columns() {
     static std::vector<Column> const columns = [] {
         std::vector<Column> all;
-        for (auto const& part : {drive_columns(), efficiency_columns(), friction_columns(), run_columns()})
+        for (auto const& part :
+             {drive_columns(), efficiency_columns(), friction_columns(), run_columns(), numerics_columns()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

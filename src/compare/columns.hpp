@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 /// @file
 /// The table of all columns of `compare`. JSON, CSV, the terminal's table, --filter, --sort, the VTK table,
@@ -71,5 +72,9 @@ struct Column {
 
 /// All columns, in the order of JSON and CSV.
 std::span<Column const> all_columns();
+
+/// The same columns for the terminal's table of `compare --budget`: efficiency_dem with its statistical and
+/// its numerical error, a star behind one that is borrowed, and which of the two is larger.
+std::vector<Column> budget_columns();
 
 }  // namespace vibrotrough::compare

@@ -1,6 +1,7 @@
 #include "compare/compared_cases.hpp"
 
 #include "campaign/state/friction_results.hpp"
+#include "campaign/state/numerics_results.hpp"
 #include "compare/exports.hpp"
 #include "scenario/reader/shake_test.hpp"
 
@@ -12,6 +13,7 @@ namespace vibrotrough::compare {
 
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity) {
     auto const tests = campaign::read_friction(plan.folder);
+    auto const numerics = campaign::read_case_numerics(plan);
     ComparedCases found{.cases = campaign::survey(plan, activity), .rows = {}};
     for (campaign::CaseOverview const& one : found.cases) {
         std::optional<MeasuredFriction> friction;
@@ -19,6 +21,10 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
             friction = {*test->second.friction, *test->second.low, *test->second.high};
         found.rows.push_back(
             compare(one.planned->id, *one.planned->prepared, one.record, std::string(one.label()), friction));
+        if (auto const known = numerics.find(one.planned->id); known != numerics.end()) {
+            found.rows.back().numerical_error = known->second.error;
+            found.rows.back().numerical_error_case = known->second.case_id;
+        }
     }
     return found;
 }

@@ -17,7 +17,7 @@ struct ComparedCases {
 };
 
 /// Compares all cases of a campaign with the theory. The friction of a layer is used where a friction test
-/// has measured it.
+/// has measured it, and the numerical error where a study has (campaign::read_case_numerics).
 /// @param activity  what the executors know of the campaign, for cases without a result
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity);
 

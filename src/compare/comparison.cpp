@@ -108,6 +108,15 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     return text;
 }
 
+bool is_borrowed(Row const& row) {
+    return row.numerical_error_case && *row.numerical_error_case != row.id;
+}
+
+std::optional<std::string> larger_error(Row const& row) {
+    if (!row.efficiency_dem_half_width || !row.numerical_error) return {};
+    return *row.numerical_error > *row.efficiency_dem_half_width ? "numerical" : "statistical";
+}
+
 Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<store::CaseRecord> const& record, std::string const& outcome,
             std::optional<MeasuredFriction> const& friction) {

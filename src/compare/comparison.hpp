@@ -38,7 +38,16 @@ struct Row {
     std::optional<int> cycles_discarded;            ///< as start-up, all packings together
     std::optional<double> wall_s;                   ///< wall time of the engine, all packings together, s
     std::string outcome;                            ///< how the case ended, or what it waits for
+    std::optional<double> numerical_error;          ///< of efficiency_dem, when a study has measured it
+    std::optional<std::string> numerical_error_case;  ///< id of the case that was studied for it
 };
+
+/// Whether the numerical error of a row is that of another case, the nearest that was studied.
+bool is_borrowed(Row const& row);
+
+/// "statistical" or "numerical": the larger of the half-width of efficiency_dem and its numerical error. None
+/// unless both are known.
+std::optional<std::string> larger_error(Row const& row);
 
 /// The friction coefficient of a layer as a whole, from a friction test.
 struct MeasuredFriction {

@@ -1,10 +1,14 @@
 #include "deck/check.hpp"
 
 #include "deck/estimates.hpp"
+#include "deck/known_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::deck {
 namespace {
@@ -115,6 +119,51 @@ void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
                              "use more grains, because these do not form a layer"));
 }
 
+/// The error that a study found with a setting no worse than this one, against the half-width asked for.
+Finding known_error(std::string item, std::string key, std::span<KnownError const> errors, double measure,
+                    double wanted, std::string const& cure) {
+    auto const known = largest_known_error(errors, measure);
+    std::string const advice =
+        known ? fmt::format(
+                    "validation/convergence found {:+.3f} +- {:.3f} at {}; {}, or measure it with "
+                    "'vibrotrough convergence'",
+                    known->error, known->half_width, known->at, cure)
+              : cure;
+    return most("error of eta known from " + item, std::move(key), known ? std::abs(known->error) : 0, wanted,
+                never, advice);
+}
+
+/// What validation/convergence found in its layer is taken for this one: by the overlap at impact, and by the
+/// size of the box in diameters.
+void check_known_errors(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const diameter = s.grains.diameter, wanted = s.measure.half_width;
+    double const overlap = overlap_at_impact(c, c.time.impact_speed) / diameter;
+    findings.push_back(known_error("grains as soft", "grains.youngs_modulus", known_softness_errors(),
+                                   overlap, wanted, "stiffen the grains"));
+    findings.push_back(known_error("boxes as short", "layer.length", known_length_errors(),
+                                   diameter / s.layer.length, wanted, "lengthen the box"));
+    if (s.trough.side_wall_friction) return;  // the width is part of the problem
+    findings.push_back(known_error("boxes as narrow", "layer.width", known_width_errors(),
+                                   diameter / s.layer.width, wanted, "widen the box"));
+}
+
+/// In some codes small grains get caught between much larger ones (engine/three_grains.hpp).
+void check_sizes(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    double ratio = c.classes.front().diameter / c.classes.back().diameter;
+    char const* key = "grains.diameter_spread";
+    if (c.scenario.grains.size_law == scenario::SizeLaw::listed) key = "grains.diameters";
+    if (c.clump) {
+        auto const [small, large] = std::ranges::minmax(c.clump->spheres, {}, &scenario::Sphere::radius);
+        ratio *= large.radius / small.radius;
+        key = "grains.shape";
+    }
+    findings.push_back(
+        most("largest sphere / smallest sphere", key, ratio, probed_size_ratios.back(), never,
+             "narrow the sizes: 'vibrotrough probe-engine' tests small grains between large "
+             "ones up to this ratio (Vyas et al. 2025 found codes that fail from about 3 on)"));
+}
+
 /// The mesh moves through the periodic box; nodes that leave it on one side enter on the other.
 void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
@@ -154,7 +203,11 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     check_time_step(findings, prepared);
     if (!is_block(prepared.scenario)) check_overlaps(findings, prepared);
     check_contact_time(findings, prepared);
-    if (!is_block(prepared.scenario)) check_box(findings, prepared);
+    if (!is_block(prepared.scenario)) {
+        check_box(findings, prepared);
+        check_known_errors(findings, prepared);
+        check_sizes(findings, prepared);
+    }
     check_stroke(findings, prepared);
     check_engine(findings, prepared);
     return findings;

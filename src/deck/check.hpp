@@ -2,6 +2,7 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,17 @@ struct Finding {
     std::string advice;  ///< what to change
 };
 
+/// Ratios of large to small diameters at which 'probe-engine' shows that a small grain between two large ones
+/// moves as it should (engine/three_grains.hpp). Increasing.
+constexpr std::array<double, 6> probed_size_ratios{1, 2, 3, 5, 8, 20};
+
 /// "fine", "warning" or "error".
 std::string to_string(Severity severity);
 
 /// Checks what a careful person would check before spending hours of computing on a case: time step, steps
-/// per cycle and per contact, overlaps, contact time against flight time, the box, neighbour lists, disk
-/// space. All findings are returned, including fine ones, in a fixed order. The formulas are in
-/// `estimates.hpp`.
+/// per cycle and per contact, overlaps, contact time against flight time, the box, the errors that
+/// are known of such settings, the sizes of the grains, neighbour lists, disk space. All findings are
+/// returned, including fine ones, in a fixed order. The formulas are in `estimates.hpp`.
 std::vector<Finding> check(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::deck

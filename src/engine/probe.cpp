@@ -7,6 +7,7 @@
 #include "engine/probe_decks.hpp"
 #include "engine/probe_output.hpp"
 #include "engine/probe_verdicts.hpp"
+#include "engine/three_grains.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -123,7 +124,9 @@ std::optional<Certificate> probe_engine(Engine const& engine, EngineIdentity con
                                                              {coarse_impact_deck(), judge_coarse_impacts},
                                                              {incline_deck(), judge_incline},
                                                              {contact_deck(), judge_contact},
-                                                             {drive_deck(), judge_drive}};
+                                                             {drive_deck(), judge_drive},
+                                                             {gap_roll_deck(), judge_gap_roll},
+                                                             {nip_deck(), judge_nip}};
     Certificate certificate{identity,
                             std::string(core::program_version()),
                             std::string(core::program_commit()),

@@ -4,6 +4,7 @@
 #include "deck/drive_formula.hpp"
 #include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
+#include "engine/three_grains.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <cmath>
@@ -87,12 +88,6 @@ std::vector<Impact> impacts(std::vector<std::array<double, 2>> const& speeds,
     return list;
 }
 
-double rayleigh_time(ContactMaterial const& m) {
-    double const shear_modulus = m.youngs_modulus / (2 * (1 + m.poisson_ratio));
-    return std::numbers::pi * m.radius * std::sqrt(m.density / shear_modulus) /
-           (0.1631 * m.poisson_ratio + 0.8766);
-}
-
 ProbeDeck impact_deck(std::string const& name, std::vector<Impact> const& list, double time_step,
                       double duration) {
     std::vector<double> const restitutions(probed_restitutions.begin(), probed_restitutions.end());
@@ -154,6 +149,16 @@ ProbeDeck motion_deck(std::string const& name, MovingTrough const& motion,
 }
 
 }  // namespace
+
+double rayleigh_time(ContactMaterial const& m) {
+    double const shear_modulus = m.youngs_modulus / (2 * (1 + m.poisson_ratio));
+    return std::numbers::pi * m.radius * std::sqrt(m.density / shear_modulus) /
+           (0.1631 * m.poisson_ratio + 0.8766);
+}
+
+TemplateData probe_world(std::string const& title, double time_step) {
+    return world(title, time_step, {0.5}, {grain_friction});
+}
 
 ContactMaterial probe_material(double restitution, double friction) {
     return {diameter / 2, 1400, 5e6, 0.35, restitution, friction};
@@ -262,7 +267,7 @@ ProbeDeck speed_deck(int steps) {
 std::string digest_of_probes() {
     std::string all = std::to_string(judgement);
     for (ProbeDeck const& deck : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
-                                  drive_deck(), speed_deck(1)}) {
+                                  drive_deck(), gap_roll_deck(), nip_deck(), speed_deck(1)}) {
         for (auto const& [name, content] : deck.files) all += name + content;
     }
     return core::sha256_hex(all);

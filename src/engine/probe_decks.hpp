@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/template.hpp"
 #include "engine/contact_law.hpp"
 
 #include <array>
@@ -38,6 +39,13 @@ coarse_impacts();  ///< with 20 % of the Rayleigh time, the longest time step of
 /// The material of all probes: grains of 3 mm, as in the tests by which the contact options were chosen, with
 /// the given friction and restitution.
 ContactMaterial probe_material(double restitution, double friction);
+
+/// Rayleigh time of a grain, s: pi R sqrt(rho / G) / (0.1631 nu + 0.8766) (Li, Xu & Thornton, Powder
+/// Technology 160, 2005).
+double rayleigh_time(ContactMaterial const& material);
+
+/// The values of the template probes/world for grains of probe_material(0.5, 0.5) among themselves.
+core::TemplateData probe_world(std::string const& title, double time_step);
 
 /// Grains on an inclined floor, with and without enough friction to hold them.
 struct Incline {

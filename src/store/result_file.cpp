@@ -221,7 +221,8 @@ std::string result_bytes(CaseRecord const& record) {
 }
 
 /// The bytes of campaign.h5.
-std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases) {
+std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
+                           std::map<std::string, CaseNumerics> const& numerics) {
     Hdf5MemoryFileWriter file;
     file.attribute("format", campaign_format);
     file.attribute("schema_version", campaign_schema_version);
@@ -234,6 +235,14 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
     for (CaseValue const& value : case_values()) put(value.entry, stored_values(value, cases));
+    put(numerical_error_entry(), stored_values(cases, [&](CaseRecord const& one) {
+            auto const known = numerics.find(one.id);
+            return known == numerics.end() ? std::nullopt : std::optional(known->second.error);
+        }));
+    put(numerical_error_case_entry(), stored_values(cases, [&](CaseRecord const& one) {
+            auto const known = numerics.find(one.id);
+            return known == numerics.end() ? std::string() : known->second.case_id;
+        }));
     return file.bytes();
 }
 
@@ -260,8 +269,9 @@ CaseRecord read_result(std::filesystem::path const& path) {
 }
 
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases) {
-    core::write_file_atomically(path, campaign_bytes(campaign, cases));
+                    std::vector<CaseRecord> const& cases,
+                    std::map<std::string, CaseNumerics> const& numerics) {
+    core::write_file_atomically(path, campaign_bytes(campaign, cases, numerics));
 }
 
 }  // namespace vibrotrough::store

@@ -3,6 +3,8 @@
 #include "store/case_record.hpp"
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace vibrotrough::store {
@@ -21,9 +23,17 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record);
 /// @throws core::InputError naming the file when it is damaged, is not a result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
+/// The numerical error of a case's velocity efficiency.
+struct CaseNumerics {
+    double error;         ///< default settings against their limits, >= 0
+    std::string case_id;  ///< of the case at which it was measured: the case itself, or its nearest
+};
+
 /// Writes campaign.h5 atomically: one dataset per column, with one value for each case in the order given.
+/// @param numerics  by case id; cases without one have an unknown numerical error
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases);
+                    std::vector<CaseRecord> const& cases,
+                    std::map<std::string, CaseNumerics> const& numerics = {});
 
 }  // namespace vibrotrough::store

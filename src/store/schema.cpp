@@ -301,6 +301,20 @@ Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
 }
 
+Entry numerical_error_entry() {
+    return {
+        "efficiency_numerical_error", "1",
+        "Numerical error of efficiency by 'vibrotrough convergence': how far Young's modulus, time step and "
+        "box are from their limits; NaN when it is not known"};
+}
+
+Entry numerical_error_case_entry() {
+    return {
+        "numerical_error_case", "1",
+        "Case that efficiency_numerical_error was measured at: this one, or the nearest that was studied; "
+        "empty when it is not known"};
+}
+
 Entry certificate_entry() {
     return {"engine_certificate", "1",
             "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};

@@ -132,6 +132,13 @@ Entry certificate_entry();
 /// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
 Entry scenario_files_entry();
 
+/// The numerical error of a case, a column of campaign.h5. It is not in result.h5, because it is measured
+/// apart from the case and may be borrowed from another.
+Entry numerical_error_entry();
+
+/// The case that the numerical error was measured at, a column of campaign.h5.
+Entry numerical_error_case_entry();
+
 /// "precise", "not-precise" or "not-steady".
 std::string verdict_name(measure::Verdict verdict);
 

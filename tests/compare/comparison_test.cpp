@@ -141,6 +141,24 @@ TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
     EXPECT_FALSE(row.efficiency_dem_half_width);
 }
 
+// The larger of the two errors is named, and neither when one of them is not known.
+TEST(Compare, SaysWhichErrorIsLarger) {
+    Row row = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
+    EXPECT_FALSE(row.numerical_error);
+    EXPECT_FALSE(larger_error(row)) << "unknown is not zero";
+    EXPECT_FALSE(is_borrowed(row));
+    row.numerical_error = 0.126;  // the sample's half-width is 0.127
+    row.numerical_error_case = "0123456789ab";
+    EXPECT_EQ(larger_error(row), "statistical");
+    EXPECT_FALSE(is_borrowed(row));
+    row.numerical_error = 0.128;
+    row.numerical_error_case = "ba9876543210";
+    EXPECT_EQ(larger_error(row), "numerical");
+    EXPECT_TRUE(is_borrowed(row));
+    row.efficiency_dem_half_width.reset();
+    EXPECT_FALSE(larger_error(row));
+}
+
 TEST(Compare, HasNoMeasurementWithoutARecord) {
     for (char const* outcome : {"open", "running", "interrupted", "lost-grains"}) {
         Row const row = compare("", prepare::prepare_case(record.scenario), {}, outcome);

@@ -41,7 +41,10 @@ std::vector<std::string> const contract{"case",
                                         "cycles_measured",
                                         "cycles_discarded",
                                         "wall_s",
-                                        "outcome"};
+                                        "outcome",
+                                        "efficiency_dem_numerical_error",
+                                        "numerical_error_case",
+                                        "larger_error"};
 
 std::vector<std::string> const measured{"efficiency_dem",
                                         "efficiency_dem_half_width",
@@ -57,7 +60,10 @@ std::vector<std::string> const measured{"efficiency_dem",
                                         "packings",
                                         "cycles_measured",
                                         "cycles_discarded",
-                                        "wall_s"};
+                                        "wall_s",
+                                        "efficiency_dem_numerical_error",
+                                        "numerical_error_case",
+                                        "larger_error"};
 
 store::CaseRecord record_at(double degrees, std::string const& outcome) {
     store::CaseRecord record = store::sample_record("0123456789ab");
@@ -242,6 +248,28 @@ TEST(Table, ShowsADashForWhatIsNotKnown) {
     auto const lines = lines_of(to_table(some_rows()));
     EXPECT_NE(lines[3].find("- +- -"), std::string::npos) << lines[3];
     EXPECT_EQ(lines[5].find("nan"), std::string::npos) << lines[5];
+}
+
+// compare --budget: "mean +- statistical +- numerical", a star behind what is borrowed, and the larger error.
+TEST(Table, ShowsBothErrorsInTheBudget) {
+    store::CaseRecord const record = store::sample_record("0123456789ab");
+    Row own = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
+    own.numerical_error = 0.034;
+    own.numerical_error_case = own.id;
+    Row borrowed = own;
+    borrowed.numerical_error = 0.2;
+    borrowed.numerical_error_case = "ba9876543210";
+    Row unknown = own;
+    unknown.numerical_error.reset();
+    std::string const budget = to_table({own, borrowed, unknown}, {}, budget_columns());
+    EXPECT_NE(budget.find("0.820 +- 0.127 +- 0.034 "), std::string::npos) << budget;
+    EXPECT_NE(budget.find("0.820 +- 0.127 +- 0.200*"), std::string::npos) << budget;
+    EXPECT_NE(budget.find("0.820 +- 0.127 +- - "), std::string::npos) << budget;
+    EXPECT_NE(budget.find("  numerical  "), std::string::npos) << budget;
+    EXPECT_NE(budget.find("  statistical  "), std::string::npos) << budget;
+    std::string const table = to_table({own, borrowed}, {});
+    EXPECT_EQ(table.find("0.034"), std::string::npos) << "the plain table is as it was";
+    EXPECT_EQ(table.find("numerical"), std::string::npos);
 }
 
 }  // namespace

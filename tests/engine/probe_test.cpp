@@ -1,16 +1,20 @@
 #include "engine/probe.hpp"
 
 #include "core/temporary_folder.hpp"
+#include "deck/check.hpp"
 #include "deck/deck.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe_decks.hpp"
+#include "engine/three_grains.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -89,7 +93,10 @@ TEST_F(Probe, AttractiveNormalForces) {
 }
 
 TEST_F(Probe, WrongGravity) {
-    EXPECT_EQ(failed_by("sed -i 's/gravity 9.81/gravity 9.7/' in.liggghts"), (Names{"sliding", "rolling"}));
+    Names failed = failed_by("sed -i 's/gravity 9.81/gravity 9.7/' in.liggghts");
+    for (double const ratio : deck::probed_size_ratios)
+        EXPECT_EQ(failed.erase(fmt::format("three-grains-roll-{}", ratio)), 1u) << ratio;
+    EXPECT_EQ(failed, (Names{"sliding", "rolling"}));
 }
 
 TEST_F(Probe, WrongFriction) {
@@ -113,6 +120,46 @@ TEST_F(Probe, ContactsThatCountTwice) {
     EXPECT_FALSE(failed.contains("sliding"));
 }
 
+// phi'' = rate sin(phi) from rest, integrated in steps of time as a second way to the same number; 1e-5 is
+// the error of 20,000 leapfrog steps and of the last, whole step.
+TEST(ThreeGrains, RollingTimeIsThatOfTheEquationOfMotion) {
+    GapRoll const roll;
+    for (double const ratio : deck::probed_size_ratios) {
+        double const r = roll.small_diameter / 2, large = ratio * r;
+        double const distance = std::sqrt(std::pow(large + r, 2) - large * large);
+        double const rate = 9.81 / (distance * (1 + 0.4 * std::pow((large + r) / distance, 2)));
+        double const step = rolling_time(roll, ratio) / 20000;
+        double angle = roll.start_angle, speed = 0;
+        for (int i = 0; i < 20000; ++i) {
+            speed += step / 2 * rate * std::sin(angle);
+            angle += step * speed;
+            speed += step / 2 * rate * std::sin(angle);
+        }
+        EXPECT_NEAR(angle, roll.end_angle, 1e-5) << ratio;
+    }
+}
+
+// A grain that small sticks when rolling is suppressed, or when friction is: neither rolls in time.
+TEST_F(Probe, SmallGrainsThatDoNotRoll) {
+    Names const sliding = failed_by(
+        "case $PWD in */three-grains-roll) sed -i '/^fix friction/s/0.5/0.01/g' in.liggghts;; esac");
+    EXPECT_TRUE(sliding.contains("three-grains-roll-1"));
+    EXPECT_TRUE(sliding.contains("three-grains-roll-20"));
+    EXPECT_FALSE(sliding.contains("three-grains-held"));
+    Names const turned = failed_by(
+        "case $PWD in */three-grains-roll) sed -i 's/small nve.sphere/small nve/' in.liggghts;; esac");
+    EXPECT_TRUE(turned.contains("three-grains-roll-3")) << "a grain that cannot turn is stopped by friction";
+}
+
+// A friction 5 % too large holds the grains that should be expelled, one 5 % too small expels the others:
+// the limit of 26.6 degrees moves by 1.1 degrees, the groups are 1 degree from it.
+TEST_F(Probe, SmallGrainsThatGetCaught) {
+    std::string const change =
+        "case $PWD in */three-grains-nip) sed -i '/^fix friction/s/0.5/{}/g' in.liggghts;; esac";
+    EXPECT_EQ(failed_by(fmt::format(fmt::runtime(change), 0.53)), Names{"three-grains-expelled"});
+    EXPECT_EQ(failed_by(fmt::format(fmt::runtime(change), 0.47)), Names{"three-grains-held"});
+}
+
 TEST_F(Probe, AnEngineThatBreaksFailsWithItsMessage) {
     Engine const real = find_engine({});
     EXPECT_EQ(failed_by("exit 7").size(), certificate_of(real).probes.size());
@@ -131,6 +178,12 @@ TEST_F(Probe, TheDecksUseWhatIsProbed) {
     scenario::Scenario const scenario = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
     std::string const campaign =
         deck::make_deck(prepare::prepare_case(scenario), {1}).files.at("in.liggghts");
+    for (ProbeDeck const& probe : {gap_roll_deck(), nip_deck()}) {
+        EXPECT_NE(probe.files.at("in.liggghts")
+                      .find("gran model hertz tangential history limitForce on tangential_damping off\n"),
+                  std::string::npos)
+            << probe.name << " has grains without a trough";
+    }
     for (ProbeDeck const& probe : {fine_impact_deck(), coarse_impact_deck(), incline_deck(), contact_deck(),
                                    drive_deck(), speed_deck(1)}) {
         for (std::string const& text : {campaign, probe.files.at("in.liggghts")}) {

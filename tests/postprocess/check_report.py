@@ -17,6 +17,14 @@ import sys
 HOSTILE = "</pre><script>document.title = 'broken'</script> & \"quoted\" \u03b2"
 CASES = {"0123456789abcdef": 0.55, "fedcba9876543210": None}
 
+# What `vibrotrough convergence` writes, as far as the figure reads it: of a case, and of one that is no longer there.
+BUDGETS = {"format": "vibrotrough numerics", "schema_version": 1, "cases": [
+    {"case": case, "numerical_error": error, "settings": [
+        {"setting": "youngs_modulus", "title": "Young's modulus", "verdict": "extrapolated", "bound": 0.03},
+        {"setting": "length", "title": "length of the box", "verdict": "not-resolved", "bound": 0.04},
+        {"setting": "width", "title": "width of the box", "verdict": "left-out", "bound": 0.0}]}
+    for case, error in (("0123456789abcdef", 0.05), ("fedcba9876543210", None), ("bbbbbbbbbbbb", 0.1))]}
+
 # Clicks on headings, and writes the order of the rows into the page after each.
 PROBE = """<script>
   const order = () => Array.from(document.querySelectorAll("#cases tbody tr")).map((row) => row.cells[0].textContent).join(" ");
@@ -59,6 +67,7 @@ def make_campaign(sample, columns, work):
         "throw_number,vibration_angle_deg,velocity_efficiency\n2.0,28.6479,0.5\n3.5,28.6479,0.7\n", encoding="utf-8")
     (folder / "certificate.json").write_text(json.dumps({"engine": HOSTILE, "passed": True, "checks": [
         {"name": "restitution", "deviation": 0.01}, {"name": "friction", "deviation": 0.0}]}), encoding="utf-8")
+    (folder / "numerics.json").write_text(json.dumps(BUDGETS), encoding="utf-8")
     return folder
 
 
@@ -98,6 +107,27 @@ def check_page(page):
     assert len(names) > 50 and not re.search(r'url\(#(?!figure\d)', page)
 
 
+def check_budget(scripts, folder):
+    """Parts add in squares, so that the heights of the stack, squares over the total, add up to it: 3-4-5 triangle."""
+    sys.path.insert(0, str(scripts))
+    import figure_budget
+
+    budgets = figure_budget.read_budgets(folder, list(CASES))
+    assert [budget["case"] for budget in budgets] == list(CASES), "a case that is no longer there is left out"
+    heights = figure_budget.shares(budgets[0])
+    assert abs(heights[0] - 0.018) < 1e-15 and abs(heights[1] - 0.032) < 1e-15 and heights[2] == 0.0, heights
+    text = (folder / "report" / "budget.svg").read_text(encoding="utf-8")
+    assert "Young" in text and "unknown" in text and "width of the box" not in text, "what is left out has no colour"
+
+    kept = (folder / "numerics.json").read_bytes()
+    (folder / "numerics.json").write_text("{", encoding="utf-8")
+    failed = subprocess.run([sys.executable, "-B", scripts / "figures.py", folder, "--only", "budget"], capture_output=True, text=True)
+    assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "numerics.json" in failed.stderr, failed.stderr
+    (folder / "numerics.json").unlink()
+    assert run_script(scripts, "figures.py", folder, "--only", "budget") == [], "without a study there is no figure"
+    (folder / "numerics.json").write_bytes(kept)
+
+
 def check_in_browser(browser, report, work):
     probed = work / "probed.html"
     probed.write_text(report.read_text(encoding="utf-8").replace("</body>", PROBE + "</body>"), encoding="utf-8")
@@ -125,12 +155,13 @@ def main(scripts, sample, columns, work):
     drawn = run_script(scripts, "figures.py", folder)
     assert {path.name for path in drawn} >= {
         f"{name}.{kind}" for kind in ("svg", "png")
-        for name in ("efficiency", "residuals", *(f"cycles-{case}" for case in CASES))}, drawn
+        for name in ("efficiency", "residuals", "budget", *(f"cycles-{case}" for case in CASES))}, drawn
     for path in drawn:
         assert path.stat().st_size > 2000, path
         if path.suffix == ".svg":
             text = path.read_text(encoding="utf-8")
             assert "sample  \u00b7  Vibrotrough" in text, f"{path} does not name campaign and program"
+    check_budget(scripts, folder)
     only = run_script(scripts, "figures.py", folder, "--only", "cycles", "--case", "0123456789abcdef")
     assert [path.name for path in only] == ["cycles-0123456789abcdef.svg", "cycles-0123456789abcdef.png"], only
     (report,) = run_script(scripts, "report.py", folder)

@@ -118,6 +118,9 @@ def check_campaign_values(file):
     # Gamma goes with the square of the frequency; powers of two are exact in a double.
     assert file["throw_number"][1] == 4 * file["throw_number"][0]
     assert list(file["packings"]) == [2, 2]
+    # The first case has borrowed its numerical error, that of the second is not known.
+    assert file["efficiency_numerical_error"][0] == 0.034 and math.isnan(file["efficiency_numerical_error"][1])
+    assert list(file["numerical_error_case"].asstr()) == ["fedcba9876543210", ""]
     assert list(file["layer_mode"].asstr()) == ["FP'N"] * 2 and list(file["flight_number"]) == [0.625] * 2
 
 

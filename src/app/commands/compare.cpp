@@ -7,7 +7,10 @@
 #include "compare/exports.hpp"
 #include "compare/select.hpp"
 #include "compare/table.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -25,6 +28,7 @@ struct Options {
     bool json = false;
     bool csv = false;
     bool curves = false;
+    bool budget = false;
     std::string sort;
     std::vector<std::string> filters;
     std::string colour = "auto";
@@ -42,6 +46,20 @@ compare::TableStyle style_for(std::string const& colour) {
     return style;
 }
 
+/// The table with both errors. @throws core::InputError when no numerical error is known
+void print_budget(std::vector<compare::Row> const& rows, Options const& options) {
+    bool const any =
+        std::ranges::any_of(rows, [](auto const& row) { return row.numerical_error.has_value(); });
+    if (!any && !rows.empty()) {
+        throw core::InputError(fmt::format(
+            "the numerical error of no case in {} is known; measure it with 'vibrotrough convergence {}'",
+            options.folder, core::shell_word(options.folder)));
+    }
+    fmt::print("{}", compare::to_table(rows, style_for(options.colour), compare::budget_columns()));
+    if (std::ranges::any_of(rows, compare::is_borrowed))
+        fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
+}
+
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     std::vector<compare::Row> rows = compare::compared_cases(plan, campaign::activity_in(plan.folder)).rows;
@@ -53,6 +71,8 @@ int run(Options const& options) {
         fmt::print("{}", compare::theory_curves_csv(rows));
     } else if (options.csv) {
         fmt::print("{}", compare::to_csv(rows));
+    } else if (options.budget) {
+        print_budget(rows, options);
     } else {
         fmt::print("{}", compare::to_table(rows, style_for(options.colour)));
     }
@@ -72,6 +92,12 @@ void add_compare(CLI::App& program, int& exit_code) {
     command
         ->add_flag("--theory-curves", options->curves,
                    "Print fine curves of the theory through the cases as CSV, for figures")
+        ->excludes(json)
+        ->excludes(csv);
+    command
+        ->add_flag("--budget", options->budget,
+                   "Print the table with both errors of the simulation, statistical and numerical, after "
+                   "'vibrotrough convergence'. JSON and CSV always have both")
         ->excludes(json)
         ->excludes(csv);
     command
@@ -105,6 +131,11 @@ void add_compare(CLI::App& program, int& exit_code) {
   difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
               theory, cyan where it is slower, bold from 0.1 on, plain within the interval
   mode        how the theory's point mass and the layer move within a period
+
+With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
+interval, and how far Young's modulus, time step and box are from their limits. A star marks a numerical error that was
+measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
+cycles do not help where it is the numerical one.
 
 )") + mode_letters + R"(
 

@@ -82,13 +82,14 @@ void add_plot(CLI::App& program, int& exit_code) {
     auto const options = add_common(*command);
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
-        ->check(CLI::IsMember({"efficiency", "residuals", "cycles", "portraits", "profiles"}))
+        ->check(CLI::IsMember({"efficiency", "residuals", "budget", "cycles", "portraits", "profiles"}))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->footer(R"(Kinds of figures:
   efficiency  velocity efficiency over throw number: DEM with error bars, the theory as lines
   residuals   DEM minus theory
+  budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
   cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
   portraits   for each case: layer and point mass in phase space
   profiles    for each case: velocity over height

@@ -1,6 +1,7 @@
 #include "campaign/state/overview.hpp"
 
 #include "campaign/state/case_state.hpp"
+#include "campaign/state/numerics_results.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
@@ -126,6 +127,8 @@ bool is_campaign_file_outdated(Plan const& plan) {
     std::error_code none;
     fs::file_time_type const written = fs::last_write_time(plan.folder / "campaign.h5", none);
     bool const is_there = !none;
+    fs::file_time_type const studied = fs::last_write_time(numerics_file(plan.folder), none);
+    if (!none && is_there && studied > written) return true;
     return std::ranges::any_of(plan.cases, [&](PlannedCase const& planned) {
         fs::file_time_type const finished = fs::last_write_time(planned.result_file(), none);
         return !none && (!is_there || finished > written);
@@ -140,7 +143,7 @@ void write_campaign_file(Plan const& plan) {
         if (found->is_from_result) write_summary(planned, found->record);
         records.push_back(std::move(found->record));
     }
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, records);
+    store::write_campaign(plan.folder / "campaign.h5", plan.name, records, read_case_numerics(plan));
 }
 
 }  // namespace vibrotrough::campaign

@@ -1,0 +1,246 @@
+#include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
+#include "app/engine_certificate.hpp"
+#include "app/exit_code.hpp"
+#include "app/progress_printer.hpp"
+#include "campaign/execute/campaign_driver.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/numerics_results.hpp"
+#include "campaign/state/overview.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
+#include "core/text.hpp"
+#include "scenario/reader/written_campaign.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string campaign;
+    std::string output;
+    std::string engine;
+    std::vector<std::string> cases;
+    std::optional<double> half_width;
+    bool accept_failed_probes = false;
+    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+};
+
+/// The campaign that is studied: a folder that was run, or a campaign file with the folder that it has or
+/// will have.
+campaign::Plan open_campaign(Options const& options, std::string const& engine_version) {
+    fs::path const given = options.campaign;
+    if (fs::is_directory(given)) {
+        if (!options.output.empty())
+            throw core::InputError(
+                "--output belongs to a campaign file; a folder is studied in its own place");
+        return campaign::open_plan(given);
+    }
+    scenario::Campaign const campaign = scenario::read_campaign(given);
+    fs::path const folder =
+        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    return campaign::make_plan(campaign, folder, engine_version);
+}
+
+/// The studies of the chosen cases. @throws core::InputError when there is no such case
+std::vector<campaign::NumericsStudy> plan_studies(campaign::Plan const& plan, Options const& options) {
+    std::vector<campaign::NumericsStudy> studies;
+    if (options.cases.empty()) {
+        for (std::size_t const number : campaign::representative_cases(plan.cases.size()))
+            studies.push_back(campaign::plan_study(plan.cases[number], options.half_width));
+    }
+    for (std::string const& id : options.cases) {
+        auto const planned = std::ranges::find(plan.cases, id, &campaign::PlannedCase::id);
+        if (planned == plan.cases.end()) {
+            throw core::InputError(
+                fmt::format("--case {}: the campaign '{}' has no such case; 'vibrotrough "
+                            "plan' lists the ids of its cases",
+                            core::printable(id, 40), plan.name));
+        }
+        bool const twice = std::ranges::any_of(studies, [&](auto const& one) { return one.case_id == id; });
+        if (!twice) studies.push_back(campaign::plan_study(*planned, options.half_width));
+    }
+    return studies;
+}
+
+/// Writes the campaign of all studies into its folder and plans it.
+campaign::Plan write_study(campaign::Plan const& original,
+                           std::vector<campaign::NumericsStudy> const& studies, fs::path const& folder,
+                           std::string const& engine_version) {
+    std::vector<scenario::Scenario> scenarios;
+    for (campaign::NumericsStudy const& study : studies) {
+        for (scenario::Scenario const& one : study.scenarios()) scenarios.push_back(one);
+    }
+    for (scenario::Scenario const& one : scenarios) campaign::write_named_files(one, folder);
+    std::string const comment = fmt::format(
+        "The numerical error of cases of {}: their settings one by one nearer to the limit", original.name);
+    core::write_file_atomically(folder / "study.toml", scenario::campaign_toml(scenarios, comment));
+    return campaign::make_plan(scenario::read_campaign(folder / "study.toml"), folder, engine_version);
+}
+
+std::string describe(evaluate::SettingError const& setting) {
+    if (!setting.error)
+        return fmt::format("{}: {}", setting.is_left_out() ? "left out" : "unknown", setting.message);
+    measure::NumericalError const& found = *setting.error;
+    std::string const values = fmt::format("{:+.4f} +- {:.4f}", found.error, found.half_width);
+    switch (found.verdict) {
+        case measure::Convergence::extrapolated:
+            return values + "  extrapolated to the limit";
+        case measure::Convergence::resolved:
+            return fmt::format("{}  against {:.3g} {}", values, setting.variations.back().value,
+                               unit_of(setting.setting) == "1" ? "" : unit_of(setting.setting));
+        case measure::Convergence::not_resolved:
+            break;
+    }
+    return fmt::format("{}  not resolved: within {:.4f}", values, found.half_width);
+}
+
+void print(evaluate::NumericsBudget const& budget) {
+    fmt::print("case {}", budget.case_id);
+    if (budget.standard.mean) fmt::print(": efficiency {:.4f}", *budget.standard.mean);
+    if (budget.standard.half_width) fmt::print(" +- {:.4f}", *budget.standard.half_width);
+    fmt::print("\n");
+    for (evaluate::SettingError const& setting : budget.settings) {
+        std::string const text = describe(setting);
+        fmt::print("  {:<24} {}\n", title_of(setting.setting),
+                   text.substr(0, text.find_last_not_of(' ') + 1));
+    }
+    if (auto const error = budget.numerical_error()) {
+        fmt::print("  {:<24} {:.4f}\n", "numerical error", *error);
+    } else {
+        fmt::print("  {:<24} unknown, because a part of it is\n", "numerical error");
+    }
+}
+
+/// What to do about parts that are no more than the bounds of their own intervals.
+void print_advice(std::vector<evaluate::NumericsBudget> const& budgets) {
+    std::ptrdiff_t open = 0;
+    for (evaluate::NumericsBudget const& budget : budgets) {
+        open += std::ranges::count_if(budget.settings, [](evaluate::SettingError const& one) {
+            return one.error && one.error->verdict == measure::Convergence::not_resolved;
+        });
+    }
+    if (open > 0)
+        fmt::print(
+            "{} part{} not resolved and counted with the half-width of their intervals; a smaller "
+            "--half-width narrows them\n",
+            open, open == 1 ? " is" : "s are");
+}
+
+int run(Options const& options) {
+    std::optional<fs::path> const program =
+        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
+    if (!fs::exists(options.campaign)) scenario::read_campaign(options.campaign);  // throws with the cure
+    engine::Engine engine = engine::find_engine(program);
+    campaign::Plan const original = open_campaign(options, engine.version);
+    auto const studies = plan_studies(original, options);
+    fs::path const folder = original.folder / "convergence";
+    core::make_folder(folder);
+    if (!certify(engine, options.accept_failed_probes)) return interrupted;
+    campaign::Plan plan = write_study(original, studies, folder, engine.version);
+    fmt::print(stderr, "{} case{} of '{}' in {} variations\n", studies.size(), studies.size() == 1 ? "" : "s",
+               original.name, plan.cases.size());
+    campaign::Summary summary;
+    {
+        ProgressPrinter printer;
+        summary = campaign::run_campaign(
+            plan, folder / "study.toml", *campaign::make_policy(), campaign::executor_kind("local"),
+            {folder, engine, {}, options.jobs, {}}, campaign::Until::done, printer);
+    }
+    campaign::write_campaign_file(plan);
+    auto const budgets = campaign::measure_numerics(plan, studies);
+    for (evaluate::NumericsBudget const& budget : budgets) print(budget);
+    if (summary.interrupted) {
+        fmt::print("interrupted: the same command continues it\n");
+        return interrupted;
+    }
+    campaign::write_numerics(original.folder, budgets);
+    bool const was_run = fs::is_regular_file(original.folder / "campaign.h5");
+    if (was_run) campaign::write_campaign_file(original);
+    fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
+               campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
+               core::shell_word(original.folder));
+    print_advice(budgets);
+    bool const all =
+        std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });
+    return all ? all_well : some_cases_failed;
+}
+
+}  // namespace
+
+void add_convergence(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command = program.add_subcommand(
+        "convergence", R"(Measure the numerical error of a campaign's velocity efficiencies
+
+The interval of a case says how well its mean is known. It does not say how far that mean is from the one with hard
+grains, a vanishing time step and an endless layer. This command simulates chosen cases again with each of these settings
+nearer to its limit, one at a time, and adds the differences up to an error budget.)");
+    command
+        ->add_option("CAMPAIGN", options->campaign,
+                     "The campaign file, or the folder of a campaign that was run")
+        ->required()
+        ->type_name("CAMPAIGN.toml|DIR");
+    add_results_folder(*command, options->output);
+    command
+        ->add_option(
+            "--case", options->cases,
+            "Study this case, an id that 'vibrotrough plan' or 'compare' shows; repeat the option for "
+            "further cases. Default: the first, the middle and the last case of the campaign")
+        ->type_name("ID")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--half-width", options->half_width,
+                     "Half-width of the interval that is wanted of each variation; default: "
+                     "measure.half_width of the case. No error below about 1.4 times this is resolved")
+        ->check(CLI::Range(1e-5, 1.0))
+        ->type_name("H");
+    command->add_option("--jobs", options->jobs, "Engines that run at a time")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    add_engine(*command, options->engine);
+    command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
+    command->footer(
+        R"(Each case is simulated with its own settings, with Young's modulus times 4 and 16, with half the
+time step, and in a box of twice the length and of twice the width. This costs about 13 times as much as the case itself.
+What makes no sense is left out and named: the width between side walls, and all of these for a rigid block, whose
+contact is made 2 and 4 times stiffer instead. The simulations are a campaign of their own in DIR/convergence.
+
+The error of a setting is the default's value minus that of the limit, with the intervals of both combined. Where
+the order of the error is known (Young's modulus: overlaps go with E^(-2/5)), the limit is extrapolated if the values rise or
+fall significantly throughout and lie on one line. Otherwise the finest setting stands for the limit. An error that is
+smaller than its interval is not resolved, and the interval bounds it. The numerical error of the case is the root of the
+sum of the squares of these parts.
+
+The budget is written to DIR/numerics.json. 'vibrotrough compare DIR --budget', the report and campaign.h5 then show
+the numerical error beside the statistical one. Cases that were not studied borrow it from the nearest case that was.
+
+Ctrl-C stops the run cleanly, and the same command continues it.
+
+Exit codes:
+    0  the numerical error of every chosen case was measured
+    1  a part of some budget could not be measured; the reason is printed
+    2  the input is wrong
+    3  something is missing: no liggghts, one that failed its probes, or no disk space
+  130  interrupted
+
+Examples:
+  vibrotrough convergence runs/demo --jobs 2
+  vibrotrough convergence validation/demo/campaign.toml --output runs/demo --half-width 0.01)");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,267 @@
+#include "campaign/state/numerics_results.hpp"
+
+#include "campaign/state/case_state.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr char const* format_name = "vibrotrough numerics";
+constexpr int schema_version = 1;
+
+evaluate::StudyResult result_of(Plan const& plan, scenario::Scenario const& scenario) {
+    std::string const id = case_id(prepare::prepare_case(scenario), plan.engine_version);
+    auto const planned = std::ranges::find(plan.cases, id, &PlannedCase::current_id);
+    if (planned == plan.cases.end()) return {id, {}, {}, "not part of the study"};
+    if (auto const record = read_whole_result(*planned)) {
+        if (record->outcome == core::Outcome::not_steady)
+            return {id, {}, {}, "not-steady: allow more cycles (measure.max_cycles)"};
+        return {id, record->estimate.mean, record->estimate.half_width, ""};
+    }
+    auto const failure = read_failure(*planned);
+    return {id,
+            {},
+            {},
+            failure ? fmt::format("{}: {}", name_of(failure->outcome), failure->message) : "not finished"};
+}
+
+Json number(std::optional<double> const& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json describe(evaluate::StudyResult const& result) {
+    return {{"case", result.case_id},
+            {"efficiency", number(result.mean)},
+            {"efficiency_half_width", number(result.half_width)},
+            {"message", result.message}};
+}
+
+Json describe(evaluate::SettingError const& setting) {
+    Json variations = Json::array();
+    for (evaluate::MeasuredVariation const& one : setting.variations) {
+        Json variation{{"value", one.value}, {"coarseness", one.coarseness}};
+        variation.update(describe(one.result));
+        variation["error"] = number(one.error);
+        variation["error_half_width"] = number(one.half_width);
+        variations.push_back(std::move(variation));
+    }
+    std::string_view const verdict = setting.is_left_out() ? "left-out"
+                                     : setting.error       ? evaluate::name_of(setting.error->verdict)
+                                                           : "unknown";
+    Json json{{"setting", name_of(setting.setting)},
+              {"title", title_of(setting.setting)},
+              {"key", key_of(setting.setting)},
+              {"unit", unit_of(setting.setting)},
+              {"default", setting.value},
+              {"order", number(setting.order)},
+              {"verdict", verdict},
+              {"error", nullptr},
+              {"error_half_width", nullptr},
+              {"bound", setting.is_left_out() ? Json(0.0) : Json(nullptr)},
+              {"message", setting.message},
+              {"variations", std::move(variations)}};
+    if (setting.error) {
+        json["error"] = setting.error->error;
+        json["error_half_width"] = setting.error->half_width;
+        json["bound"] = setting.error->bound();
+    }
+    return json;
+}
+
+Json describe(evaluate::NumericsBudget const& budget) {
+    Json settings = Json::array();
+    for (evaluate::SettingError const& one : budget.settings) settings.push_back(describe(one));
+    return {{"case", budget.case_id},
+            {"confidence", budget.confidence},
+            {"default", describe(budget.standard)},
+            {"numerical_error", number(budget.numerical_error())},
+            {"settings", std::move(settings)}};
+}
+
+/// The list of budgets in the file; empty when there is no file. @throws core::InputError when it is damaged
+Json read_list(fs::path const& campaign_folder) {
+    fs::path const path = numerics_file(campaign_folder);
+    if (!fs::is_regular_file(path)) return Json::array();
+    try {
+        Json const json = Json::parse(core::read_file(path));
+        if (json.at("format") == format_name && json.at("schema_version") == schema_version &&
+            json.at("cases").is_array())
+            return json.at("cases");
+    } catch (Json::exception const&) {
+        // The message below says it.
+    }
+    throw core::InputError(
+        fmt::format("{} is damaged; delete it and run 'vibrotrough convergence' again, which simulates "
+                    "nothing a second time",
+                    path.string()));
+}
+
+/// The number at the beginning of a value as TOML ("0.006 m" in quotes, or 0.23), if it is one.
+std::optional<double> leading_number(std::string const& value) {
+    char const* const begin = value.c_str() + (value.starts_with('"') || value.starts_with('\'') ? 1 : 0);
+    char* end = nullptr;
+    double const found = std::strtod(begin, &end);
+    return end == begin ? std::nullopt : std::optional(found);
+}
+
+/// Distances between the cases of a plan in the keys in which they differ.
+class CaseSpace {
+  public:
+    explicit CaseSpace(Plan const& plan) {
+        for (PlannedCase const& one : plan.cases) keys_.push_back(keys_of(one.scenario()));
+        for (auto const& keys : keys_) {
+            for (auto const& [name, value] : keys) add(name, value);
+        }
+    }
+
+    double distance(std::size_t a, std::size_t b) const {
+        double squares = 0;
+        for (auto const& [name, range] : ranges_) {
+            auto const one = keys_[a].find(name), other = keys_[b].find(name);
+            if (one == keys_[a].end() && other == keys_[b].end()) continue;
+            if (one == keys_[a].end() || other == keys_[b].end()) {
+                squares += 1;
+                continue;
+            }
+            squares += std::pow(difference(one->second, other->second, range), 2);
+        }
+        return std::sqrt(squares);
+    }
+
+  private:
+    struct Range {
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+    };
+
+    void add(std::string const& name, std::string const& value) {
+        Range& range = ranges_[name];
+        if (auto const known = leading_number(value)) {
+            range.least = std::min(range.least, *known);
+            range.most = std::max(range.most, *known);
+        }
+    }
+
+    static double difference(std::string const& one, std::string const& other, Range const& range) {
+        if (one == other) return 0;
+        auto const a = leading_number(one), b = leading_number(other);
+        return a && b && range.most > range.least ? (*a - *b) / (range.most - range.least) : 1;
+    }
+
+    std::vector<scenario::WrittenKeys> keys_;
+    std::map<std::string, Range> ranges_;
+};
+
+}  // namespace
+
+std::vector<scenario::Scenario> NumericsStudy::scenarios() const {
+    std::vector<scenario::Scenario> all{standard.scenario};
+    for (prepare::VariedSetting const& setting : settings) {
+        for (prepare::NumericalVariation const& one : setting.variations) all.push_back(one.scenario);
+    }
+    return all;
+}
+
+namespace {
+
+/// The scenario as it comes back from the study's campaign file, where the number of grains may be rounded.
+scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
+    return scenario::parse_campaign(to_toml(scenario), "study", {{}, named_files(scenario)}).cases.front();
+}
+
+}  // namespace
+
+NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_width) {
+    scenario::Scenario scenario = planned.scenario();
+    scenario.output.frames_per_cycle = 0;
+    if (half_width) scenario.measure.half_width = *half_width;
+    NumericsStudy study{planned.id, prepare::prepare_case(as_read_back(scenario)), {}};
+    study.settings = vary_numerics(study.standard);
+    for (prepare::VariedSetting& setting : study.settings) {
+        for (prepare::NumericalVariation& one : setting.variations) one.scenario = as_read_back(one.scenario);
+    }
+    return study;
+}
+
+std::vector<std::size_t> representative_cases(std::size_t count) {
+    std::vector<std::size_t> chosen;
+    if (count == 0) return chosen;
+    for (std::size_t const number : {std::size_t{0}, (count - 1) / 2, count - 1}) {
+        if (chosen.empty() || number != chosen.back()) chosen.push_back(number);
+    }
+    return chosen;
+}
+
+std::vector<evaluate::NumericsBudget> measure_numerics(Plan const& plan,
+                                                       std::vector<NumericsStudy> const& studies) {
+    std::vector<evaluate::NumericsBudget> budgets;
+    for (NumericsStudy const& study : studies) {
+        std::vector<evaluate::StudyResult> results;
+        for (scenario::Scenario const& one : study.scenarios()) results.push_back(result_of(plan, one));
+        evaluate::StudyResult const standard = results.front();
+        results.erase(results.begin());
+        budgets.push_back(evaluate::make_budget(study.case_id, study.standard.scenario.measure.confidence,
+                                                standard, study.settings, results));
+    }
+    return budgets;
+}
+
+fs::path numerics_file(fs::path const& campaign_folder) {
+    return campaign_folder / "numerics.json";
+}
+
+void write_numerics(fs::path const& campaign_folder, std::vector<evaluate::NumericsBudget> const& budgets) {
+    Json list = Json::array();
+    for (Json const& kept : read_list(campaign_folder)) {
+        bool const is_new = std::ranges::any_of(
+            budgets, [&](auto const& one) { return kept.value("case", "") == one.case_id; });
+        if (!is_new) list.push_back(kept);
+    }
+    for (evaluate::NumericsBudget const& one : budgets) list.push_back(describe(one));
+    Json const json{{"format", format_name}, {"schema_version", schema_version}, {"cases", std::move(list)}};
+    core::write_file_atomically(numerics_file(campaign_folder), json.dump(2) + "\n");
+}
+
+std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan) {
+    std::map<std::string, double> studied;
+    try {
+        for (Json const& one : read_list(plan.folder)) {
+            if (Json const& error = one.at("numerical_error"); !error.is_null())
+                studied[one.at("case")] = error.get<double>();
+        }
+    } catch (Json::exception const&) {
+        throw core::InputError(
+            fmt::format("{} is damaged; delete it and run 'vibrotrough convergence' again, which simulates "
+                        "nothing a second time",
+                        numerics_file(plan.folder).string()));
+    }
+    std::map<std::string, store::CaseNumerics> found;
+    std::vector<std::size_t> sources;
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        if (studied.contains(plan.cases[i].id)) sources.push_back(i);
+    }
+    if (sources.empty()) return found;
+    CaseSpace const space(plan);
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) {
+        std::size_t const nearest = *std::ranges::min_element(
+            sources, {}, [&](std::size_t other) { return space.distance(i, other); });
+        std::string const& source = plan.cases[nearest].id;
+        found[plan.cases[i].id] = {studied.at(source), source};
+    }
+    return found;
+}
+
+}  // namespace vibrotrough::campaign

@@ -1,0 +1,138 @@
+#include "prepare/numerics_variations.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::prepare {
+namespace {
+
+// The ranges of the keys (scenario/reader/keys.cpp).
+constexpr double stiffest = 1e12;              // Pa
+constexpr double least_fraction = 0.01;        // of the Rayleigh time
+constexpr double stiffest_block = 10'000;      // solver.block_stiffness
+constexpr double most_grains = 10'000'000;     // layer.grains
+constexpr double contact_order = -2.0 / 5;     // of overlaps at impact and contact times in E
+constexpr double modulus_factors[] = {4, 16};  // coarseness 0.57 and 0.33
+constexpr double block_factors[] = {2, 4};     // coarseness 1/2 and 1/4
+
+struct SettingNames {
+    std::string_view name, title, key, unit;
+};
+
+SettingNames names_of(NumericalSetting setting) {
+    switch (setting) {
+        case NumericalSetting::youngs_modulus:
+            return {"youngs_modulus", "Young's modulus", "grains.youngs_modulus", "Pa"};
+        case NumericalSetting::time_step:
+            return {"time_step", "time step", "solver.rayleigh_fraction", "1"};
+        case NumericalSetting::length:
+            return {"length", "length of the box", "layer.length", "m"};
+        case NumericalSetting::width:
+            return {"width", "width of the box", "layer.width", "m"};
+        case NumericalSetting::block_stiffness:
+            return {"block_stiffness", "stiffness of the block", "solver.block_stiffness", "1"};
+    }
+    throw std::invalid_argument("no such numerical setting");
+}
+
+VariedSetting vary_modulus(scenario::Scenario const& s) {
+    VariedSetting varied{NumericalSetting::youngs_modulus, s.grains.youngs_modulus, 1};
+    for (double const factor : modulus_factors) {
+        double const modulus = factor * s.grains.youngs_modulus;
+        if (modulus > stiffest) continue;
+        scenario::Scenario stiff = s;
+        stiff.grains.youngs_modulus = modulus;
+        varied.variations.push_back({modulus, std::pow(factor, contact_order), stiff});
+    }
+    if (varied.variations.empty())
+        varied.left_out = fmt::format("{:.3g} Pa is as stiff as the key allows", s.grains.youngs_modulus);
+    return varied;
+}
+
+VariedSetting vary_time_step(PreparedCase const& c) {
+    double const fraction = c.time.rayleigh_fraction;
+    VariedSetting varied{NumericalSetting::time_step, fraction, {}};
+    if (fraction / 2 < least_fraction) {
+        varied.left_out = fmt::format("it is {:.2g} of the Rayleigh time already", fraction);
+        return varied;
+    }
+    scenario::Scenario half = c.scenario;
+    half.solver.rayleigh_fraction = fraction / 2;
+    varied.variations.push_back({fraction / 2, 0.5, half});
+    return varied;
+}
+
+/// Twice the size of the box with the same height of the layer.
+VariedSetting vary_box(scenario::Scenario const& s, NumericalSetting setting, double scenario::Layer::*size) {
+    VariedSetting varied{setting, s.layer.*size, {}};
+    if (2.0 * s.layer.grains > most_grains) {
+        varied.left_out = "the layer would have more grains than the key allows";
+        return varied;
+    }
+    scenario::Scenario larger = s;
+    larger.layer.*size *= 2;
+    larger.layer.grains *= 2;
+    varied.variations.push_back({larger.layer.*size, 0.5, larger});
+    return varied;
+}
+
+std::vector<VariedSetting> vary_block(PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    VariedSetting stiffness{NumericalSetting::block_stiffness, s.solver.block_stiffness, 1};
+    for (double const factor : block_factors) {
+        scenario::Scenario stiff = s;
+        stiff.solver.block_stiffness *= factor;
+        if (stiff.solver.block_stiffness <= stiffest_block)
+            stiffness.variations.push_back({stiff.solver.block_stiffness, 1 / factor, stiff});
+    }
+    if (stiffness.variations.empty()) stiffness.left_out = "it is as stiff as the key allows";
+    auto const left_out = [](NumericalSetting setting, double value, std::string why) {
+        return VariedSetting{setting, value, {}, {}, std::move(why)};
+    };
+    return {stiffness,
+            left_out(NumericalSetting::youngs_modulus, s.grains.youngs_modulus,
+                     "a block has a contact of its own instead"),
+            left_out(NumericalSetting::time_step, c.time.rayleigh_fraction,
+                     "it follows from the duration of the block's contact"),
+            left_out(NumericalSetting::length, s.layer.length, "a block does not meet its periodic images"),
+            left_out(NumericalSetting::width, s.layer.width, "a block does not meet its periodic images")};
+}
+
+}  // namespace
+
+std::string_view name_of(NumericalSetting setting) {
+    return names_of(setting).name;
+}
+
+std::string_view title_of(NumericalSetting setting) {
+    return names_of(setting).title;
+}
+
+std::string_view key_of(NumericalSetting setting) {
+    return names_of(setting).key;
+}
+
+std::string_view unit_of(NumericalSetting setting) {
+    return names_of(setting).unit;
+}
+
+std::vector<VariedSetting> vary_numerics(PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    if (s.layer.block != scenario::Block::none) return vary_block(c);
+    std::vector<VariedSetting> all{vary_modulus(s), vary_time_step(c),
+                                   vary_box(s, NumericalSetting::length, &scenario::Layer::length)};
+    if (s.trough.side_wall_friction) {
+        all.push_back({NumericalSetting::width,
+                       s.layer.width,
+                       {},
+                       {},
+                       "between side walls the width is part of the problem"});
+    } else {
+        all.push_back(vary_box(s, NumericalSetting::width, &scenario::Layer::width));
+    }
+    return all;
+}
+
+}  // namespace vibrotrough::prepare

@@ -1,0 +1,136 @@
+"""The numerical error of a campaign: a small layer and blocks with their settings nearer to the limit, by the real engine."""
+
+import json
+import math
+import os
+import signal
+import unittest
+
+import h5py
+
+from trough_program import EndToEndTest, wait_until
+
+# A rigid block: seconds per case, and almost no scatter.
+BLOCK = {"layer.grains": None, "layer.block": "point", "grains.diameter_spread": None, "measure.packings": 1,
+         "measure.half_width": 0.01}  # fmt: skip
+
+
+class Convergence(EndToEndTest):
+    def study(self, campaign, *arguments, wanted=0, output=True):
+        where = ["--output", self.output] if output else []
+        done = self.call("convergence", campaign, *where, "--jobs", 2, "--liggghts", self.engine, *arguments)
+        self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
+        return done
+
+    def budgets(self):
+        text = json.loads((self.output / "numerics.json").read_text())
+        self.assertEqual((text["format"], text["schema_version"]), ("vibrotrough numerics", 1))
+        return text["cases"]
+
+    def test_a_layer_from_study_to_table(self):
+        # Wide intervals keep it short: what is tested is the way of the numbers, not their size.
+        campaign = self.write_campaign({"measure.half_width": 0.5, "measure.packings": 1})
+        self.run_campaign(campaign)
+        self.take_starts()
+        done = self.study(self.output, output=False)
+        (budget,) = self.budgets()
+        (row,) = self.table()
+        self.assertEqual(budget["case"], row["case"])
+        self.assertEqual([one["setting"] for one in budget["settings"]], ["youngs_modulus", "time_step", "length", "width"])
+        self.assertEqual(len(self.take_starts()), 6, "the case and five variations")
+        squares = 0.0
+        for setting in budget["settings"]:
+            finest = setting["variations"][-1]
+            error = budget["default"]["efficiency"] - finest["efficiency"]
+            half_width = math.hypot(budget["default"]["efficiency_half_width"], finest["efficiency_half_width"])
+            self.assertAlmostEqual(finest["error"], error, delta=1e-12)
+            self.assertAlmostEqual(finest["error_half_width"], half_width, delta=1e-12)
+            if setting["verdict"] != "extrapolated":
+                self.assertAlmostEqual(setting["bound"], max(abs(error), half_width), delta=1e-12)
+            squares += setting["bound"] ** 2
+        self.assertAlmostEqual(budget["numerical_error"], math.sqrt(squares), delta=1e-12)
+        self.assertIn(f"{budget['numerical_error']:.4f}", done.stdout)
+
+        self.assertEqual(row["efficiency_dem_numerical_error"], budget["numerical_error"])
+        self.assertEqual(row["numerical_error_case"], row["case"])
+        larger = "numerical" if budget["numerical_error"] > row["efficiency_dem_half_width"] else "statistical"
+        self.assertEqual(row["larger_error"], larger)
+        shown = self.call("compare", self.output, "--budget").stdout
+        wanted = f"{row['efficiency_dem']:.3f} +- {row['efficiency_dem_half_width']:.3f} +- {budget['numerical_error']:.3f}"
+        self.assertIn(wanted, shown)
+        with h5py.File(self.output / "campaign.h5") as file:
+            self.assertEqual(file["efficiency_numerical_error"][0], budget["numerical_error"])
+            self.assertEqual(file["numerical_error_case"].asstr()[0], row["case"])
+
+        self.study(self.output, output=False)
+        self.assertEqual(self.take_starts(), [], "a finished study is not run again")
+        self.assertEqual(self.budgets(), [budget])
+
+    def test_blocks_before_the_campaign_is_run(self):
+        """A study needs no campaign that was run. A block has one setting."""
+        campaign = self.write_campaign(BLOCK, {"trough.throw_number": [1.5, 2.0, 2.2, 3.0]})
+        done = self.study(campaign, "--case", self.plan_ids(campaign)[1])
+        self.assertIn("after 'vibrotrough run'", done.stdout)
+        self.assertIn("left out: a block has a contact of its own", done.stdout)
+        (budget,) = self.budgets()
+        stiffness = budget["settings"][0]
+        self.assertEqual(stiffness["setting"], "block_stiffness")
+        self.assertEqual([one["value"] for one in stiffness["variations"]], [600, 1200])
+        self.assertEqual({one["verdict"] for one in budget["settings"][1:]}, {"left-out"})
+        # A softer contact ends later; validation/rigid_block finds blocks within 0.007 of the theory.
+        self.assertLess(budget["numerical_error"], 0.02)
+
+    def plan_ids(self, campaign):
+        answer = self.call("plan", campaign, "--output", self.output, "--liggghts", self.engine, "--json")
+        return [case["case"] for case in json.loads(answer.stdout)["cases"]]
+
+    def test_an_interrupted_study_continues(self):
+        campaign = self.write_campaign(BLOCK)
+        process = self.start_study(campaign)
+        wait_until(lambda: list(self.output.glob("convergence/cases/*/packing-1/cycles.csv")), "an engine runs", process)
+        os.kill(process.pid, signal.SIGINT)
+        code, output, _ = self.finish(process)
+        self.assertEqual(code, 130, output)
+        self.assertIn("the same command continues it", output)
+        self.assertFalse((self.output / "numerics.json").exists(), "half a budget is none")
+        self.study(campaign)
+        self.assertIsNotNone(self.budgets()[0]["numerical_error"])
+
+    def start_study(self, campaign):
+        arguments = self.run_arguments
+        self.run_arguments = lambda campaign: ["convergence", *arguments(campaign)[1:]]
+        try:
+            return self.start_campaign(campaign)
+        finally:
+            self.run_arguments = arguments
+
+    def test_a_part_that_fails_leaves_the_sum_unknown(self):
+        campaign = self.write_campaign(BLOCK)
+        os.environ["VIBROTROUGH_TEST_BREAK"] = 'grep -q "block_stiffness = 1200" ../scenario.toml && exit 1; true'
+        done = self.study(campaign, wanted=1)
+        self.assertIn("numerical error          unknown", done.stdout)
+        self.assertIsNone(self.budgets()[0]["numerical_error"])
+        self.assertEqual(self.budgets()[0]["settings"][0]["verdict"], "unknown")
+        os.environ["VIBROTROUGH_TEST_BREAK"] = ""
+        self.study(campaign)
+        self.assertIsNotNone(self.budgets()[0]["numerical_error"])
+
+    def test_wrong_input_is_one_line(self):
+        campaign = self.write_campaign(BLOCK)
+        common = ["--output", self.output, "--liggghts", self.engine]
+        self.assert_one_line_error(self.call("convergence", campaign, *common, "--case", "0123"), 2, "no such case", "0123")
+        self.assert_one_line_error(self.call("convergence", self.folder / "none.toml"), 2, "no such file")
+        self.assert_one_line_error(self.call("convergence", self.folder), 2, "not a campaign folder")
+        self.assertFalse(self.output.exists(), "nothing was begun")
+        self.run_campaign(campaign)
+        self.assert_one_line_error(self.call("compare", self.output, "--budget"), 2, "vibrotrough convergence")
+        self.assert_one_line_error(self.call("convergence", self.output, "--output", self.output), 2, "--output")
+        (row,) = self.table()
+        self.assertIsNone(row["efficiency_dem_numerical_error"])
+        self.assertIsNone(row["larger_error"])
+        (self.output / "numerics.json").write_text("{")
+        self.assert_one_line_error(self.call("compare", self.output), 2, "numerics.json is damaged")
+
+
+if __name__ == "__main__":
+    unittest.main()
