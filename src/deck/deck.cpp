@@ -55,8 +55,9 @@ std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared)
 }  // namespace
 
 int PackingPlan::next_stop(int done) const {
-    int stop = first_pause > 0 ? first_pause : cycles;
-    while (stop <= done) stop *= 2;
+    if (first_pause <= 0) return cycles;
+    int stop = first_pause;
+    while (stop <= done && stop < cycles) stop *= 2;
     return std::min(stop, cycles);
 }
 

@@ -151,6 +151,38 @@ TEST(Deck, RotationChoosesTheIntegrator) {
     EXPECT_NE(rods.find("atoms/3"), std::string::npos);
 }
 
+TEST(Deck, ALongRunPausesAtTheSameCyclesAsOneThatIsContinued) {
+    PackingPlan const plan{1, 200, {}, 24};
+    EXPECT_EQ(plan.next_stop(0), 24);
+    EXPECT_EQ(plan.next_stop(23), 24);
+    EXPECT_EQ(plan.next_stop(24), 48);
+    EXPECT_EQ(plan.next_stop(192), 200);
+    EXPECT_EQ((PackingPlan{1, 24, {}, 24}.next_stop(0)), 24);
+    EXPECT_EQ((PackingPlan{1, 30, {}, 0}.next_stop(10)), 30) << "no pauses";
+    EXPECT_EQ((PackingPlan{1}.next_stop(0)), 0) << "until max_cycles";
+}
+
+TEST(Deck, ControlSaysAfterWhichCycleARunEnds) {
+    prepare::PreparedCase const prepared = prepare::prepare_case(scenario());
+    EXPECT_EQ(make_deck(prepared, {1}).files.at("control.in"), control_go_on);
+    std::string const control = make_deck(prepared, {1, 24}).files.at("control.in");
+    EXPECT_NE(control.find("variable stop equal ${done}>=24\n"), std::string::npos);
+    EXPECT_NE(control.find("write_restart checkpoint.24.restart"), std::string::npos);
+    // All else is the same, so that a packing can be continued with more cycles.
+    EXPECT_EQ(make_deck(prepared, {1, 24}).files.at("in.liggghts"),
+              make_deck(prepared, {1, 48}).files.at("in.liggghts"));
+}
+
+// velocity all set V NULL NULL with V = eta omega r cos(beta), before the first cycle only.
+TEST(Deck, GrainsMayStartWithASpeed) {
+    prepare::PreparedCase const prepared = prepare::prepare_case(scenario());
+    std::string const started = make_deck(prepared, {2, 24, 0.5}).files.at("in.liggghts");
+    std::string const command = fmt::format(
+        "if \"${{done}} == 0\" then \"velocity all set {:.6g} NULL NULL\"\n", 0.5 * prepared.velocity_scale);
+    EXPECT_NE(started.find(command), std::string::npos) << started;
+    EXPECT_EQ(make_deck(prepared, {2, 24}).files.at("in.liggghts").find("velocity all"), std::string::npos);
+}
+
 TEST(Deck, SideWallsAreMeshesThatMove) {
     Deck const deck = make_deck(prepare::prepare_case(scenario(with(
                                     "restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"))),
