@@ -13,7 +13,7 @@ namespace {
 
 /// Packings of each kind of start with which two branches are reported.
 constexpr int packings_per_branch = 4;
-constexpr double least_growth = 1.3, most_growth = 2;
+constexpr double least_growth = 1.2, most_growth = 2;
 
 /// Velocity efficiencies at which packings start, relative to the one expected. In its first cycle a layer
 /// whose grains all have the same speed gains about 0.13, so that these are 0.12 below and 0.18 above.

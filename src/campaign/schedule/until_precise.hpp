@@ -16,7 +16,7 @@ namespace vibrotrough::campaign {
 /// - While the case is not steady, all packings are continued to twice the number of cycles, up to
 ///   measure.max_cycles. If packings that started below and above still differ then, at least four of each
 ///   kind are run, and the case ends as bistable-or-slow.
-/// - A steady case whose interval is too wide gets as many packings as it probably needs, at least 30 % more
+/// - A steady case whose interval is too wide gets as many packings as it probably needs, at least 20 % more
 ///   and at most twice as many. It gets cycles instead where they cost less: where the packings hardly differ
 ///   by more than the fluctuations within a run explain, a longer run saves the start-up of another.
 /// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
