@@ -12,8 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 std::string describe(campaign::Progress const& progress) {
-    std::string text = fmt::format("{} done, {} running, {} left", progress.finished,
-                                   progress.running, progress.left);
+    std::string text =
+        fmt::format("{} done, {} running, {} left", progress.finished, progress.running, progress.left);
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
     text += fmt::format("; packings {}/{}; {} elapsed", progress.packings_done, progress.packings,
                         clock_time(progress.elapsed));

@@ -108,7 +108,8 @@ std::vector<CaseValue> drive_and_result_values() {
           "Velocity efficiency eta, mean over the packings; NaN unless outcome is finished or not-precise"},
          real([](Case c) { return c.estimate.mean; })},
         {{"efficiency_half_width", "1",
-          "Half-width of the confidence interval of efficiency, which allows for the fluctuations within runs "
+          "Half-width of the confidence interval of efficiency, which allows for the fluctuations within "
+          "runs "
           "and between packings; NaN unless outcome is finished or not-precise"},
          Real(half_width)},
         {{"confidence", "1", "Confidence of every interval in this file"},
@@ -153,7 +154,8 @@ std::vector<CaseValue> start_and_scatter_values() {
           "The part of packing_deviation that the fluctuations within a run explain"},
          real([](Case c) { return c.estimate.deviation_within; })},
         {{"correlation_time", "1",
-          "Statistical inefficiency g, pooled over the packings: so many cycles are worth one independent one"},
+          "Statistical inefficiency g, pooled over the packings: so many cycles are worth one independent "
+          "one"},
          real([](Case c) { return c.estimate.correlation_time; })},
         {{"half_width_wanted", "1", "Half-width of the interval that the campaign file asks for"},
          real([](Case c) { return c.scenario.measure.half_width; })},

@@ -167,6 +167,18 @@ TEST_F(UntilPreciseTest, EndsAsNotPreciseAtTheLimits) {
     EXPECT_EQ(cheap.estimate.packings, 4);
 }
 
+// What later rounds cost does not change the decision that led to them.
+TEST_F(UntilPreciseTest, TheLimitOfCoreTimeGivesTheSameAnswerLater) {
+    PlannedCase limited = asking(0.02);
+    prepare::PreparedCase prepared = *limited.prepared;
+    prepared.scenario.measure.max_core_time = 9;
+    prepared.scenario.measure.max_cycles = 24;
+    limited.prepared = std::make_shared<prepare::PreparedCase const>(prepared);
+    SimulatedEnd const end = simulate_case(policy, limited, packings_of({.offset = 3}, 3));
+    EXPECT_EQ(end.outcome, core::Outcome::not_precise);
+    EXPECT_EQ(end.estimate.packings, 8) << "twice the first four; sixteen would take 16 s";
+}
+
 // A packing that was cut while it was being continued counts with the cycles up to its checkpoint, but a
 // result is made of finished ones only.
 TEST_F(UntilPreciseTest, WantsPackingsThatWereCutAfterTheirLastCycle) {

@@ -138,7 +138,8 @@ class Replay {
 
     bool grow(Round& round, int packings) const {
         int const target = std::min(packings, plan_.max_packings);
-        if (target <= round.count() || !is_affordable((target - round.count()) * round.cycles)) return false;
+        if (target <= round.count() || !is_affordable(round, (target - round.count()) * round.cycles))
+            return false;
         extend(round, target, estimate_.mean.value_or(0));
         return true;
     }
@@ -147,7 +148,8 @@ class Replay {
 
     bool lengthen(Round& round) const {
         int const cycles = lengthened(round);
-        if (cycles <= round.cycles || !is_affordable((cycles - round.cycles) * round.count())) return false;
+        if (cycles <= round.cycles || !is_affordable(round, (cycles - round.cycles) * round.count()))
+            return false;
         round.cycles = cycles;
         return true;
     }
@@ -173,15 +175,16 @@ class Replay {
         return *estimate_.half_width * std::sqrt(longer / total);
     }
 
-    /// Whether measure.max_core_time allows so many more cycles.
-    bool is_affordable(int more_cycles) const {
+    /// Whether measure.max_core_time allows so many cycles more than those of a round. What was spent on
+    /// later rounds does not count, so that the answer stays the same when they have been run.
+    bool is_affordable(Round const& round, int more_cycles) const {
         if (!plan_.max_core_time) return true;
-        double spent = 0, cycles = 0;
-        for (auto const& [number, packing] : known_.packings) {
-            spent += packing.core_time;
-            cycles += static_cast<double>(packing.efficiency.size());
+        double spent = 0;
+        for (deck::PackingPlan const& wanted : round.packings) {
+            KnownPacking const& packing = known_.packings.at(wanted.number);
+            spent += packing.core_time * round.cycles / static_cast<double>(packing.efficiency.size());
         }
-        return cycles == 0 || spent * (1 + more_cycles / cycles) <= *plan_.max_core_time;
+        return spent * (1 + more_cycles / round.total()) <= *plan_.max_core_time;
     }
 
     /// Cycles in the end: of this round, whose packings are not all there, and of those that will probably
