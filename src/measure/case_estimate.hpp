@@ -46,7 +46,8 @@ struct CaseEstimate {
     /// The part of `deviation` that the fluctuations within a run explain.
     double deviation_within = 0;
     Steadiness steadiness = Steadiness::steady;  ///< whether the mean may be used
-    std::optional<Branch> below{}, above{};      ///< the two groups; none without such packings
+    std::optional<Branch> below{};  ///< packings that started below the expected speed, if there are any
+    std::optional<Branch> above{};  ///< packings that started above it, if there are any
 };
 
 /// The start-up that the packings of a case have in common: MSER (White, Simulation 69, 1997, 323-334) with

@@ -41,7 +41,7 @@ def campaign_of(kind, cases):
     where a waveform fixes the drive, the trough's friction and restitution vary."""
     side = math.isqrt(cases)
     assert side * side == cases, cases
-    changes = {"measure.packings": 1, "grains.diameter_spread": 0.0}
+    changes = {"measure.packings": 1, "measure.max_cycles": 24, "grains.diameter_spread": 0.0}
     if kind == "waveforms":
         changes |= {"trough.throw_number": None, "trough.frequency": "20 Hz", "trough.waveform": "measured.csv"}
         return changes, {

@@ -63,8 +63,8 @@ class Checkpoint(EndToEndTest):
         self.assertEqual(without_wall_time(self.table()), table)
         # Every cycle, digit for digit: a checkpoint is where the run itself starts again from its file.
         self.assertEqual(self.numbers((self.packing() / "cycles.csv").read_text()), self.numbers(cycles))
-        # What a finished packing needs no more is gone.
-        self.assertEqual(list(self.packing().glob("checkpoint*")), [])
+        # The case is not precise, so that its packing may be continued: only its last checkpoint is kept.
+        self.assertEqual([path.name for path in self.packing().glob("checkpoint.*.restart")], ["checkpoint.24.restart"])
 
     def test_a_checkpoint_that_nobody_sealed_does_no_harm(self):
         """A killed driver may leave a later checkpoint of its engine. A slow machine gives the next driver time to look before its
@@ -88,8 +88,10 @@ class Checkpoint(EndToEndTest):
         campaign = self.write_campaign(LONG)
         table, _ = self.undisturbed(campaign)
         self.kill_in_the_middle(campaign, signal.SIGINT, 20)
+        self.take_starts()
         self.run_campaign(campaign, wanted=1)
-        self.assertGreaterEqual(self.begun(), 20)
+        if self.take_starts():  # else the run had all its cycles, and was only evaluated
+            self.assertGreaterEqual(self.begun(), 20)
         self.assertEqual(without_wall_time(self.table()), table)
 
     def test_a_checkpoint_is_verified_before_it_is_trusted(self):

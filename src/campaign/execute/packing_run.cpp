@@ -59,11 +59,15 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
                               ? core::read_file(planned.certificate_file())
                               : std::string()) {
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
-    if (checkpoint && checkpoint->cycle < packing_.cycles) {
+    if (checkpoint && checkpoint->cycle <= packing_.cycles) {
         cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
-        start_engine(checkpoint);
+        continue_from(*checkpoint);
         return;
     }
+    begin();
+}
+
+void PackingRun::begin() {
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
     settled_.obtain(deck_, planned_.prepared->weight,
@@ -73,6 +77,31 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
 }
 
 PackingRun::~PackingRun() = default;
+
+void PackingRun::continue_from(Checkpoint const& checkpoint) {
+    if (checkpoint.cycle < packing_.cycles) return start_engine(checkpoint);
+    // All cycles are there; only the driver was stopped before it had evaluated them.
+    resume(checkpoint);
+    long const last_step = static_cast<long>(checkpoint.cycle) * planned_.prepared->time.steps_per_cycle;
+    boost::asio::post(context_, [this, last_step, alive = std::weak_ptr<bool>(alive_)] {
+        if (alive.expired()) return;
+        PackingEnd const end = conclude(last_step);
+        if (!end.failure) return on_end_(end);
+        // Damaged: as if there were no checkpoint.
+        remove_checkpoints(folder_);
+        sealed_cycle_ = 0;
+        earlier_wall_time_ = earlier_core_time_ = 0;
+        begin();
+    });
+}
+
+/// Takes over what is known of the run up to a checkpoint.
+void PackingRun::resume(Checkpoint const& checkpoint) {
+    started_ = checkpoint.started;
+    earlier_wall_time_ = checkpoint.wall_time;
+    earlier_core_time_ = checkpoint.core_time;
+    sealed_cycle_ = checkpoint.cycle;
+}
 
 void PackingRun::start_on(Settled const& settled) {
     if (settled.failure || interrupted_) {
@@ -95,10 +124,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
     if (checkpoint) {
         launch.arguments = {"-var", "start", checkpoint->file,
                             "-var", "done",  std::to_string(checkpoint->cycle)};
-        started_ = checkpoint->started;
-        earlier_wall_time_ = checkpoint->wall_time;
-        earlier_core_time_ = checkpoint->core_time;
-        sealed_cycle_ = checkpoint->cycle;
+        resume(*checkpoint);
         // Perhaps on another number of ranks than before.
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
@@ -152,18 +178,17 @@ void PackingRun::interrupt() {
     }
 }
 
-/// Continues a run that has paused at its checkpoint.
-void PackingRun::go_on() {
+/// Continues a run that has paused at its checkpoint; why it cannot, if so.
+std::optional<PackingEnd> PackingRun::go_on() {
     seal();
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (!checkpoint || checkpoint->cycle != stop_) {
-        throw core::MissingError(
-            fmt::format("the engine left no checkpoint after cycle {} in {}; is the disk full?", stop_,
-                        folder_.string()));
+        return PackingEnd{core::Outcome::outputs_incomplete,
+                          fmt::format("the engine left no checkpoint after cycle {}", stop_)};
     }
-    earlier_core_time_ = checkpoint->core_time;
     core_time_of_pauses_ += std::exchange(core_time_, 0);
     start_engine(checkpoint);
+    return {};
 }
 
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
@@ -171,16 +196,17 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     if (interrupted_) return interrupted_end();
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
-    if (stop_ < packing_.cycles) {
-        go_on();
-        return {};
-    }
+    if (stop_ < packing_.cycles) return go_on();
+    return conclude(report.last_step);
+}
+
+/// Evaluates what the engine wrote, and marks the packing as finished.
+PackingEnd PackingRun::conclude(long last_step) {
     // What the case's result needs must be there now; later it would be too late to run again.
     auto const files = evaluate::read_packing_files(folder_);
-    auto evaluation =
-        evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, report.last_step);
+    auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
-        return PackingEnd{fault->outcome, fault->message};
+        return {fault->outcome, fault->message};
     evaluate::PackingMarker const marker{wall_time(),
                                          started_,
                                          core::utc_now(),
@@ -196,7 +222,7 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     // The policy may want more cycles of this packing, which then continue from its end.
     seal();
     evaluate::write_marker(files, marker);
-    return PackingEnd{};
+    return {};
 }
 
 }  // namespace vibrotrough::campaign

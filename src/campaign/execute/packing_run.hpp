@@ -55,12 +55,16 @@ class PackingRun {
     std::optional<measure::PackingEstimate> const& estimate() const { return estimate_; }
 
   private:
+    void begin();
     void start_on(Settled const& settled);
+    void continue_from(Checkpoint const& checkpoint);
+    void resume(Checkpoint const& checkpoint);
+    PackingEnd conclude(long last_step);
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
     double wall_time() const;
     std::optional<PackingEnd> judge(engine::ExitStatus status);
-    void go_on();
+    std::optional<PackingEnd> go_on();
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
