@@ -92,7 +92,8 @@ double statistical_inefficiency(std::span<double const> values) {
     if (n < 4) return 1;
     Eigen::ArrayXd const centred = y - y.mean();
     double const variance = centred.square().mean();
-    if (variance == 0) return 1;
+    double const rounding = 1e-12 * y.mean();
+    if (variance <= rounding * rounding) return 1;  // values that never change, up to rounding
     auto const correlation = [&](Eigen::Index lag) {
         return (centred.head(n - lag) * centred.tail(n - lag)).sum() / static_cast<double>(n) / variance;
     };

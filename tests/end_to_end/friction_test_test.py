@@ -51,7 +51,7 @@ class FrictionTest(EndToEndTest):
         self.assertEqual(self.take_starts(), [], "a finished test is not run again")
         self.assertEqual(again, [test])
 
-        self.run_campaign(campaign)
+        self.run_campaign(campaign, wanted=None)  # two packings are not precise; that is not the question
         for row in self.table():
             self.assertEqual(row["friction_layer"], test["friction"])
             self.assertEqual(row["friction"], MU)

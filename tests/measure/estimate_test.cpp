@@ -63,6 +63,8 @@ TEST(Estimate, StatisticalInefficiencyOfAKnownProcess) {
         EXPECT_NEAR(found, expected, 0.15 * expected) << rho;
     }
     EXPECT_EQ(statistical_inefficiency(std::vector<double>(30, 0.5)), 1);
+    EXPECT_EQ(statistical_inefficiency(std::vector<double>(24, 0.1 / 0.34)), 1)
+        << "also when their mean is rounded";
     // Short series: without the correction of the bias, 20 values with rho = 0.8 give g = 3 instead of 9.
     double mean = 0;
     for (unsigned seed = 1; seed <= 100; ++seed)
