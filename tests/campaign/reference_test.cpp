@@ -63,11 +63,11 @@ class ReferenceTest : public CampaignFolder {
     UntilPrecise policy;
 };
 
-TEST_F(ReferenceTest, HasFortyPackingsOf150CyclesAtSixThrowNumbers) {
+TEST_F(ReferenceTest, HasPackingsOf150CyclesAtSixThrowNumbers) {
     EXPECT_EQ(reference.runs.size(), 6u);
     for (auto const& [throw_number, groups] : reference.runs) {
         for (auto const& runs : groups) {
-            EXPECT_EQ(runs.size(), 20u);
+            EXPECT_GE(runs.size(), 15u);
             for (auto const& run : runs) EXPECT_EQ(run.size(), 150u);
         }
     }
@@ -85,13 +85,14 @@ TEST_F(ReferenceTest, AStartDoesNotBiasTheMean) {
             fmt::print(
                 "Gamma {:3}, cycles {:3} to {:3}: below {:.4f}, above {:.4f}, difference {:+.4f} +- {:.4f}\n",
                 throw_number, first + 1, last, below, above, above - below, error);
-            if (first == 50) EXPECT_LE(std::abs(above - below), 3 * error) << throw_number;
+            if (first < 50) continue;  // the first round, for comparison
+            EXPECT_LE(std::abs(above - below), 3 * error) << throw_number;
         }
     }
 }
 
 // Campaigns of packings drawn from the reference, with their start-up: the final interval contains the mean
-// of all 40 packings, which is known to a tenth of it. Draws from 40 packings repeat some, so that 3 % are
+// of all packings, which is known to a tenth of it. Draws from few packings repeat some, so that 3 % are
 // allowed beyond the 93 % of TheFinalIntervalCoversTheTruth.
 TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     constexpr int cases = 500;
@@ -108,8 +109,8 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
                 std::map<int, std::size_t> drawn;
                 SimulatedEnd const end =
                     simulate_case(policy, one, [&](int number) -> std::vector<double> const& {
-                        auto const found = drawn.try_emplace(number, random() % 20).first;
-                        return groups.at(number % 2 == 1 ? 0 : 1)[found->second];
+                        auto const& group = groups.at(number % 2 == 1 ? 0 : 1);
+                        return group[drawn.try_emplace(number, random() % group.size()).first->second];
                     });
                 packings += end.estimate.packings / static_cast<double>(cases);
                 cycles += end.all_cycles() / cases;

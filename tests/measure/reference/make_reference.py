@@ -4,8 +4,8 @@
     make_reference.py PROGRAM WORK_FOLDER [JOBS]
 
 PROGRAM is vibrotrough. The packings start in turn below and above the expected speed, as in a campaign, but all of
-them run for 150 cycles whatever comes out. It takes about an hour on one core, continues where it was stopped (a
-packing that is complete is not run again) and writes reference.csv beside this script when all are there.
+them run for 150 cycles whatever comes out. It takes about an hour on one core. It writes reference.csv beside this script after
+each packing, and runs only those that are not in it yet, so that it continues where it was stopped.
 """
 import csv
 import math
@@ -13,13 +13,33 @@ import os
 import re
 import subprocess
 import sys
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+TABLE = HERE / "reference.csv"
 CYCLES = 150
+PACKINGS = 40
 # Efficiencies that a few packings showed beforehand; the starts are 0.25 below and 0.05 above them.
 EXPECTED = {0.8: 0.16, 1.2: 0.25, 1.5: 0.50, 1.7: 0.67, 2.0: 0.81, 3.0: 0.93}
+
+
+def rows_there() -> dict[tuple[float, int], list[str]]:
+    """The rows of reference.csv by throw number and packing."""
+    if not TABLE.exists():
+        return {}
+    with open(TABLE, newline="") as file:
+        return {(float(row[0]), int(row[1])): row for row in list(csv.reader(file))[1:]}
+
+
+def write_rows(rows: dict[tuple[float, int], list[str]]) -> None:
+    part = TABLE.with_suffix(".part")
+    with open(part, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["throw_number", "packing", "start", *range(1, CYCLES + 1)])
+        writer.writerows(rows[key] for key in sorted(rows))
+    part.replace(TABLE)
 
 
 def start_of(throw_number: float, packing: int) -> float:
@@ -42,6 +62,9 @@ def simulate(folder: Path, throw_number: float, packing: int, settled: Path) -> 
     if len(positions()) != CYCLES + 1:
         speed = start_of(throw_number, packing) * 2 * math.pi * frequency * amplitude
         marker = "# --- drive"
+        # The program's own start and number of cycles, which would end the run after the first round, are left out.
+        deck = re.sub(r'(?m)^if "\$\{done\} == 0" then "velocity all set .*\n', "", deck)
+        (folder / "control.in").write_text("variable stop equal 0\n")
         started = deck.replace(marker, f"velocity all set {speed} NULL NULL\n{marker}", 1)
         # No checkpoints: a run that continues at one would set the speed again.
         started = re.sub(r"\nvariable +due .*?jump +SELF begin\n", "\njump SELF cycle\n", started, flags=re.S)
@@ -71,22 +94,24 @@ def main() -> None:
             (folder / "settled.restart").rename(settled)
         return settled
 
-    def run(item: tuple[int, float, int]) -> list[object]:
+    rows = rows_there()
+    lock = threading.Lock()
+
+    def run(item: tuple[int, float, int]) -> None:
         case, throw_number, packing = item
         folder = work / f"case-{case:03d}" / f"packing-{packing}"
         values = simulate(folder, throw_number, packing, work / f"settled-{packing}.restart")
-        print(f"{throw_number} packing {packing}: {sum(values[50:]) / 100:.3f}", flush=True)
         start = "below" if packing % 2 else "above"
-        return [throw_number, packing, start, *(f"{value:.4f}" for value in values)]
+        with lock:
+            rows[throw_number, packing] = [str(throw_number), str(packing), start, *(f"{value:.4f}" for value in values)]
+            write_rows(rows)
+        print(f"{throw_number} packing {packing}: {sum(values[50:]) / (CYCLES - 50):.3f}", flush=True)
 
+    items = [(case + 1, gamma, packing) for packing in range(1, PACKINGS + 1) for case, gamma in enumerate(EXPECTED)]
+    missing = [item for item in items if (item[1], item[2]) not in rows]
     with ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(settle, range(1, 41)))
-        items = [(case + 1, gamma, packing) for packing in range(1, 41) for case, gamma in enumerate(EXPECTED)]
-        rows = sorted(pool.map(run, items), key=lambda row: (row[0], row[1]))
-    with open(HERE / "reference.csv", "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["throw_number", "packing", "start", *range(1, CYCLES + 1)])
-        writer.writerows(rows)
+        list(pool.map(settle, sorted({packing for _, _, packing in missing})))
+        list(pool.map(run, missing))
 
 
 if __name__ == "__main__":
