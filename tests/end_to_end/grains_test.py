@@ -13,7 +13,9 @@ class Grains(EndToEndTest):
     def run_cases(self, changes, sweep=None):
         """The table of a campaign whose every case is measured: what the engine wrote passed all checks (no grain
         lost, every cycle there, the layer's weight right at rest and over the cycles)."""
-        self.run_campaign(self.write_campaign({**QUICK, **changes}, sweep))
+        # One short run may not be enough for an interval; its mean is measured all the same.
+        self.run_campaign(self.write_campaign({**QUICK, **changes}, sweep), wanted=None)
+        self.assertLessEqual({row["outcome"] for row in self.table()}, {"finished", "not-precise"})
         rows = self.table()
         self.assertEqual({row["outcome"] for row in rows}, {"finished"})
         return rows
