@@ -15,9 +15,8 @@ class Grains(EndToEndTest):
         lost, every cycle there, the layer's weight right at rest and over the cycles)."""
         # One short run may not be enough for an interval; its mean is measured all the same.
         self.run_campaign(self.write_campaign({**QUICK, **changes}, sweep), wanted=None)
-        self.assertLessEqual({row["outcome"] for row in self.table()}, {"finished", "not-precise"})
         rows = self.table()
-        self.assertEqual({row["outcome"] for row in rows}, {"finished"})
+        self.assertLessEqual({row["outcome"] for row in rows}, {"finished", "not-precise"})
         return rows
 
     def test_rotation(self):
