@@ -120,15 +120,21 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         return {WorkResult::busy,
                 fmt::format("another process runs packing {} of case {}", id.packing, planned.id)};
     }
-    KnownCase const known = know(planned);
-    auto const packing = find_wanted(policy.decide(known), id.packing);
-    if (!packing || is_done(known, *packing)) return finish_if_enough(planned, engine.version, policy);
     for (int attempt = 0;; ++attempt) {
+        // Asked again after each run: when this packing was the last of its round, more cycles of it may be
+        // wanted.
+        KnownCase const known = know(planned);
+        auto const packing = find_wanted(policy.decide(known), id.packing);
+        if (!packing || is_done(known, *packing)) return finish_if_enough(planned, engine.version, policy);
+        evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
         PackingEnd const end =
             find_cause(planned, id.packing,
                        Attempt(engine, campaign_folder, planned, *packing, deadline).run(), memory_kills);
-        if (!end.failure) return finish_if_enough(planned, engine.version, policy);
+        if (!end.failure) {
+            attempt = -1;
+            continue;
+        }
         if (end.failure == core::Outcome::interrupted) return {WorkResult::interrupted, end.message};
         if (attempt < limits.retries && retry_makes_sense(*end.failure)) continue;
         record_failure(planned, id.packing, *end.failure, end.message);
