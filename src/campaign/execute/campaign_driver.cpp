@@ -123,8 +123,8 @@ class Driver {
         return record.outcome != core::Outcome::finished && planned.scenario().measure.max_packings > 1;
     }
 
-    /// Whether the policy is content with the packings that a result was made of.
-    /// Also when the packings' folders are no longer there.
+    /// Whether a result is left as it is: the policy wants nothing more, or packings that the result was made
+    /// of have been removed from the disk.
     bool is_exhausted(KnownCase const& known, store::CaseRecord const& record) const {
         return known.packings.size() < record.packings.size() || !policy_.decide(known).result.empty();
     }

@@ -43,7 +43,7 @@ class Policy {
     virtual ~Policy() = default;
 
     /// Decides about a case that has not failed. Each answer must either name a result or want a packing that
-    /// is_enough() does not find.
+    /// is_done() does not find.
     virtual CaseDecision decide(KnownCase const& known) const = 0;
 
     /// Cases that the campaign should have beside those that it has. Asked at the start of a run and after
