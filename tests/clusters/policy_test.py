@@ -10,18 +10,10 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from private_slurm import PrivateSlurm  # noqa: E402
+from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, wait_until, without_wall_time  # noqa: E402
 
 GROWING = os.environ["VIBROTROUGH_GROWING_POLICY"]
-SLURM = """
-[run]
-executor = "slurm"
-[run.slurm]
-partition = "main"
-time = "10 minutes"
-memory = "200 MB"
-"""
 # One case with two packings in the campaign file; the policy makes it two cases with three each.
 CHANGES = {"measure.packings": 2, "measure.half_width": 0.2}
 
@@ -92,7 +84,7 @@ class GrowingPolicy(EndToEndTest):
         self.environment["SLURM_CONF"] = os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
         self.addCleanup(os.environ.pop, "SLURM_CONF", None)
         on_cluster = self.folder / "cluster"
-        self.kill_and_finish(self.write(SLURM), on_cluster)
+        self.kill_and_finish(self.write(RUN_ON_SLURM), on_cluster)
         self.assertEqual(self.check_growth(on_cluster), expected)
 
 

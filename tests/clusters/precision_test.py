@@ -10,17 +10,9 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from private_slurm import PrivateSlurm  # noqa: E402
+from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import EndToEndTest, campaign_text, engines_in, wait_until, without_wall_time  # noqa: E402
 
-SLURM = """
-[run]
-executor = "slurm"
-[run.slurm]
-partition = "main"
-time = "10 minutes"
-memory = "200 MB"
-"""
 HALF_WIDTH = 0.012
 # Few grains fluctuate much, so that four packings are not enough.
 CHANGES = {"layer.grains": 30, "measure.packings": 4, "measure.max_packings": 24, "measure.half_width": HALF_WIDTH}
@@ -76,7 +68,7 @@ class Precision(EndToEndTest):
         self.addCleanup(slurm.__exit__)
         os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
         self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        campaign = self.write(text=SLURM)
+        campaign = self.write(text=RUN_ON_SLURM)
         on_cluster = self.folder / "cluster"
         command = [*self.run_arguments(campaign, on_cluster), "--wait"]
         self.assertEqual(self.call(*command).returncode, 0)

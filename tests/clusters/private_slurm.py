@@ -15,6 +15,16 @@ from pathlib import Path
 
 os.environ["PATH"] += ":/usr/sbin:/sbin"
 
+# What a campaign file says to run on it.
+RUN_ON_SLURM = """
+[run]
+executor = "slurm"
+[run.slurm]
+partition = "main"
+time = "10 minutes"
+memory = "200 MB"
+"""
+
 CONFIGURATION = """\
 ClusterName=vibrotrough
 SlurmctldHost={host}(127.0.0.1)

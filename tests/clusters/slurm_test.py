@@ -8,19 +8,11 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from private_slurm import PrivateSlurm  # noqa: E402
+from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
 
 SWEEP = {"layer.grains": [60, 70, 80]}
 CHANGES = {"measure.packings": 2}
-ASKED = """
-[run]
-executor = "slurm"
-[run.slurm]
-partition = "main"
-time = "10 minutes"
-memory = "200 MB"
-"""
 
 
 def parent_of(process):
@@ -41,7 +33,7 @@ class Slurm(EndToEndTest):
         self.addCleanup(os.environ.pop, "SLURM_CONF", None)
         return slurm
 
-    def write_slurm_campaign(self, asked=ASKED, changes=CHANGES, sweep=SWEEP):
+    def write_slurm_campaign(self, asked=RUN_ON_SLURM, changes=CHANGES, sweep=SWEEP):
         path = self.folder / "campaign.toml"
         path.write_text(campaign_text(changes, sweep) + asked)
         return path
@@ -188,7 +180,7 @@ class Slurm(EndToEndTest):
         self.start_slurm(cpus=2)
         # Two seconds for a packing that nobody would stop for an hour.
         campaign = self.write_slurm_campaign(
-            ASKED.replace("[run.slurm]", 'time_limit = "2 s"\n[run.slurm]'),
+            RUN_ON_SLURM.replace("[run.slurm]", 'time_limit = "2 s"\n[run.slurm]'),
             {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000}, None,
         )  # fmt: skip
         self.run_campaign(campaign)
