@@ -71,6 +71,15 @@ TEST_F(UntilPreciseTest, StartsInTurnBelowAndAboveTheExpectedSpeed) {
     EXPECT_EQ(second[0].start_efficiency, first[0].start_efficiency);
 }
 
+TEST_F(UntilPreciseTest, ClumpsStartAtRest) {
+    prepare::PreparedCase prepared = *planned.prepared;
+    prepared.scenario.grains.shape = "cube";
+    PlannedCase cubes = planned;
+    cubes.prepared = std::make_shared<prepare::PreparedCase const>(prepared);
+    for (auto const& packing : policy.decide({&cubes, {}, {}, {}}).wanted)
+        EXPECT_FALSE(packing.start_efficiency) << packing.number;
+}
+
 // The answer follows from the files: whatever subset of the wanted packings is there, the others are wanted
 // with the same starts and cycles.
 TEST_F(UntilPreciseTest, DoesNotDependOnTheOrderInWhichPackingsEnd) {

@@ -24,8 +24,11 @@ double rounded(double efficiency) {
     return std::round(1000 * efficiency) / 1000;
 }
 
+/// Clumps start at rest: LIGGGHTS 3.8.0 sets the velocities of their spheres, but not those of the bodies,
+/// which then begin as slowly as without the command.
 bool may_start_moving(scenario::Scenario const& scenario) {
-    return scenario.layer.block == scenario::Block::none && scenario.trough.vibration_angle > 0;
+    return !is_clump(scenario.grains) && scenario.layer.block == scenario::Block::none &&
+           scenario.trough.vibration_angle > 0;
 }
 
 /// The state of the replay: packings with their starts, and the cycles that all of them have.

@@ -12,7 +12,7 @@ namespace vibrotrough::campaign {
 /// packing happened to end first, and it can be found again from the files after a crash.
 /// - The first round has measure.packings packings (one, or an even number) of 24 cycles. They start in turn
 ///   below and above the speed that the theory predicts; those of later rounds below and above the mean so
-///   far.
+///   far. Clumps and blocks start at rest.
 /// - While the case is not steady, all packings are continued to twice the number of cycles, up to
 ///   measure.max_cycles. If packings that started below and above still differ then, at least four of each
 ///   kind are run, and the case ends as bistable-or-slow.
