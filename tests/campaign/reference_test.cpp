@@ -9,12 +9,13 @@
 namespace vibrotrough::campaign {
 namespace {
 
-/// The cycles of real packings (tests/measure/reference), by throw number and start.
+/// The cycles of real packings (tests/measure/reference), by throw number and start. Those that started at
+/// rest belong to the group below.
 struct Reference {
     std::map<double, std::array<std::vector<std::vector<double>>, 2>> runs;  ///< 0: below, 1: above
 
-    Reference() {
-        std::ifstream file(REFERENCE_FILE);
+    explicit Reference(char const* path = REFERENCE_FILE) {
+        std::ifstream file(path);
         std::string line, cell;
         std::getline(file, line);
         while (std::getline(file, line)) {
@@ -23,7 +24,7 @@ struct Reference {
             double const throw_number = std::stod(cell);
             std::getline(cells, cell, ',');
             std::getline(cells, cell, ',');
-            auto& group = runs[throw_number][cell == "below" ? 0 : 1];
+            auto& group = runs[throw_number][cell == "above" ? 1 : 0];
             group.emplace_back();
             while (std::getline(cells, cell, ',')) group.back().push_back(std::stod(cell));
         }
@@ -91,13 +92,63 @@ TEST_F(ReferenceTest, AStartDoesNotBiasTheMean) {
     }
 }
 
+/// The number of cycles before the mean of the runs over four cycles has come within 0.02 of their mean over
+/// cycles 25 to 48.
+int cycles_to_settle(std::vector<std::vector<double>> const& runs) {
+    double const steady = mean_and_error(runs, 24, 48).first;
+    std::size_t first = 0;
+    while (first < 24 && std::abs(mean_and_error(runs, first, first + 4).first - steady) > 0.02) ++first;
+    return static_cast<int>(first);
+}
+
+/// The start-up that the program cuts from rounds of four packings of 24 cycles; mean over such rounds.
+double mean_startup_cut(std::vector<std::vector<double>> const& runs) {
+    int cut = 0, rounds = 0;
+    for (std::size_t first = 0; first + 4 <= runs.size(); first += 4, ++rounds) {
+        std::vector<measure::PackingValues> values;
+        for (std::size_t i = first; i < first + 4; ++i)
+            values.push_back({std::span(runs[i]).first(24), measure::Start::below});
+        cut += measure::common_startup_length(values);
+    }
+    return static_cast<double>(cut) / rounds;
+}
+
+// What the starts on both sides of the expected speed save, against packings that start at rest: cycles until
+// the mean of all runs has settled, and cycles that the program cuts off. At 0.8 and 1.2 the expected speed
+// is so low that a packing below it starts at rest, too. Over all six throw numbers fewer cycles must be
+// wasted.
+TEST_F(ReferenceTest, StartsOnBothSidesShortenTheStartUp) {
+    Reference const rest(FROM_REST_FILE);
+    int settle_rest = 0, settle_both = 0;
+    double cut_rest = 0, cut_both = 0;
+    ASSERT_EQ(rest.runs.size(), 6u);
+    for (auto const& [throw_number, groups] : reference.runs) {
+        auto const& from_rest = rest.runs.at(throw_number)[0];
+        std::vector<std::vector<double>> both;
+        for (std::size_t i = 0; i < from_rest.size() / 2; ++i) {
+            both.push_back(groups[0].at(i));
+            both.push_back(groups[1].at(i));
+        }
+        fmt::print(
+            "Gamma {:3}: from rest {:2} cycles to settle, {:4.1f} cut; from both sides {:2} and {:4.1f}\n",
+            throw_number, cycles_to_settle(from_rest), mean_startup_cut(from_rest), cycles_to_settle(both),
+            mean_startup_cut(both));
+        settle_rest += cycles_to_settle(from_rest);
+        settle_both += cycles_to_settle(both);
+        cut_rest += mean_startup_cut(from_rest);
+        cut_both += mean_startup_cut(both);
+    }
+    EXPECT_LT(settle_both, settle_rest);
+    EXPECT_LT(cut_both, cut_rest);
+}
+
 // Campaigns of packings drawn from the reference, with their start-up: how often the final interval contains
-// the mean of all packings over cycles 21 to 150, which is known to a tenth of the interval. The target is 93
-// to 98 %. It is reached at throw numbers 2 and 3 and, for a half-width of 0.03, nearly at 0.8 and 1.5; it is
-// not reached elsewhere. At 1.2 the layer slows down by 0.03 between its 20th and its 100th cycle, which
-// packings of 24 cycles cannot know; at 1.5 and 1.7 single packings wander for tens of cycles. The bound
-// below is what was found, less three standard deviations of a fraction of 500: it holds the program to not
-// becoming worse, no more.
+// the mean of all packings over cycles 21 to 150. The packings of a case are drawn without replacement: the
+// reference is itself a sample, and drawing with replacement would add its own error to that of each case
+// (a factor of sqrt(1 + P / N) for P of N packings). The target, 93 to 98 %, is reached everywhere but at 1.2,
+// where the layer slows down by 0.03 between its 20th and its 100th cycle, which packings of 24 cycles cannot
+// know. The cases share their packings, so that a fraction is known less well than 500 cases suggest; hence
+// 0.90. At 1.2 the bound only holds the program to not becoming worse.
 TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     constexpr int cases = 500;
     for (auto const& [throw_number, groups] : reference.runs) {
@@ -110,11 +161,11 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
             double packings = 0, cycles = 0;
             for (unsigned seed = 1; seed <= cases; ++seed) {
                 std::mt19937 random(seed);
-                std::map<int, std::size_t> drawn;
+                auto drawn = groups;
+                for (auto& group : drawn) std::shuffle(group.begin(), group.end(), random);
                 SimulatedEnd const end =
                     simulate_case(policy, one, [&](int number) -> std::vector<double> const& {
-                        auto const& group = groups.at(number % 2 == 1 ? 0 : 1);
-                        return group[drawn.try_emplace(number, random() % group.size()).first->second];
+                        return drawn.at(number % 2 == 1 ? 0 : 1).at(static_cast<std::size_t>(number - 1) / 2);
                     });
                 packings += end.estimate.packings / static_cast<double>(cases);
                 cycles += end.all_cycles() / cases;
@@ -127,7 +178,7 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
                 "{:.1f}, cycles {:.0f}\n",
                 throw_number, half_width, truth, covered / static_cast<double>(with_mean), with_mean,
                 packings, cycles);
-            EXPECT_GE(covered, (throw_number >= 2 ? 0.90 : 0.77) * with_mean) << throw_number;
+            EXPECT_GE(covered, (throw_number == 1.2 ? 0.77 : 0.90) * with_mean) << throw_number;
         }
     }
 }
