@@ -145,10 +145,10 @@ TEST_F(ReferenceTest, StartsOnBothSidesShortenTheStartUp) {
 // Campaigns of packings drawn from the reference, with their start-up: how often the final interval contains
 // the mean of all packings over cycles 21 to 150. The packings of a case are drawn without replacement: the
 // reference is itself a sample, and drawing with replacement would add its own error to that of each case
-// (a factor of sqrt(1 + P / N) for P of N packings). The target, 93 to 98 %, is reached everywhere but at 1.2,
-// where the layer slows down by 0.03 between its 20th and its 100th cycle, which packings of 24 cycles cannot
-// know. The cases share their packings, so that a fraction is known less well than 500 cases suggest; hence
-// 0.90. At 1.2 the bound only holds the program to not becoming worse.
+// (a factor of sqrt(1 + P / N) for P of N packings). The target, 93 to 98 %, is reached everywhere but
+// at 1.2, where the layer slows down by 0.03 between its 20th and its 100th cycle, which packings of 24
+// cycles cannot know. The cases share their packings, so that a fraction is known less well than 500 cases
+// suggest; hence 0.90. At 1.2 the bound only holds the program to not becoming worse.
 TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     constexpr int cases = 500;
     for (auto const& [throw_number, groups] : reference.runs) {
