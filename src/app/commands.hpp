@@ -64,6 +64,8 @@ void add_theory_sensitivity(CLI::App& theory, int& exit_code);
 void add_theory_design(CLI::App& theory, int& exit_code);
 /// Solves the motions of a CSV file.
 void add_theory_batch(CLI::App& theory, int& exit_code);
+/// Finds friction and other quantities from measured speeds.
+void add_theory_calibrate(CLI::App& theory, int& exit_code);
 
 /// @}
 

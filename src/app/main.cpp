@@ -47,6 +47,7 @@ explains a command. Example:
     add_theory_sensitivity(*theory, exit_code);
     add_theory_design(*theory, exit_code);
     add_theory_batch(*theory, exit_code);
+    add_theory_calibrate(*theory, exit_code);
 }
 
 /// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt

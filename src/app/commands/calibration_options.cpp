@@ -1,0 +1,142 @@
+#include "app/commands/calibration_options.hpp"
+
+#include "app/commands/common_options.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/python.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+
+char const* const calibration_help =
+    R"(The first line of the file names its columns, in any order: stroke_mm or amplitude_mm (half the stroke); rpm or
+frequency_hz; vibration_angle_deg; inclination_deg (uphill positive; level if it is missing); speed_m_per_s; and
+uncertainty_m_per_s, its standard uncertainty (one standard deviation). Each further line is one measurement. Decimal
+commas are read when the separator is a semicolon.
+
+Prints the median and the 95 % interval of each free quantity, how far the Markov chains can be trusted (R-hat at most
+1.01, effective sample size at least 400), and by how much the speeds narrowed the range that was possible before; a
+quantity whose range stays wider than half is not identifiable from these speeds. The model discrepancy is the standard
+deviation of what the model misses from setting to setting, in velocity efficiency; it is estimated with the rest.
+
+Exit codes:
+    0  all well
+    1  the chains have not converged
+    2  the input is wrong
+    3  something is missing: Python with its modules, for --plot)";
+
+void CalibrationOptions::add_to(CLI::App& command) {
+    command.add_option("--free", free, "Quantities to find, separated by commas")
+        ->required()
+        ->delimiter(',')
+        ->expected(1)
+        ->type_name("NAME[,NAME...]")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option(
+            "--prior", priors,
+            "Range of a free quantity, each value as likely, for example friction=0.2:0.6; repeat the "
+            "option for several")
+        ->type_name("NAME=LOW:HIGH")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option(
+        "--uncertainty", uncertainty,
+        "Standard uncertainty of speeds that have none in the file, as a fraction, for example 0.03");
+    command.add_flag("--without-discrepancy", exact, "Take the model to be exact");
+    command.add_option("--seed", seed, "Of the random numbers; default: 1");
+    command
+        .add_option("--plot", plot,
+                    "Draw the distributions of all pairs (corner plot) into this PNG or SVG file")
+        ->type_name("FILE");
+    add_python(command, python);
+    command.add_flag("--json", json, "Print JSON");
+}
+
+std::optional<double> CalibrationOptions::relative_uncertainty() const {
+    if (!uncertainty) return {};
+    return read_number_within("--uncertainty", *uncertainty, "0.03", 1e-6, 1);
+}
+
+std::pair<std::string, std::string> split_setting(std::string const& option, std::string const& text,
+                                                  std::string const& example) {
+    auto const equal = text.find('=');
+    if (equal == std::string::npos || equal == 0) {
+        throw core::InputError(
+            fmt::format("{} {}: needs NAME=VALUE; write for example {} {}", option, text, option, example));
+    }
+    return {text.substr(0, equal), text.substr(equal + 1)};
+}
+
+std::vector<learn::FreeParameter> CalibrationOptions::parameters(
+    std::vector<learn::FreeParameter> const& known) const {
+    std::vector<learn::FreeParameter> result;
+    for (std::string const& name : free) {
+        auto const found = std::ranges::find(known, name, &learn::FreeParameter::name);
+        if (found == known.end()) {
+            std::vector<std::string> names;
+            for (auto const& p : known) names.push_back(p.name);
+            throw core::InputError(fmt::format("--free {}: there is no such quantity; choose from {}", name,
+                                               fmt::join(names, ", ")));
+        }
+        result.push_back(*found);
+    }
+    for (std::string const& text : priors) {
+        char const* const example = "friction=0.2:0.6";
+        auto const [name, range] = split_setting("--prior", text, example);
+        auto const found = std::ranges::find(result, name, &learn::FreeParameter::name);
+        if (found == result.end()) {
+            throw core::InputError(fmt::format(
+                "--prior {}: {} is not free; add it to --free or leave the option out", text, name));
+        }
+        auto const colon = range.find(':');
+        if (colon == std::string::npos) {
+            throw core::InputError(
+                fmt::format("--prior {}: needs LOW:HIGH; write for example --prior {}", text, example));
+        }
+        auto const usual = std::ranges::find(known, name, &learn::FreeParameter::name)->prior;
+        double const least = std::min(usual.low, 0.0), most = 2 * usual.high;
+        found->prior = {read_number_within("--prior", range.substr(0, colon), example, least, most),
+                        read_number_within("--prior", range.substr(colon + 1), example, least, most)};
+        if (!(found->prior.low < found->prior.high)) {
+            throw core::InputError(fmt::format(
+                "--prior {}: the first value must be below the second; write for example --prior {}", text,
+                example));
+        }
+    }
+    return result;
+}
+
+learn::CalibrationSettings CalibrationOptions::settings() const {
+    learn::CalibrationSettings result;
+    if (exact) result.discrepancy = learn::Discrepancy::none;
+    if (seed)
+        result.sampler.seed = static_cast<std::uint64_t>(read_count("--seed", *seed, "1", 0, 1'000'000'000));
+    return result;
+}
+
+void print_calibration(CalibrationOptions const& options, learn::Calibration const& calibration,
+                       learn::ModelName const& model) {
+    if (!options.plot.empty()) {
+        core::TemporaryFolder const folder("vibrotrough-calibration");
+        auto const data = folder.path() / "calibration.json";
+        core::write_file_atomically(data, learn::corner_plot_data(calibration, model).dump());
+        run_script("corner.py", {data.string(), "--output", options.plot}, options.python,
+                   {"numpy", "matplotlib"});
+    }
+    if (options.json) {
+        fmt::print("{}\n", learn::calibration_json(calibration, model).dump(2));
+    } else {
+        fmt::print("{}", learn::calibration_text(calibration, model));
+    }
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "learn/calibration.hpp"
+#include "learn/calibration_report.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+/// What the help of every calibration explains.
+extern char const* const calibration_help;
+
+/// The options that both calibrations have: on the theory, and on the surface of a layer.
+struct CalibrationOptions {
+    std::vector<std::string> free;           ///< names of the free parameters
+    std::vector<std::string> priors;         ///< NAME=LOW:HIGH
+    std::optional<std::string> uncertainty;  ///< relative, of speeds that have none
+    std::optional<std::string> seed;         ///< of the random numbers
+    std::string plot, python;                ///< file of the corner plot, and the Python that draws it
+    bool exact = false;                      ///< without model discrepancy
+    bool json = false;                       ///< print JSON
+
+    /// Declares the options of a command.
+    void add_to(CLI::App& command);
+    /// Uncertainty over speed where the table has none. @throws core::InputError when it has no sense
+    std::optional<double> relative_uncertainty() const;
+    /// The free parameters, with the priors that the user gave, else those of `known`.
+    /// @throws core::InputError when a name is unknown or a range has no sense
+    std::vector<learn::FreeParameter> parameters(std::vector<learn::FreeParameter> const& known) const;
+    /// How the calibration is made. @throws core::InputError when the seed is not a whole number
+    learn::CalibrationSettings settings() const;
+};
+
+/// Splits "name=value". @throws core::InputError with the example when there is no '='
+std::pair<std::string, std::string> split_setting(std::string const& option, std::string const& text,
+                                                  std::string const& example);
+
+/// Prints a calibration as the options ask, and draws its corner plot.
+/// @throws core::MissingError when the plot cannot be drawn
+void print_calibration(CalibrationOptions const& options, learn::Calibration const& calibration,
+                       learn::ModelName const& model);
+
+}  // namespace vibrotrough::app

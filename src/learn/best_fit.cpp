@@ -1,0 +1,116 @@
+#include "core/error.hpp"
+#include "learn/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <nlopt.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double impossible = 1e300;
+constexpr int starts = 5;
+
+/// The model's chi-square over the unit cube of the priors, as NLopt asks for it.
+class ChiSquare {
+  public:
+    ChiSquare(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+              std::vector<MeasuredSpeed> const& speeds)
+        : model_(model), parameters_(parameters), speeds_(speeds) {}
+
+    std::vector<double> values(std::vector<double> const& cube) const {
+        std::vector<double> result;
+        for (std::size_t p = 0; p < cube.size(); ++p) {
+            auto const [low, high] = parameters_[p].prior;
+            result.push_back(low + (high - low) * cube[p]);
+        }
+        return result;
+    }
+
+    double operator()(std::vector<double> const& cube) const {
+        std::vector<double> const at = values(cube);
+        double sum = 0;
+        for (MeasuredSpeed const& measured : speeds_) {
+            auto const answer = model_(at, measured);
+            if (!answer) return impossible;
+            double const misfit =
+                (measured.speed - answer->speed) / std::hypot(measured.uncertainty, answer->sd);
+            sum += misfit * misfit;
+        }
+        return std::min(sum, impossible);
+    }
+
+    static double for_nlopt(std::vector<double> const& cube, std::vector<double>&, void* self) {
+        return (*static_cast<ChiSquare const*>(self))(cube);
+    }
+
+  private:
+    SpeedModel const& model_;
+    std::vector<FreeParameter> const& parameters_;
+    std::vector<MeasuredSpeed> const& speeds_;
+};
+
+/// Points spread over the unit cube: the additive recurrence of M. Roberts' generalised golden ratio.
+std::vector<std::vector<double>> spread_points(std::size_t dimensions, int count) {
+    double ratio = 2;
+    for (int i = 0; i < 60; ++i) ratio = std::pow(1 + ratio, 1 / static_cast<double>(dimensions + 1));
+    std::vector<std::vector<double>> points;
+    for (int i = 1; i <= count; ++i) {
+        points.emplace_back();
+        for (std::size_t d = 1; d <= dimensions; ++d) {
+            double const x = 0.5 + i * std::pow(ratio, -static_cast<double>(d));
+            points.back().push_back(x - std::floor(x));
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
+                 std::vector<MeasuredSpeed> const& speeds) {
+    ChiSquare chi_square(model, parameters, speeds);
+    std::vector<std::pair<double, std::vector<double>>> points;
+    for (auto& point : spread_points(parameters.size(), 400)) {
+        double const value = chi_square(point);
+        if (value < impossible) points.emplace_back(value, std::move(point));
+    }
+    if (points.empty()) {
+        throw core::InputError(
+            "the model has no steady speed for any value of the free parameters; widen their ranges with "
+            "--prior");
+    }
+    std::ranges::sort(points);
+    BestFit best{{}, impossible, 0, 1};
+    for (std::size_t i = 0; i < std::min<std::size_t>(starts, points.size()); ++i) {
+        nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(parameters.size()));
+        search.set_lower_bounds(0);
+        search.set_upper_bounds(1);
+        search.set_initial_step(0.05);
+        search.set_xtol_abs(1e-7);
+        search.set_maxeval(2000);
+        search.set_min_objective(ChiSquare::for_nlopt, &chi_square);
+        double value = impossible;
+        std::vector<double> at = points[i].second;
+        try {
+            search.optimize(at, value);
+        } catch (nlopt::roundoff_limited const&) {
+            value = chi_square(at);  // the last point is as good as numbers allow
+        }
+        if (value < best.chi_square) {
+            best.chi_square = value;
+            best.values = chi_square.values(at);
+        }
+    }
+    best.degrees_of_freedom = static_cast<int>(speeds.size()) - static_cast<int>(parameters.size());
+    if (best.degrees_of_freedom > 0) {
+        boost::math::chi_squared const distribution(best.degrees_of_freedom);
+        best.p_value = boost::math::cdf(boost::math::complement(distribution, best.chi_square));
+    }
+    return best;
+}
+
+}  // namespace vibrotrough::learn

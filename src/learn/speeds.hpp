@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+/// A conveying speed that was measured, and the setting of the machine. A quantity that the table does not
+/// give is empty; then it is either the same for all measurements and given elsewhere, or free.
+struct MeasuredSpeed {
+    int line;                               ///< of the table, from 1
+    double amplitude;                       ///< m, in the direction of vibration, half the stroke, > 0
+    double frequency;                       ///< Hz, > 0
+    std::optional<double> vibration_angle;  ///< rad, within (0, pi/2)
+    std::optional<double> inclination;      ///< rad, within (-pi/2, pi/2), uphill positive
+    double speed;                           ///< m/s, along the trough, positive in the conveying direction
+    double uncertainty;  ///< m/s, standard uncertainty (one standard deviation) of `speed`, > 0
+};
+
+/// Reads a table of measured speeds (see core::CsvReader for the format; ';' and decimal commas are welcome).
+///
+/// The columns are found by their names and may stand in any order:
+/// - stroke_mm, or amplitude_mm (half the stroke)
+/// - rpm (revolutions per minute, one cycle each), or frequency_hz
+/// - vibration_angle_deg and inclination_deg; either may be missing
+/// - speed_m_per_s
+/// - uncertainty_m_per_s: the standard uncertainty (one standard deviation). The column or single cells may
+/// be
+///   missing when `relative_uncertainty` says what stands for them.
+///
+/// @param path                  names the table in errors
+/// @param relative_uncertainty  uncertainty over speed where the table gives none, > 0
+/// @throws core::CsvError (with line and column) when the table cannot be read, a column is missing, unknown
+/// or given in two forms, a number is out of range, or there is no measurement
+std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const& path,
+                                       std::optional<double> relative_uncertainty = {});
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,79 @@
+#include "learn/speeds.hpp"
+
+#include "core/csv.hpp"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// r = stroke / 2; f = rpm / 60.
+TEST(Speeds, StrokeAndRevolutions) {
+    auto const speeds = read_speeds(
+        "speed_m_per_s,rpm,stroke_mm,vibration_angle_deg,inclination_deg,uncertainty_m_per_s\n"
+        "0.2,600,6,30,-5,0.01\n",
+        "speeds.csv");
+    ASSERT_EQ(speeds.size(), 1U);
+    EXPECT_DOUBLE_EQ(speeds[0].amplitude, 0.003);
+    EXPECT_DOUBLE_EQ(speeds[0].frequency, 10);
+    EXPECT_DOUBLE_EQ(*speeds[0].vibration_angle, 30 * degree);
+    EXPECT_DOUBLE_EQ(*speeds[0].inclination, -5 * degree);
+    EXPECT_DOUBLE_EQ(speeds[0].speed, 0.2);
+    EXPECT_DOUBLE_EQ(speeds[0].uncertainty, 0.01);
+    EXPECT_EQ(speeds[0].line, 2);
+}
+
+// What a spreadsheet of a country with decimal commas saves: byte order mark, semicolons, CR LF.
+TEST(Speeds, SemicolonsAndDecimalCommas) {
+    auto const speeds = read_speeds(
+        "\xEF\xBB\xBF"
+        "amplitude_mm;frequency_hz;vibration_angle_deg;speed_m_per_s;uncertainty_m_per_s\r\n"
+        "1,25;21,15;30;0,0601;0,0011\r\n\r\n",
+        "speeds.csv");
+    ASSERT_EQ(speeds.size(), 1U);
+    EXPECT_DOUBLE_EQ(speeds[0].amplitude, 0.00125);
+    EXPECT_DOUBLE_EQ(speeds[0].frequency, 21.15);
+    EXPECT_DOUBLE_EQ(speeds[0].speed, 0.0601);
+    EXPECT_FALSE(speeds[0].inclination);
+}
+
+TEST(Speeds, RelativeUncertaintyFillsEmptyCells) {
+    auto const speeds = read_speeds(
+        "amplitude_mm,rpm,speed_m_per_s,uncertainty_m_per_s\n3,600,-0.2,\n3,600,0.2,0.04\n", "", 0.1);
+    EXPECT_DOUBLE_EQ(speeds[0].uncertainty, 0.02);
+    EXPECT_DOUBLE_EQ(speeds[1].uncertainty, 0.04);
+}
+
+void expect_refused(std::string const& text, std::string const& words) {
+    try {
+        read_speeds(text, "speeds.csv");
+        ADD_FAILURE() << text;
+    } catch (core::CsvError const& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr(words));
+        EXPECT_THAT(error.what(), testing::HasSubstr("speeds.csv:"));
+    }
+}
+
+TEST(Speeds, WrongTablesAreRefused) {
+    std::string const good = "amplitude_mm,rpm,speed_m_per_s,uncertainty_m_per_s\n";
+    expect_refused("", "empty");
+    expect_refused(good, "no measurement");
+    expect_refused("amplitude_mm,stroke_mm,rpm,speed_m_per_s\n1,2,3,4\n", "given both");
+    expect_refused("amplitude_mm,speed_m_per_s\n1,2\n", "neither a column rpm nor frequency_hz");
+    expect_refused("amplitude_mm,rpm,speed\n1,2,3\n", "'speed' is not a column");
+    expect_refused("amplitude_mm,rpm\n1,2\n", "no column speed_m_per_s");
+    expect_refused(good + "1,600,0.2,\n", "has no uncertainty");
+    expect_refused(good + "1,600,0.2,0\n", "uncertainty_m_per_s: 0 is out of range");
+    expect_refused(good + "-1,600,0.2,0.1\n", "amplitude_mm: -1 is out of range");
+    expect_refused(good + "1,,0.2,0.1\n", "column rpm is empty");
+    expect_refused(good + "1,600,fast,0.1\n", "'fast'");
+    expect_refused(good + "1,600,0.2\n", "expected 4 values");
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn
