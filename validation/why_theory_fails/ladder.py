@@ -21,13 +21,9 @@ def varied(**keys: Any) -> Changes:
     return {name.replace("_", ".", 1): value for name, value in keys.items()}
 
 
-# name: (changes of base.toml, throw numbers)
+# name: (changes of base.toml, throw numbers), in the order in which they are simulated
 RUNGS: dict[str, tuple[Changes, list[float]]] = {
     "block": ({"layer.height": None, "layer.block": "point", "measure.packings": 1, "grains.diameter_spread": None}, ALL),
-    "grain, blocked": (BLOCKED | grains(1), ALL),
-    "grain, free": (grains(1), ALL),
-    "monolayer, blocked": (BLOCKED | deep("3 mm"), ALL),
-    "monolayer, free": (deep("3 mm"), ALL),
     "4 deep, blocked": (BLOCKED, ALL),
     "4 deep, free": ({}, ALL),
     "restitution 0.1": (varied(grains_restitution=0.1, trough_restitution=0.1), PAIR),
@@ -41,6 +37,10 @@ RUNGS: dict[str, tuple[Changes, list[float]]] = {
     "8 deep, free": (varied(layer_height="24 mm"), PAIR),
     "trough friction 0.1": (varied(trough_friction=0.1), PAIR),
     "rolling friction 0.1": (varied(grains_rotation="rolling", grains_rolling_friction=0.1), PAIR),
+    "monolayer, blocked": (BLOCKED | deep("3 mm"), ALL),
+    "monolayer, free": (deep("3 mm"), ALL),
+    "grain, blocked": (BLOCKED | grains(1), ALL),
+    "grain, free": (grains(1), ALL),
 }
 
 

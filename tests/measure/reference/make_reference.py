@@ -35,7 +35,7 @@ class Table:
         return "rest" if self.from_rest else "below" if packing % 2 else "above"
 
 
-TABLES = [Table(HERE / "reference.csv", 150, 40, False), Table(HERE / "from_rest.csv", 48, 12, True)]
+TABLES = [Table(HERE / "reference.csv", 150, 40, False), Table(HERE / "from_rest.csv", 48, 8, True)]
 # Efficiencies that a few packings showed beforehand; the starts are 0.25 below and 0.05 above them.
 EXPECTED = {0.8: 0.16, 1.2: 0.25, 1.5: 0.50, 1.7: 0.67, 2.0: 0.81, 3.0: 0.93}
 
