@@ -54,7 +54,7 @@ class Grains(EndToEndTest):
     def test_a_run_that_ends_within_an_impact_is_not_called_wrong(self):
         """The fourth packing of this single grain ends while the trough throws it up. Force and velocity of that instant
         do not belong to the same step, which is more than the balance of momentum allowed for at first."""
-        single = {"layer.grains": 1, "grains.diameter_spread": None, "grains.rotation": "blocked", "grains.youngs_modulus": "5 MPa",
+        single = {"layer.grains": 1, "grains.rotation": "blocked", "grains.youngs_modulus": "5 MPa",
                   "trough.amplitude": "6 mm", "trough.throw_number": 3.0, "layer.length": "36 mm", "layer.width": "18 mm"}  # fmt: skip
         self.run_cases({**single, "measure.packings": 4, "measure.max_cycles": 24})
 
