@@ -48,6 +48,12 @@ void add_probe_engine(CLI::App& program, int& exit_code);
 void add_validate(CLI::App& program, int& exit_code);
 /// Checks a campaign before it is simulated.
 void add_check(CLI::App& program, int& exit_code);
+/// Prints what to cite.
+void add_cite(CLI::App& program, int& exit_code);
+/// Prints the manual page.
+void add_manual(CLI::App& program, int& exit_code);
+/// Prints the completion script of a shell; defined in pages.cpp, beside the manual page.
+void add_completion(CLI::App& program, int& exit_code);
 /// Solves one motion.
 void add_theory_point(CLI::App& theory, int& exit_code);
 /// Solves a grid over two inputs.

@@ -1,8 +1,8 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/help_formatter.hpp"
+#include "app/version_text.hpp"
 #include "core/error.hpp"
-#include "core/version.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -32,6 +32,9 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_check(program, exit_code);
     add_probe_engine(program, exit_code);
     add_validate(program, exit_code);
+    add_cite(program, exit_code);
+    add_manual(program, exit_code);
+    add_completion(program, exit_code);
     CLI::App* const theory =
         program.add_subcommand("theory", "Solve the point-mass theory of vibratory conveying");
     theory->require_subcommand(1);
@@ -82,8 +85,8 @@ int run(int argc, char** argv) {
   vibrotrough check validation/demo/campaign.toml
   vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2
   vibrotrough compare runs/demo)");
-    program.set_version_flag(
-        "--version", fmt::format("vibrotrough {} ({})", core::program_version(), core::program_commit()));
+    program.set_version_flag("--version", version_text,
+                             "Print version, commit, libraries and engine, and exit");
     program.require_subcommand(1);
     int exit_code = all_well;
     add_commands(program, exit_code);

@@ -65,13 +65,12 @@ fs::path script_folder() {
     fs::path const program = fs::read_symlink("/proc/self/exe", failure);
     // An installed program has its scripts in ../share. A program in its build folder uses those of the
     // sources.
-    for (fs::path const& folder :
-         {program.parent_path().parent_path() / installed_scripts, fs::path(source_scripts)}) {
+    fs::path const installed = program.parent_path().parent_path() / installed_scripts;
+    for (fs::path const& folder : {installed, (program.parent_path() / source_scripts).lexically_normal()}) {
         if (fs::exists(folder / "figures.py", failure)) return folder;
     }
-    throw core::MissingError(
-        fmt::format("the scripts that draw figures are neither in {} nor in {}; install Vibrotrough again",
-                    (program.parent_path().parent_path() / installed_scripts).string(), source_scripts));
+    throw core::MissingError(fmt::format(
+        "the scripts that draw figures are not in {}; install Vibrotrough again", installed.string()));
 }
 
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,

@@ -1,0 +1,265 @@
+#include "app/command_pages.hpp"
+
+#include "core/text.hpp"
+#include "core/version.hpp"
+
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::app {
+namespace {
+
+/// A command with its words after the program's name, e.g. {"theory", "point"}; none for the program itself.
+struct Command {
+    std::vector<std::string> words;
+    CLI::App const* app;
+};
+
+std::vector<CLI::App const*> subcommands_of(CLI::App const& app) {
+    return app.get_subcommands([](CLI::App const*) { return true; });
+}
+
+void collect(Command const& command, std::vector<Command>& all) {
+    all.push_back(command);
+    for (CLI::App const* const one : subcommands_of(*command.app)) {
+        Command next{command.words, one};
+        next.words.push_back(one->get_name());
+        collect(next, all);
+    }
+}
+
+std::vector<Command> commands_of(CLI::App const& program) {
+    std::vector<Command> all;
+    collect({{}, &program}, all);
+    return all;
+}
+
+/// The ways to write an option, e.g. {"-h", "--help"}; none for a positional argument.
+std::vector<std::string> spellings(CLI::Option const& option) {
+    std::vector<std::string> names;
+    for (std::string const& name : option.get_snames()) names.push_back("-" + name);
+    for (std::string const& name : option.get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::vector<CLI::Option const*> options_of(CLI::App const& app) {
+    return app.get_options([](CLI::Option const*) { return true; });
+}
+
+/// The words that may follow a command: its subcommands and its options.
+std::vector<std::string> words_after(Command const& command) {
+    std::vector<std::string> words;
+    for (CLI::App const* const one : subcommands_of(*command.app)) words.push_back(one->get_name());
+    for (CLI::Option const* const option : options_of(*command.app)) {
+        for (std::string const& name : spellings(*option)) words.push_back(name);
+    }
+    return words;
+}
+
+/// The first paragraph of a description, on one line.
+std::string summary_of(std::string const& description) {
+    std::istringstream words(description.substr(0, description.find("\n\n")));
+    std::string text, word;
+    while (words >> word) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+/// Text for man(7): a backslash, a hyphen that is to be copied, and a line that begins like a request.
+std::string as_roff(std::string const& text) {
+    std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+    std::string result;
+    std::istringstream lines(escaped);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.empty() && (line.front() == '.' || line.front() == '\'')) line.insert(0, "\\&");
+        result += line + "\n";
+    }
+    return result;
+}
+
+/// A footer: paragraphs, and indented lines (examples) as they are.
+std::string footer_as_roff(std::string const& footer) {
+    std::string result;
+    std::istringstream lines(footer);
+    bool is_example = false;
+    for (std::string line; std::getline(lines, line);) {
+        bool const is_indented = line.starts_with(" ");
+        if (is_indented != is_example && !line.empty()) {
+            result += is_indented ? ".nf\n" : ".fi\n";
+            is_example = is_indented;
+        }
+        result += line.empty() ? ".PP\n" : as_roff(line);
+    }
+    return result + (is_example ? ".fi\n" : "");
+}
+
+std::string options_as_roff(CLI::App const& app) {
+    std::string text;
+    for (CLI::Option const* const option : options_of(app)) {
+        std::vector<std::string> const names = spellings(*option);
+        std::string name = names.empty() ? option->get_name(true) : fmt::format("{}", fmt::join(names, ", "));
+        if (option->get_type_size() != 0 && !names.empty()) name += " " + option->get_type_name();
+        text += fmt::format(".TP\n.B {}{}", as_roff(name), as_roff(summary_of(option->get_description())));
+    }
+    return text;
+}
+
+/// A word between single quotes for bash, zsh and fish.
+std::string quoted(std::string const& text, std::string_view quote) {
+    return "'" + replaced(text, "'", quote) + "'";
+}
+
+std::string bash_completion(std::vector<Command> const& commands) {
+    std::string cases;
+    for (Command const& command : commands) {
+        cases += fmt::format("        {}) words={} ;;\n",
+                             quoted(fmt::format("{}", fmt::join(command.words, " ")), "'\\''"),
+                             quoted(fmt::format("{}", fmt::join(words_after(command), " ")), "'\\''"));
+    }
+    return fmt::format(R"(# bash completion of vibrotrough; made by 'vibrotrough completion bash'
+_vibrotrough() {{
+    local current=${{COMP_WORDS[COMP_CWORD]}} path='' words='' word
+    for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+        case $word in -*) break ;; esac
+        case " $(_vibrotrough_words "$path") " in *" $word "*) path="${{path:+$path }}$word" ;; *) break ;; esac
+    done
+    words=$(_vibrotrough_words "$path")
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+    if [ ${{#COMPREPLY[@]}} -eq 0 ]; then
+        compopt -o default 2>/dev/null   # a file or a folder
+    fi
+}}
+_vibrotrough_words() {{
+    local words=''
+    case $1 in
+{}    esac
+    printf '%s' "$words"
+}}
+complete -F _vibrotrough vibrotrough
+)",
+                       cases);
+}
+
+std::string zsh_completion(std::vector<Command> const& commands) {
+    std::string cases;
+    for (Command const& command : commands) {
+        std::string entries;
+        auto const add = [&](std::string const& word, std::string const& description) {
+            entries += " " + quoted(replaced(word, ":", "\\:") + ":" + summary_of(description), "'\\''");
+        };
+        for (CLI::App const* const one : subcommands_of(*command.app))
+            add(one->get_name(), one->get_description());
+        for (CLI::Option const* const option : options_of(*command.app)) {
+            for (std::string const& name : spellings(*option)) add(name, option->get_description());
+        }
+        cases += fmt::format("        {}) entries=({}) ;;\n",
+                             quoted(fmt::format("{}", fmt::join(command.words, " ")), "'\\''"), entries);
+    }
+    return fmt::format(R"(#compdef vibrotrough
+# zsh completion of vibrotrough; made by 'vibrotrough completion zsh'
+_vibrotrough() {{
+    local path_so_far='' word
+    local -a entries
+    for word in ${{words[2,CURRENT-1]}}; do
+        _vibrotrough_entries "$path_so_far"
+        [[ $word != -* && -n ${{entries[(r)$word:*]}} ]] || break
+        path_so_far="${{path_so_far:+$path_so_far }}$word"
+    done
+    _vibrotrough_entries "$path_so_far"
+    _describe 'vibrotrough' entries || _files
+    _files
+}}
+_vibrotrough_entries() {{
+    case $1 in
+{}    esac
+}}
+_vibrotrough "$@"
+)",
+                       cases);
+}
+
+std::string fish_completion(std::vector<Command> const& commands) {
+    std::string lines = "# fish completion of vibrotrough; made by 'vibrotrough completion fish'\n";
+    for (Command const& command : commands) {
+        std::string condition =
+            command.words.empty()
+                ? std::string("__fish_use_subcommand")
+                : fmt::format("__fish_seen_subcommand_from {}",
+                              fmt::join(command.words, "; and __fish_seen_subcommand_from "));
+        auto const begin = "complete -c vibrotrough -n " + quoted(condition, "\\'");
+        for (CLI::App const* const one : subcommands_of(*command.app)) {
+            lines += fmt::format("{} -f -a {} -d {}\n", begin, one->get_name(),
+                                 quoted(summary_of(one->get_description()), "\\'"));
+        }
+        for (CLI::Option const* const option : options_of(*command.app)) {
+            for (std::string const& name : option->get_lnames()) {
+                lines +=
+                    fmt::format("{} -l {}{} -d {}\n", begin, name, option->get_type_size() == 0 ? "" : " -r",
+                                quoted(summary_of(option->get_description()), "\\'"));
+            }
+        }
+    }
+    return lines;
+}
+
+}  // namespace
+
+std::string manual_page(CLI::App const& program) {
+    std::string text = fmt::format(
+        ".TH VIBROTROUGH 1 \"\" \"vibrotrough {}\" \"User Commands\"\n.SH NAME\nvibrotrough \\- conveying "
+        "speed of "
+        "granular layers on vibrating troughs\n.SH SYNOPSIS\n.B vibrotrough\n.I COMMAND\n[options]\n"
+        ".SH DESCRIPTION\n{}",
+        core::program_version(), as_roff(summary_of(program.get_description()) + "."));
+    text += ".SH COMMANDS\n";
+    for (Command const& command : commands_of(program)) {
+        if (command.words.empty()) continue;
+        text += fmt::format(".SS vibrotrough {}\n{}{}.PP\n{}", fmt::join(command.words, " "),
+                            as_roff(summary_of(command.app->get_description()) + "."),
+                            options_as_roff(*command.app), footer_as_roff(command.app->get_footer()));
+    }
+    return text + R"(.SH EXIT STATUS
+.TP
+.B 0
+Everything succeeded.
+.TP
+.B 1
+Some cases failed, or were not precise, not steady, or bistable or slow; the rest are finished and kept.
+.TP
+.B 2
+The input is wrong.
+.TP
+.B 3
+Something is missing: the engine, disk space, or the permission to write.
+.TP
+.B 70
+An error in the program; please report it.
+.TP
+.B 130
+Interrupted.
+.SH SEE ALSO
+.BR liggghts (1),
+.BR paraview (1)
+)";
+}
+
+std::string shell_completion(CLI::App const& program, std::string const& shell) {
+    std::vector<Command> const commands = commands_of(program);
+    if (shell == "bash") return bash_completion(commands);
+    if (shell == "zsh") return zsh_completion(commands);
+    if (shell == "fish") return fish_completion(commands);
+    throw std::invalid_argument("there are completions for bash, zsh and fish");
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+/// The manual page of the program in the language of man(7), with all commands and options. It follows from
+/// the definition of the command line, so that both always agree.
+std::string manual_page(CLI::App const& program);
+
+/// What makes a shell complete commands and options.
+/// @param shell  "bash", "zsh" or "fish"
+/// @throws std::invalid_argument for any other shell
+std::string shell_completion(CLI::App const& program, std::string const& shell);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,46 @@
+#include "app/command_pages.hpp"
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+
+void add_manual(CLI::App& program, int& exit_code) {
+    CLI::App* const command = program.add_subcommand("manual", "Print the manual page");
+    command->footer(
+        R"(The page is in the language of man(7) and describes all commands and options. An installed program has it already:
+'man vibrotrough'.
+
+Example:
+  vibrotrough manual | man --local-file -)");
+    command->callback([&] {
+        fmt::print("{}", manual_page(program));
+        exit_code = all_well;
+    });
+}
+
+void add_completion(CLI::App& program, int& exit_code) {
+    CLI::App* const command =
+        program.add_subcommand("completion", "Print what makes a shell complete commands and options");
+    auto const shell = std::make_shared<std::string>();
+    command->add_option("SHELL", *shell, "bash, zsh or fish")
+        ->required()
+        ->type_name("")
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    command->footer(
+        R"(An installed program brings the completions of all three shells along. For one in its build folder:
+
+Example:
+  vibrotrough completion bash > ~/.local/share/bash-completion/completions/vibrotrough)");
+    command->callback([&program, &exit_code, shell] {
+        fmt::print("{}", shell_completion(program, *shell));
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,130 @@
+"""The package as a user gets it: made with CPack, unpacked in another folder and used there, not from the build tree.
+
+It is unpacked and not installed, because that would change the machine. Programs of Debian read what belongs to it: dpkg-deb the
+package, groff the manual page, bash, zsh and fish the completions.
+"""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from trough_program import campaign_text
+
+SOURCE, BUILD, CPACK = (os.environ[f"VIBROTROUGH_{name}"] for name in ("SOURCE", "BUILD", "CPACK"))
+
+
+def call(*command, **settings):
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, **settings)
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-package-")
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        cls.folder.chmod(0o755)
+        made = call(CPACK, "-G", "DEB", "--config", f"{BUILD}/CPackConfig.cmake", "-B", cls.folder / "made", cwd=cls.folder)
+        if made.returncode != 0:
+            raise AssertionError(made.stdout + made.stderr)
+        [cls.package] = (cls.folder / "made").glob("*.deb")
+        cls.root = cls.folder / "root"
+        subprocess.run(["dpkg-deb", "--extract", cls.package, cls.root], check=True)
+        cls.program = cls.root / "usr/bin/vibrotrough"
+
+    def field(self, name):
+        return call("dpkg-deb", "--field", self.package, name).stdout.strip()
+
+    def test_it_names_what_it_needs(self):
+        self.assertEqual(self.field("Package"), "vibrotrough")
+        needed = self.field("Depends")
+        for name in ("liggghts", "python3-numpy", "python3-h5py", "python3-matplotlib", "python3-jinja2", "libudunits2", "libhdf5", "libvtk9", "libc6"):
+            self.assertIn(name, needed)
+        for name in ("-dev", "slurm", "clang", "gtest"):
+            self.assertNotIn(name, needed)
+
+    def test_nothing_points_into_the_folder_it_was_built_in(self):
+        for path in self.root.rglob("*"):
+            if path.is_file():
+                content = path.read_bytes()
+                self.assertNotIn(SOURCE.encode(), content, path)
+                self.assertNotIn(BUILD.encode(), content, path)
+
+    def test_a_campaign_from_simulation_to_report(self):
+        """As a user without rights, in a folder of his own, with nothing of the sources at hand."""
+        home = self.folder / "home"
+        home.mkdir()
+        os.chown(home, 65534, 65534) if os.geteuid() == 0 else None
+        user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        settings = {"cwd": home, "env": {"PATH": "/usr/bin:/bin", "HOME": str(home), "TMPDIR": str(home)}, **user}
+        (self.folder / "campaign.toml").write_text(campaign_text({"output.frames_per_cycle": 4}))
+        for words in (("run", self.folder / "campaign.toml", "--output", "runs", "--quiet"), ("compare", "runs", "--json"),
+                      ("report", "runs"), ("export", "runs"), ("validate", "theory_exact", "--points", 20)):  # fmt: skip
+            done = call(self.program, *words, **settings)
+            self.assertEqual(done.returncode, 0, f"{words}: {done.stdout}{done.stderr}")
+            if words[0] == "compare":
+                self.assertEqual([row["outcome"] for row in json.loads(done.stdout)], ["finished"])
+        self.assertTrue((home / "runs/report/report.html").is_file())
+        self.assertTrue(list((home / "runs").rglob("*.pvd")) + list((home / "runs").rglob("*.vtp*")))
+
+    def test_the_manual_page_is_sound_and_complete(self):
+        page = self.root / "usr/share/man/man1/vibrotrough.1"
+        shown = call("groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=100n", page)
+        self.assertEqual((shown.returncode, shown.stderr), (0, ""))
+        for words in ("vibrotrough run", "vibrotrough theory point", "--half-width", "EXIT STATUS"):
+            self.assertIn(words, shown.stdout.replace("\u2010", "-").replace("\u2212", "-"))
+
+    def complete(self, *words):
+        """What bash offers for the last of the words."""
+        script = self.root / "usr/share/bash-completion/completions/vibrotrough"
+        done = call("bash", "-c", 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _vibrotrough; printf "%s\\n" "${COMPREPLY[@]}"',
+                    "bash", script, "vibrotrough", *words)  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()
+
+    def test_bash_completes_commands_and_options(self):
+        self.assertIn("compare", self.complete("com"))
+        self.assertEqual(self.complete("theory", "po"), ["point"])
+        self.assertEqual(self.complete("theory", "point", "--throw"), ["--throw-number"])
+        self.assertIn("--jobs", self.complete("run", "campaign.toml", "--"))
+        self.assertEqual(self.complete("run", "campaign.tom"), [], "file names are left to bash")
+
+    def test_zsh_and_fish_can_read_their_completions(self):
+        for command in (["zsh", "-n", "usr/share/zsh/vendor-completions/_vibrotrough"],
+                        ["fish", "--no-execute", "usr/share/fish/vendor_completions.d/vibrotrough.fish"]):  # fmt: skip
+            done = call(*command[:-1], self.root / command[-1])
+            self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+        script = self.root / "usr/share/fish/vendor_completions.d/vibrotrough.fish"
+        offered = call("fish", "--no-config", "-c", f"source {script}; complete -C 'vibrotrough theory po'").stdout
+        self.assertIn("point", offered)
+
+    def test_version_names_libraries_and_engine(self):
+        lines = call(self.program, "--version").stdout.splitlines()
+        self.assertRegex(lines[0], r"^vibrotrough [0-9.]+ \([0-9a-f]+(-dirty)?\)$")
+        self.assertIn("HDF5 ", lines[2])
+        self.assertIn("VTK ", lines[2])
+        self.assertIn("LIGGGHTS", lines[3])
+
+    def test_what_to_cite(self):
+        self.assertIn("Powder Technology 87 (1996) 203-210", call(self.program, "cite").stdout)
+        self.assertEqual(call(self.program, "cite", "--bibtex").stdout.count("@"), 3)
+
+
+class Sources(unittest.TestCase):
+    def test_the_tarball_holds_the_sources_and_nothing_made_from_them(self):
+        with tempfile.TemporaryDirectory(prefix="vibrotrough-sources-") as folder:
+            made = call(CPACK, "--config", f"{BUILD}/CPackSourceConfig.cmake", "-B", folder, cwd=folder)
+            self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+            [tarball] = Path(folder).glob("*.tar.gz")
+            names = call("tar", "--list", "--file", tarball).stdout.splitlines()
+            inside = {name.partition("/")[2] for name in names}
+            missing = {"README.md", "LICENSE", "setup", "CMakeLists.txt", "src/app/main.cpp"} - inside
+            self.assertEqual(missing, set())
+            self.assertEqual([name for name in inside if name.startswith(("build/", "runs/", ".git/"))], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
