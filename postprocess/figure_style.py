@@ -1,5 +1,6 @@
 """What all figures share: colours, fonts, the corner's text, saving."""
 
+import io
 import math
 import pathlib
 from collections.abc import Mapping
@@ -8,6 +9,8 @@ from typing import Any
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+from drawn_figures import write_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend comes first)
@@ -65,7 +68,9 @@ def save(figure: Figure, output: pathlib.Path) -> list[pathlib.Path]:
         path = output.with_name(f"{output.name}.{kind}")
         try:
             output.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(path, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+            content = io.BytesIO()
+            figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+            write_file(path, content.getvalue())
         except OSError as error:
             raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
         paths.append(path)

@@ -19,6 +19,7 @@ import figure_cycles
 import figure_portraits
 import figure_residuals
 import vibrotrough
+from drawn_figures import DrawnFigures, digest_of_data
 from figure_style import Problem
 from plot_campaign import plot_efficiency
 
@@ -46,16 +47,29 @@ class Source:
 
 
 def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Iterator[list[pathlib.Path]]:
-    """Draws one figure after another and gives the paths of each."""
+    """Draws one figure after another, notes what it was drawn from, and gives the paths of each."""
+    drawn = DrawnFigures(source.output)
+    data = digest_of_data(source.directory, source.output)
+    for paths in draw_general(source, only):
+        drawn.remember(paths, data)
+        yield paths
+    for case in source.campaign["case"]:
+        if cases and case not in cases:
+            continue
+        data = digest_of_data(source.directory, source.output, case)
+        for paths in draw_case(source, only, case):
+            drawn.remember(paths, data)
+            yield paths
+
+
+def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib.Path]]:
+    """The figures of the campaign as a whole."""
     if "efficiency" in only:
         yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency")
     if "residuals" in only:
         yield figure_residuals.plot_residuals(source, source.output / "residuals")
     if "budget" in only:
         yield figure_budget.plot_budget(source, source.output / "budget")
-    for case in source.campaign["case"]:
-        if not cases or case in cases:
-            yield from draw_case(source, only, case)
 
 
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:

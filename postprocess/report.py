@@ -8,8 +8,9 @@ and prints its path. What users wrote is escaped by the template (report.html).
 """
 
 import argparse
+import base64
+import hashlib
 import json
-import os
 import pathlib
 import re
 import sys
@@ -18,6 +19,7 @@ from typing import Any
 import jinja2
 import markupsafe
 
+from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
 from figure_style import Problem
 
 UNIT_SIGNS = {"1": "", "degree": "\u00b0"}  # of units that are not written as they are
@@ -43,7 +45,7 @@ MOST_CASES = 60  # whose own figures are in the report: 140 kB each
 
 def read_json(path: pathlib.Path, needed: bool = True) -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(read_note(path))
     except FileNotFoundError:
         if not needed:
             return None
@@ -52,31 +54,34 @@ def read_json(path: pathlib.Path, needed: bool = True) -> Any:
         raise Problem(f"cannot read {path} ({error}); remove it or write it anew") from error
 
 
-def inline_svg(path: pathlib.Path, number: int, title: str) -> markupsafe.Markup:
-    """The figure as an element of the page: no prolog, ids of its own, a name for screen readers."""
-    text = path.read_text(encoding="utf-8")
-    text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>figure{number}-", text)
+def inline_svg(drawing: str, number: int, title: str) -> markupsafe.Markup:
+    """The figure as an element of the page: ids of its own, a name for screen readers."""
+    text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>figure{number}-", drawing)
     opening = f'<svg role="img" aria-label="{markupsafe.escape(title)}"'
     return markupsafe.Markup(text.replace("<svg", opening, 1))
 
 
 class Figures:
-    """Finds the figures that are there and numbers them."""
+    """Finds the figures that were drawn from the data that the report shows, and numbers them."""
 
-    def __init__(self, folder: pathlib.Path) -> None:
-        self.folder, self.number = folder, 0
+    def __init__(self, directory: pathlib.Path, output: pathlib.Path) -> None:
+        self.directory, self.output, self.number = directory, output, 0
+        self.drawn = DrawnFigures(output)
 
-    def get(self, name: str, title: str) -> dict[str, Any] | None:
-        path = self.folder / f"{name}.svg"
-        if not path.is_file():
+    def get(self, name: str, title: str, data: str) -> dict[str, Any] | None:
+        content = self.drawn.read(f"{name}.svg", data)
+        if content is None:
+            return None
+        drawing = drawing_of(content)
+        if drawing is None:
+            print(f"report.py: {self.output / name}.svg is left out, because it does more than draw", file=sys.stderr)
             return None
         self.number += 1
-        return {"number": self.number, "title": title, "svg": inline_svg(path, self.number, title)}
+        return {"number": self.number, "title": title, "svg": inline_svg(drawing, self.number, title)}
 
-    def all(self, names: list[tuple[str, str]]) -> list[dict[str, Any]]:
-        return [figure for figure in (self.get(*one) for one in names) if figure]
+    def all(self, names: list[tuple[str, str]], case: str | None = None) -> list[dict[str, Any]]:
+        data = digest_of_data(self.directory, self.output, case)
+        return [figure for figure in (self.get(*one, data) for one in names) if figure]
 
 
 def report_columns(overview: dict[str, Any]) -> list[Column]:
@@ -129,23 +134,30 @@ def split_certificate(certificate: Any) -> tuple[Any, dict[str, list[dict[str, A
     return {name: one for name, one in certificate.items() if name not in lists}, lists
 
 
+def script_digest(template: str) -> str:
+    """Names the page's own script in its policy, so that a browser runs no other."""
+    script = template[template.index("<script>") + len("<script>") : template.index("</script>")]
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+
 def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     overview = read_json(output / "data" / "campaign.json")
     cases = overview["cases"]
-    figures = Figures(output)
+    figures = Figures(directory, output)
     general = figures.all(FIGURES)
     certificate, lists = split_certificate(read_json(directory / "certificate.json", needed=False))
     columns, told = split_columns(report_columns(overview), cases)
     single = [
         {"case": case, "figures": found}
         for case in cases
-        if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES]))
+        if (found := figures.all([(f"{kind}-{case['case']}", title) for kind, title in CASE_FIGURES], case["case"]))
     ] if len(cases) <= MOST_CASES else []
+    folder = pathlib.Path(__file__).resolve().parent
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True, trim_blocks=True,
-        lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+        loader=jinja2.FileSystemLoader(folder), autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
         overview=overview,
+        script_digest=script_digest((folder / "report.html").read_text(encoding="utf-8")),
         counts=counts(cases),
         columns=columns,
         same_in_all=told,
@@ -168,10 +180,8 @@ def main() -> None:
     output = options.output or options.directory / "report"
     page = render(options.directory, output)
     path = output / "report.html"
-    part = path.with_name("report.html.part")
     try:
-        part.write_text(page, encoding="utf-8")
-        os.replace(part, path)
+        write_file(path, page.encode())
     except OSError as error:
         raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
     print(path)

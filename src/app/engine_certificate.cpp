@@ -1,6 +1,8 @@
 #include "app/engine_certificate.hpp"
 
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
+#include "engine/binary_watch.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe.hpp"
 
@@ -14,17 +16,23 @@ namespace {
 
 std::optional<engine::Certificate> probe(engine::Engine const& engine,
                                          engine::EngineIdentity const& identity) {
-    fmt::print(stderr, "probing {} (once per binary, a few seconds)\n", engine.program.string());
+    tell("probing {} (once per binary, a few seconds)\n", engine.program.string());
     auto const start = std::chrono::steady_clock::now();
     auto const certificate = engine::probe_engine(engine, identity);
     if (!certificate) return {};
     std::chrono::duration<double> const spent = std::chrono::steady_clock::now() - start;
-    fmt::print(stderr, "{} ({:.1f} s)\n", verdict_of(*certificate), spent.count());
+    tell("{} ({:.1f} s)\n", verdict_of(*certificate), spent.count());
     if (!certificate->passed()) return certificate;
     if (std::string const problem = engine::keep_certificate(*certificate); !problem.empty()) {
-        fmt::print(stderr, "the certificate is not kept, the next run probes again: {}\n", problem);
+        tell("the certificate is not kept, the next run probes again: {}\n", problem);
     }
     return certificate;
+}
+
+std::optional<engine::Certificate> kept_or_new(engine::Engine const& engine,
+                                               engine::EngineIdentity const& identity) {
+    if (auto const kept = engine::find_certificate(identity)) return kept;
+    return probe(engine, identity);
 }
 
 }  // namespace
@@ -34,9 +42,7 @@ std::optional<engine::Certificate> probe_now(engine::Engine const& engine) {
 }
 
 std::optional<engine::Certificate> certificate_of(engine::Engine const& engine) {
-    engine::EngineIdentity const identity = engine::identify(engine);
-    if (auto const kept = engine::find_certificate(identity)) return kept;
-    return probe(engine, identity);
+    return kept_or_new(engine, engine::identify(engine));
 }
 
 std::string verdict_of(engine::Certificate const& certificate) {
@@ -57,7 +63,8 @@ std::string verdict_of(engine::Certificate const& certificate) {
 }
 
 bool certify(engine::Engine& engine, bool accept_failed_probes) {
-    auto const certificate = certificate_of(engine);
+    engine::EngineIdentity const identity = engine::identify(engine);
+    auto const certificate = kept_or_new(engine, identity);
     if (!certificate) return false;
     if (!certificate->passed() && !accept_failed_probes) {
         throw core::MissingError(fmt::format(
@@ -66,6 +73,8 @@ bool certify(engine::Engine& engine, bool accept_failed_probes) {
             engine.program.string(), verdict_of(*certificate)));
     }
     engine.certificate = engine::to_json(*certificate);
+    engine.binary_sha256 = identity.binary_sha256();
+    engine.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return true;
 }
 

@@ -15,7 +15,8 @@ std::optional<engine::Certificate> probe_now(engine::Engine const& engine);
 /// The certificate of this binary that was kept, else that of probe_now().
 std::optional<engine::Certificate> certificate_of(engine::Engine const& engine);
 
-/// Stores its certificate in `engine`. False when interrupted.
+/// Stores its certificate in `engine`, and from now on watches that its binary stays the same. False when
+/// interrupted.
 /// @param accept_failed_probes  whether the user accepts an engine whose probes failed
 /// @throws core::MissingError when probes failed and the user does not accept that
 bool certify(engine::Engine& engine, bool accept_failed_probes);

@@ -1,13 +1,17 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/help_formatter.hpp"
+#include "app/standard_streams.hpp"
 #include "app/version_text.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
@@ -96,6 +100,10 @@ int run(int argc, char** argv) {
         program.exit(help_or_version);
     } catch (CLI::ParseError const& error) {
         throw core::InputError(describe(error, program, argc, argv));
+    } catch (std::invalid_argument const& error) {
+        // The theory, which knows no options, refuses inputs that it does not cover.
+        if (!program.got_subcommand("theory")) throw;
+        throw core::InputError(fmt::format("{}; write other values", error.what()));
     }
     return exit_code;
 }
@@ -112,18 +120,25 @@ void flush_output() {
 
 int main(int argc, char** argv) {
     using namespace vibrotrough;
+    app::prepare_process();
     try {
         int const exit_code = app::run(argc, argv);
         app::flush_output();
         return exit_code;
     } catch (core::Error const& error) {
-        fmt::print(stderr, "vibrotrough: {}\n", error.what());
+        app::tell("vibrotrough: {}\n", core::harmless(error.what()));
         return error.kind() == core::ErrorKind::input ? app::wrong_input : app::something_missing;
     } catch (std::system_error const& error) {
-        fmt::print(stderr, "vibrotrough: {}; check the disk and its permissions\n", error.what());
+        app::tell("vibrotrough: {}; check the disk and its permissions\n", core::harmless(error.what()));
+        return app::something_missing;
+    } catch (std::bad_alloc const&) {
+        app::tell("vibrotrough: there is not enough memory; use a smaller campaign or another machine\n");
+        return app::something_missing;
+    } catch (std::length_error const&) {
+        app::tell("vibrotrough: a file or a table is too large for the memory; remove or shorten it\n");
         return app::something_missing;
     } catch (std::exception const& error) {
-        fmt::print(stderr, "vibrotrough: internal error: {}\n", error.what());
+        app::tell("vibrotrough: internal error: {}\n", error.what());
         return app::internal_error;
     }
 }

@@ -1,14 +1,19 @@
 #include "app/progress_log.hpp"
 
+#include "app/standard_streams.hpp"
+#include "core/error.hpp"
+#include "core/own_folder.hpp"
 #include "core/text.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 
 #include <cmath>
+#include <mutex>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -34,6 +39,31 @@ Json describe(campaign::RunningPacking const& one) {
     return json;
 }
 
+/// Adds whole lines to a file of the campaign. spdlog's own sink would write through a symbolic link.
+class LogSink : public spdlog::sinks::base_sink<std::mutex> {
+  public:
+    explicit LogSink(std::filesystem::path const& path) {
+        core::check_own_file(path);
+        descriptor_ = core::ParentFolder(path).open(O_WRONLY | O_APPEND | O_CREAT | O_NONBLOCK);
+        if (descriptor_ < 0) throw core::MissingError(core::reason_of_errno());
+    }
+    ~LogSink() override { ::close(descriptor_); }
+    LogSink(LogSink const&) = delete;
+    LogSink& operator=(LogSink const&) = delete;
+
+  protected:
+    void sink_it_(spdlog::details::log_msg const& message) override {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        // A line that is lost, on a full disk for example, must not stop the campaign.
+        [[maybe_unused]] ssize_t const written = ::write(descriptor_, line.data(), line.size());
+    }
+    void flush_() override {}
+
+  private:
+    int descriptor_ = -1;
+};
+
 }  // namespace
 
 void JsonProgress::progressed(campaign::Progress const& progress) {
@@ -54,7 +84,7 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
                     {"core_time_s", progress.core_time},
                     {"core_time_to_go_s", known(progress.core_time_to_go)},
                     {"engines", engines}};
-    fmt::print(stderr, "{}\n", json.dump());
+    tell("{}\n", json.dump());
 }
 
 void JsonProgress::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
@@ -64,18 +94,19 @@ void JsonProgress::case_ended(campaign::PlannedCase const& planned, core::Outcom
                     {"case", planned.id},
                     {"outcome", name_of(outcome)},
                     {"message", message}};
-    fmt::print(stderr, "{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    tell("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 CampaignLog::CampaignLog(std::filesystem::path const& folder) {
     try {
-        logger_ = std::make_shared<spdlog::logger>(
-            "campaign",
-            std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "campaign.log").string()));
+        logger_ =
+            std::make_shared<spdlog::logger>("campaign", std::make_shared<LogSink>(folder / "campaign.log"));
         logger_->set_pattern("%Y-%m-%dT%H:%M:%SZ %l %v", spdlog::pattern_time_type::utc);
         logger_->flush_on(spdlog::level::info);
         logger_->set_error_handler([](std::string const&) {});
     } catch (spdlog::spdlog_ex const&) {
+        logger_ = nullptr;
+    } catch (core::MissingError const&) {
         logger_ = nullptr;
     }
 }
@@ -103,6 +134,11 @@ CampaignLog const& LoggingObserver::log() {
 void LoggingObserver::progressed(campaign::Progress const& progress) {
     log();
     next_.progressed(progress);
+}
+
+void LoggingObserver::stopping() {
+    log().info("a signal asks for a stop");
+    next_.stopping();
 }
 
 void LoggingObserver::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,

@@ -62,6 +62,8 @@ class LoggingObserver : public campaign::Observer {
     /// Writes that a case has ended to the log, and passes it on.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
+    /// Writes that the run stops to the log, and passes it on.
+    void stopping() override;
 
   private:
     CampaignLog const& log();

@@ -1,5 +1,8 @@
 #include "app/progress_printer.hpp"
 
+#include "app/standard_streams.hpp"
+#include "core/text.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -74,9 +77,8 @@ void ProgressPrinter::progressed(campaign::Progress const& progress) {
     clear_lines();
     for (std::string const& line : lines) {
         bool const is_last = &line == &lines.back();
-        fmt::print(stderr, "{}{}", line, is_last && terminal_ ? "" : "\n");
+        tell("{}{}", line, is_last && terminal_ ? "" : "\n");
     }
-    std::fflush(stderr);
     lines_ = std::move(lines);
     printed_ = now;
 }
@@ -85,16 +87,21 @@ void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, core::Out
                                  std::string const& message) {
     clear_lines();
     scenario::Trough const& trough = planned.scenario().trough;
-    fmt::print(
-        stderr, "case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",
-        planned.id, planned.prepared->throw_number, scenario::in_degrees(trough.vibration_angle),
-        scenario::in_degrees(trough.inclination), name_of(outcome), message.empty() ? "" : ": ", message);
+    tell("case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",
+         planned.id, planned.prepared->throw_number, scenario::in_degrees(trough.vibration_angle),
+         scenario::in_degrees(trough.inclination), name_of(outcome), message.empty() ? "" : ": ",
+         core::harmless(message));
+}
+
+void ProgressPrinter::stopping() {
+    clear_lines();
+    tell("stopping: the engines end the cycles that they are in; Ctrl-C again stops them at once\n");
 }
 
 void ProgressPrinter::clear_lines() {
     if (terminal_ && !lines_.empty()) {
-        fmt::print(stderr, "\r\x1b[K");
-        for (std::size_t i = 1; i < lines_.size(); ++i) fmt::print(stderr, "\x1b[A\x1b[K");
+        tell("\r\x1b[K");
+        for (std::size_t i = 1; i < lines_.size(); ++i) tell("\x1b[A\x1b[K");
     }
     lines_.clear();
 }

@@ -19,14 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a program of the PATH and returns its exit code, 127 when it cannot be started, or 128 + n when
-/// signal n ended it.
-int run_program(std::vector<std::string> words, bool silent) {
+/// Runs a program of the PATH in `folder` and returns its exit code, 127 when it cannot be started, or
+/// 128 + n when signal n ended it.
+int run_program(std::vector<std::string> words, fs::path const& folder, bool silent) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     if (silent) {
         for (int const stream : {STDOUT_FILENO, STDERR_FILENO})
             posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
@@ -43,12 +44,19 @@ int run_program(std::vector<std::string> words, bool silent) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// The path that the user gave, which is relative to the folder that the user is in. A name without a slash
+/// is looked for on the PATH.
+std::string absolute_program(std::string const& given) {
+    return given.find('/') == std::string::npos ? given : fs::absolute(given).string();
+}
+
 std::string find_python(std::string const& python, std::vector<std::string> const& modules) {
     std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
-    std::vector<std::string> const candidates =
-        python.empty() ? std::vector<std::string>{"/usr/bin/python3", "python3"} : std::vector{python};
+    std::vector<std::string> const candidates = python.empty()
+                                                    ? std::vector<std::string>{"/usr/bin/python3", "python3"}
+                                                    : std::vector{absolute_program(python)};
     for (std::string const& candidate : candidates) {
-        if (run_program({candidate, "-c", imports}, true) == 0) return candidate;
+        if (run_program({candidate, "-c", imports}, script_folder(), true) == 0) return candidate;
     }
     std::string packages;
     for (std::string const& module : modules) packages += " python3-" + module;
@@ -79,7 +87,9 @@ int script_exit_code(std::string const& script, std::vector<std::string> const& 
     // -B: no __pycache__, because the folder may be read-only, and the sources must stay clean.
     std::vector<std::string> words{find_python(python, modules), "-B", path.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    return run_program(words, false);
+    // Python imports modules from the folder that it is started in, and matplotlib reads its settings there:
+    // it is started in the scripts' own folder, because anybody may have put anything into the user's.
+    return run_program(words, script_folder(), false);
 }
 
 void run_script(std::string const& script, std::vector<std::string> const& arguments,

@@ -7,7 +7,8 @@
 namespace vibrotrough::app {
 
 /// Runs a script of postprocess/ with the first Python that has the modules. The output of the script goes to
-/// the same places as that of this program.
+/// the same places as that of this program. Python runs in script_folder(), so that no module and no settings
+/// of the user's folder are loaded: paths in `arguments` must be absolute.
 /// @param python   path of the Python to use; empty for /usr/bin/python3, else python3 on the PATH
 /// @param modules  names of the modules that the script imports, e.g. "matplotlib"
 /// @throws core::MissingError when there is no such Python or script, or when the script fails (it has then

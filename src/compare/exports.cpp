@@ -1,5 +1,8 @@
 #include "compare/exports.hpp"
 
+#include "core/csv.hpp"
+#include "core/text.hpp"
+
 #include <array>
 
 #include <fmt/format.h>
@@ -17,8 +20,12 @@ Json json_of(std::optional<Value> const& value) {
 
 std::string csv_field(std::optional<Value> const& value) {
     if (!value) return {};
-    if (auto const* const text = std::get_if<std::string>(&*value))
-        return *text;  // no column has texts with commas or quotes
+    if (auto const* const text = std::get_if<std::string>(&*value)) {
+        // A spreadsheet would execute a text that begins like a formula, and texts come from files.
+        bool const is_formula =
+            !text->empty() && std::string_view("=+-@\t\r").find(text->front()) != std::string_view::npos;
+        return core::csv_cell((is_formula ? "'" : "") + core::harmless(*text));
+    }
     return json_of(value).dump();
 }
 
@@ -57,7 +64,7 @@ std::string to_json(std::vector<Row> const& rows, std::span<Column const> column
         }
         array.push_back(std::move(object));
     }
-    return array.dump(2) + "\n";
+    return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns) {

@@ -41,7 +41,7 @@ int write_report_data(campaign::Plan const& plan, campaign::Activity const& acti
                     {"git_commit", core::program_commit()},
                     {"engine_version", plan.engine_version},
                     {"written", core::utc_now()},
-                    {"input", core::read_file(plan.folder / "campaign.toml")},
+                    {"input", core::read_file(plan.folder / "campaign.toml", core::largest_note)},
                     {"columns", column_descriptions()},
                     {"cases", case_list(compared)}};
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8

@@ -1,5 +1,7 @@
 #include "compare/table.hpp"
 
+#include "core/text.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -105,7 +107,8 @@ std::vector<Cells> lines_of(std::vector<Row> const& rows, Columns const& columns
     for (Column const* const column : columns) {
         lines[0].emplace_back(column->terminal->heading);
         lines[1].emplace_back(column->terminal->subheading);
-        for (std::size_t n = 0; n < rows.size(); ++n) lines[headings + n].push_back(cell(*column, rows[n]));
+        for (std::size_t n = 0; n < rows.size(); ++n)
+            lines[headings + n].push_back(core::harmless(cell(*column, rows[n])));
     }
     return lines;
 }

@@ -21,18 +21,19 @@ namespace fs = std::filesystem;
 /// An open file that closes itself.
 class Descriptor {
   public:
-    Descriptor(fs::path const& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    explicit Descriptor(int number) : number_(number) {}
     ~Descriptor() { close(); }
     Descriptor(Descriptor const&) = delete;
     Descriptor& operator=(Descriptor const&) = delete;
 
     bool is_open() const { return number_ >= 0; }
     int number() const { return number_; }
-    bool sync() const { return ::fsync(number_) == 0; }
+    bool sync() const { return sync_to_disk(number_); }
     bool write(std::string_view bytes) const {
         while (!bytes.empty()) {
             ssize_t const count = ::write(number_, bytes.data(), bytes.size());
             if (count < 0 && errno == EINTR) continue;
+            if (count == 0) errno = ENOSPC;
             if (count <= 0) return false;
             bytes.remove_prefix(static_cast<std::size_t>(count));
         }
@@ -40,101 +41,115 @@ class Descriptor {
     }
     bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
 
+    /// fsync(), which a signal may interrupt.
+    static bool sync_to_disk(int number) {
+        int result = 0;
+        do {
+            result = ::fsync(number);
+        } while (result != 0 && errno == EINTR);
+        return result == 0;
+    }
+
   private:
     int number_;
 };
 
-void sync_to_disk(fs::path const& path, int flags) {
-    Descriptor const file(path, flags);
-    if (file.is_open() && file.sync()) return;
+enum class Sync { yes, no };
+
+/// The name of the temporary file. The host name is needed because machines that share a file system may use
+/// the same process number.
+std::string temporary_name(std::string const& name) {
+    return name + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
+}
+
+bool write_whole(ParentFolder const& parent, std::string const& name, std::string_view content, Sync sync) {
+    constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    int opened = ::openat(parent.descriptor(), name.c_str(), flags, 0666);
+    if (opened < 0 && errno == EEXIST) {
+        // Of an earlier process of the same number, or planted: it is removed and not written into.
+        ::unlinkat(parent.descriptor(), name.c_str(), 0);
+        opened = ::openat(parent.descriptor(), name.c_str(), flags, 0666);
+    }
+    Descriptor file(opened);
+    return file.is_open() && file.write(content) && (sync == Sync::no || file.sync()) && file.close();
+}
+
+void write_and_rename(fs::path const& path, std::string_view content, Sync sync) {
+    ParentFolder const parent(path);
+    std::string const temporary = temporary_name(path.filename().string());
+    int const folder = parent.descriptor();
+    bool const written = parent.is_open() && write_whole(parent, temporary, content, sync) &&
+                         ::renameat(folder, temporary.c_str(), folder, parent.name()) == 0;
+    if (written) {
+        if (sync == Sync::no || Descriptor::sync_to_disk(folder)) return;
+        throw MissingError(
+            fmt::format("cannot sync {} ({}); check the disk", path.string(), reason_of_errno()));
+    }
+    std::string const reason = reason_of_errno();
+    if (parent.is_open()) ::unlinkat(folder, temporary.c_str(), 0);
     throw MissingError(
-        fmt::format("cannot sync {} ({}); check the disk", path.string(), std::strerror(errno)));
+        fmt::format("cannot write {} ({}); free disk space or choose another folder", path.string(), reason));
 }
 
-void sync_folder_of(fs::path const& path) {
-    sync_to_disk(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+[[noreturn]] void refuse_to_read(fs::path const& path, std::string const& reason) {
+    throw MissingError(fmt::format("cannot read {} ({})", path.string(), reason));
 }
 
-/// `write` makes the temporary file and syncs it if that is wanted; this function only renames it.
-void write_and_rename(fs::path const& path, std::function<void(fs::path const&)> const& write) {
-    // The host name is needed because machines that share a file system may use the same process number.
-    fs::path const temporary =
-        path.string() + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
-    try {
-        write(temporary);
-        fs::rename(temporary, path);
-    } catch (fs::filesystem_error const& error) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw MissingError(fmt::format("cannot write {} ({})", path.string(), error.code().message()));
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw;
-    }
-}
-
-void write_whole(fs::path const& path, fs::path const& temporary, std::string_view content, bool sync) {
-    Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-    bool const written = file.is_open() && file.write(content) && (!sync || file.sync()) && file.close();
-    if (!written) {
-        throw MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
-                                       path.string(), std::strerror(errno)));
-    }
-}
-
-}  // namespace
-
-std::string read_file(fs::path const& path) {
-    Descriptor const file(path, O_RDONLY);
-    struct stat status {};
-    if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode))
-        throw MissingError(fmt::format("cannot open {} (no such file, or not readable)", path.string()));
-    // The reported size is only a hint: the file may grow meanwhile, and files in /proc report a size of 0.
-    std::string content(std::max<std::size_t>(static_cast<std::size_t>(status.st_size) + 1, 4096), '\0');
+/// Reads to the end. The reported size is only a hint: the file may grow meanwhile, and files in /proc report
+/// a size of 0.
+std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_t hint, std::size_t limit) {
+    std::string content(std::max<std::size_t>(hint + 1, 4096), '\0');
     std::size_t length = 0;
     while (true) {
         ssize_t const count = ::read(file.number(), content.data() + length, content.size() - length);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0)
-            throw MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
+        if (count < 0) refuse_to_read(path, std::strerror(errno));
         if (count == 0) break;
         length += static_cast<std::size_t>(count);
+        if (length > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);
     return content;
 }
 
+std::string read_opened(fs::path const& path, int flags, std::size_t limit) {
+    // Without O_NONBLOCK the opening of a pipe would wait for a writer.
+    Descriptor const file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
+    struct stat status {};
+    if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
+        std::string const reason = file.is_open() || errno == ENOENT || errno == EACCES
+                                       ? "no such file, or not readable"
+                                       : std::strerror(errno);
+        throw MissingError(fmt::format("cannot open {} ({})", path.string(), reason));
+    }
+    if ((flags & O_NONBLOCK) != 0 && !S_ISREG(status.st_mode))
+        refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
+    auto const size = static_cast<std::size_t>(status.st_size);
+    if (size > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
+    return read_to_end(file, path, size, limit);
+}
+
+}  // namespace
+
+std::string read_file(fs::path const& path, std::size_t limit) {
+    return read_opened(path, O_NONBLOCK, limit);
+}
+
+std::string read_given_file(fs::path const& path, std::size_t limit) {
+    return read_opened(path, 0, limit);
+}
+
 TextFile read_text_file(fs::path const& path) {
     return {path, read_file(path)};
 }
 
-void make_folder(fs::path const& path) {
-    std::error_code failure;
-    fs::create_directories(path, failure);
-    if (failure || !fs::is_directory(path)) {
-        throw MissingError(
-            fmt::format("cannot make the folder {} ({}); correct this or choose another folder",
-                        path.string(), failure ? failure.message() : "there is a file of this name"));
-    }
-}
-
-void write_atomically(fs::path const& path, std::function<void(fs::path const&)> const& write) {
-    write_and_rename(path, [&](fs::path const& temporary) {
-        write(temporary);
-        sync_to_disk(temporary, O_RDONLY);
-    });
-    sync_folder_of(path);
-}
-
 void write_file_atomically(fs::path const& path, std::string_view content) {
-    write_and_rename(path, [&](fs::path const& temporary) { write_whole(path, temporary, content, true); });
-    sync_folder_of(path);
+    write_and_rename(path, content, Sync::yes);
 }
 
 void replace_file(fs::path const& path, std::string_view content) {
-    write_and_rename(path, [&](fs::path const& temporary) { write_whole(path, temporary, content, false); });
+    write_and_rename(path, content, Sync::no);
 }
 
 }  // namespace vibrotrough::core

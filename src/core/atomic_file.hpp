@@ -1,14 +1,29 @@
 #pragma once
 
+#include "core/own_folder.hpp"  // make_folder() and the like, which are used together with these
+
+#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
 namespace vibrotrough::core {
 
-/// The bytes of a whole file. @throws MissingError when it cannot be opened or read
-std::string read_file(std::filesystem::path const& path);
+/// The largest file that is read as a whole, in bytes: a file of phases of 200,000 cycles, or a restart file
+/// of ten million grains.
+constexpr std::size_t largest_file = std::size_t{4} << 30;
+
+/// The largest file of facts (JSON, TOML, a deck, a marker) that is read, in bytes.
+constexpr std::size_t largest_note = std::size_t{64} << 20;
+
+/// The bytes of a whole file. Only a regular file is read: a pipe or a device would never end.
+/// @param limit  bytes; a longer file is refused before anything of it is read
+/// @throws MissingError when it cannot be opened or read, or is not a regular file of this size
+std::string read_file(std::filesystem::path const& path, std::size_t limit = largest_file);
+
+/// The same for a file that the user has named on the command line, which may be a pipe.
+/// @throws MissingError when it cannot be opened or read, or is longer than `limit`
+std::string read_given_file(std::filesystem::path const& path, std::size_t limit = largest_note);
 
 /// The content of a file at one moment, together with its path.
 struct TextFile {
@@ -16,21 +31,12 @@ struct TextFile {
     std::string content;         ///< all bytes of the file
 };
 
-/// Reads a whole file and keeps its path. @throws MissingError when it cannot be opened or read
+/// Reads a whole file and keeps its path. @throws MissingError as read_file()
 TextFile read_text_file(std::filesystem::path const& path);
 
-/// Creates the folder and its parents unless they exist.
-/// @throws MissingError with the reason: permission, disk, or a file that has this name
-void make_folder(std::filesystem::path const& path);
-
-/// Calls `write` with the path of a temporary file in the folder of `path`, syncs that file to disk and
-/// renames it to `path`. No reader ever sees a half-written `path`. The temporary file is removed if anything
-/// throws.
-/// @throws MissingError when the file cannot be written, and whatever `write` throws
-void write_atomically(std::filesystem::path const& path,
-                      std::function<void(std::filesystem::path const& temporary)> const& write);
-
-/// Writes `content` in the same way.
+/// Writes a temporary file in the folder of `path`, syncs it to disk and renames it to `path`. No reader ever
+/// sees a half-written `path`. Neither of the two is written through a symbolic link: one that has its name
+/// is replaced.
 /// @throws MissingError when the file cannot be written
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 

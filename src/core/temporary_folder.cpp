@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 namespace vibrotrough::core {
 
@@ -27,6 +28,8 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose) {
                                        name, std::strerror(errno)));
     }
     path_ = name;
+    // The owner may use it, whatever the umask says.
+    ::chmod(name.c_str(), 0700);
 }
 
 TemporaryFolder::~TemporaryFolder() {

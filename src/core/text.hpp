@@ -10,4 +10,9 @@ namespace vibrotrough::core {
 /// '?', and a text longer than `longest` bytes is cut there and ends in "...".
 std::string printable(std::string_view text, std::size_t longest);
 
+/// A text from outside, made harmless for a terminal and a single line: control characters, with which a
+/// terminal can be steered, marks that change the direction of writing, and bytes that are not UTF-8 become
+/// '?'. The letters of all languages stay.
+std::string harmless(std::string_view text);
+
 }  // namespace vibrotrough::core

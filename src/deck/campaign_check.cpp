@@ -53,6 +53,8 @@ std::string CampaignCheck::first_error() const {
 
 CampaignCheck check_campaign(scenario::Campaign const& campaign) {
     CampaignCheck total;
+    // The certificate, the frozen campaign and campaign.h5.
+    total.bytes = total.largest_bytes = 80e3;
     prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
@@ -61,6 +63,8 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         double const packings = expected_packings(scenario.measure);
         total.grain_steps += packings * expected_work(prepared);
         total.bytes += expected_bytes(prepared);
+        total.largest_bytes += largest_bytes(prepared);
+        total.engine_memory = std::max(total.engine_memory, expected_memory(prepared));
         total.packings += packings;
         total.cycles += packings * expected_cycles(scenario.measure);
     }
@@ -72,10 +76,14 @@ std::string describe(CheckedItem const& item, int cases) {
     std::string const where = cases == 1 ? ""
                                          : fmt::format(" in {} of {} cases, worst in case {}",
                                                        item.cases_beyond_limit, cases, item.worst_case);
-    return fmt::format(
-        "{}: {} is {:.3g}{}, {} {:.3g}{}; {}", finding.key, finding.item, finding.measured,
-        finding.unit == "1" ? "" : " " + finding.unit, finding.at_least ? "at least" : "at most",
-        finding.severity == Severity::error ? finding.hard_limit : finding.limit, where, finding.advice);
+    std::string const refused = finding.severity == Severity::error
+                                    ? fmt::format(" ({} {:.3g} it is an error)",
+                                                  finding.at_least ? "below" : "above", finding.hard_limit)
+                                    : "";
+    return fmt::format("{}: {} is {:.3g}{}, {} {:.3g}{}{}; {}", finding.key, finding.item, finding.measured,
+                       finding.unit == "1" ? "" : " " + finding.unit,
+                       finding.at_least ? "at least" : "at most", finding.limit, refused, where,
+                       finding.advice);
 }
 
 }  // namespace vibrotrough::deck

@@ -21,6 +21,8 @@ struct CampaignCheck {
     int cases = 0;                   ///< number of cases
     double grain_steps = 0;          ///< expected number of time steps times grains of the whole campaign
     double bytes = 0;                ///< expected size of all files, bytes
+    double largest_bytes = 0;        ///< if all cases go to max_packings and max_cycles, bytes
+    double engine_memory = 0;        ///< of one engine of the largest case, bytes
     double packings = 0;             ///< number of packings of all cases
     double cycles = 0;               ///< expected number of cycles of all packings
 

@@ -81,6 +81,12 @@ void check_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const&
                             0.3, stiffen));
 }
 
+/// Flights shorter than this part of a cycle are not looked at: just above a throw number of 1 the point mass
+/// only grazes. In a flight of a tenth of a cycle it rises by 4.5 (Gamma - 1)^2 g cos(alpha) / omega^2, less
+/// than a thousandth of the amplitude, because Gamma is 1.012 there (Eq. 15 of Sloot & Kruyt expanded about
+/// Gamma = 1: the flight takes 4 sqrt(2 (Gamma - 1)) / omega). There is no flight to resolve.
+constexpr double shortest_flight = 0.1;
+
 /// An impact should be short compared with what happens between impacts. A collision passes through the layer
 /// grain by grain, which takes the height in diameters times the contact time of a grain.
 void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
@@ -95,7 +101,7 @@ void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase co
     findings.push_back(
         most("contact time at the trough's speed / cycle", key, contact / cycle, 0.02, 0.1, stiffen));
     double const flight = flight_time(c);
-    if (flight <= 0) return;
+    if (flight < shortest_flight * cycle) return;
     findings.push_back(
         most("contact time at the trough's speed / flight time", key, contact / flight, 0.05, 0.3, stiffen));
     if (is_block(s)) return;
@@ -112,6 +118,12 @@ void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
               "lengthen the box, so that grains do not interact with their own periodic images"));
     findings.push_back(
         least("periodic width / diameter", "layer.width", s.layer.width / diameter, 5, 4, "widen the box"));
+    if (c.clump) {
+        // With half the box a grain would lie across from its own image whichever way it turns.
+        findings.push_back(most("largest extent of a clump / smaller side of the box", "grains.shape",
+                                c.largest_extent / std::min(s.layer.length, s.layer.width), 0.4, 0.5,
+                                "lengthen and widen the box, or use a more compact shape"));
+    }
     findings.push_back(least("periodic length / layer height", "layer.length",
                              s.layer.length / c.layer_height, 1, 0,
                              "lengthen the box, because waves and convection in the layer need space"));
@@ -178,10 +190,18 @@ void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
                              "grains.diameter", steps_between_rebuilds(c, time.impact_speed), 5, 1,
                              "shorten the time step, because grains move out of their neighbour lists"));
-    Finding disk = most("disk", "output.frames_per_cycle", expected_bytes(c), 1e10, 1e12,
-                        "write fewer frames (output.frames_per_cycle)");
-    disk.unit = "byte";
-    findings.push_back(disk);
+    bool const has_frames = c.scenario.output.frames_per_cycle > 0;
+    char const* const key = has_frames ? "output.frames_per_cycle" : "measure.max_cycles";
+    std::string const advice =
+        has_frames ? "write fewer frames" : "lower it or measure.max_packings, or use fewer or larger grains";
+    for (Finding size : {most("disk", key, expected_bytes(c), 1e10, 1e12, advice),
+                         most("disk, with max_packings packings of max_cycles cycles", key, largest_bytes(c),
+                              1e11, never, advice),
+                         most("memory of one engine", "layer.grains", expected_memory(c), 8e9, 1e12,
+                              "use fewer grains, or a shorter box")}) {
+        size.unit = "byte";
+        findings.push_back(size);
+    }
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ std::map<std::string, std::string> read_files(std::filesystem::path const& folde
     for (auto const& [name, unused] : names) {
         std::error_code missing;
         if (!std::filesystem::is_regular_file(folder / name, missing)) continue;
-        files[name] = name == control_file ? control_go_on : for_one_rank(core::read_file(folder / name));
+        files[name] = name == control_file ? control_go_on
+                                           : for_one_rank(core::read_file(folder / name, core::largest_note));
     }
     return files;
 }

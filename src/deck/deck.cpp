@@ -90,6 +90,13 @@ std::string control_until(int cycles) {
         cycles, checkpoint_file(cycles), checkpoint_list);
 }
 
+std::string control_at_once() {
+    return fmt::format(
+        "variable stop equal 1\nrun 0\nwrite_restart checkpoint.${{done}}.restart\nprint \"${{done}}\" "
+        "append {}\n",
+        checkpoint_list);
+}
+
 std::string checkpoint_file(int cycle) {
     return fmt::format("checkpoint.{}.restart", cycle);
 }

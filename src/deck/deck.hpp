@@ -62,6 +62,9 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
 /// without one.
 std::string control_until(int cycles);
 
+/// The content of control.in that ends a run after the cycle that it is in, with a checkpoint.
+std::string control_at_once();
+
 /// The seed of packing number `packing` (from 1), a prime as the engine requires.
 int packing_seed(int packing);
 

@@ -1,5 +1,7 @@
 #include "deck/estimates.hpp"
 
+#include "deck/phases.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,10 @@ namespace {
 
 double effective_modulus(scenario::Scenario const& s) {
     return s.grains.youngs_modulus / (2 * (1 - s.grains.poisson_ratio * s.grains.poisson_ratio));
+}
+
+double sphere_count(prepare::PreparedCase const& c) {
+    return static_cast<double>(c.scenario.layer.grains) * c.spheres_per_grain;
 }
 
 double mean_mass(scenario::Scenario const& s) {
@@ -73,10 +79,34 @@ double expected_work(prepare::PreparedCase const& c, Experience const& experienc
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {
+    scenario::MeasurementPlan const& plan = c.scenario.measure;
+    return bytes_of(c, expected_packings(plan), expected_cycles(plan));
+}
+
+double largest_bytes(prepare::PreparedCase const& c) {
+    scenario::MeasurementPlan const& plan = c.scenario.measure;
+    return bytes_of(c, plan.max_packings, plan.max_cycles);
+}
+
+double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) {
     scenario::Scenario const& s = c.scenario;
-    double const cycles = expected_cycles(s.measure);
-    return 120.0 * s.layer.grains * s.output.frames_per_cycle * cycles +
-           160 * cycles * expected_packings(s.measure);
+    double const spheres = sphere_count(c);
+    double const bins = std::ceil((c.box_top - c.box_bottom) / (s.grains.diameter / 2));
+    double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * s.grains.diameter)));
+    double const snapshots = static_cast<double>(profiles_per_cycle) / profile_stride;
+    // Mean lengths of the rows of phases.csv, cycles.csv, profiles.N.txt, surface.N.txt and of a dump.
+    double const per_cycle =
+        253.0 * prepare::phases_per_cycle + 140 + snapshots * (25 + 22.5 * bins + 35 * columns);
+    double const frames = s.output.frames_per_cycle * cycles;  // of the first packing
+    // The engine's output, the deck and the marker of the run and of its settling; settled.restart and one
+    // checkpoint.
+    double const per_packing = 175e3 + (350 + 310) * spheres;
+    double const result = 100e3 + packings * (15e3 + 72 * cycles);
+    return packings * (per_packing + cycles * per_cycle) + frames * (300 + 75 * spheres) + result;
+}
+
+double expected_memory(prepare::PreparedCase const& c, int ranks) {
+    return 36e6 * ranks + 2100 * sphere_count(c);
 }
 
 }  // namespace vibrotrough::deck

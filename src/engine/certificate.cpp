@@ -76,6 +76,10 @@ std::string EngineIdentity::key() const {
     return core::sha256_hex(program_sha256 + "\n" + library_sha256 + "\n" + version + "\n" + probes_sha256);
 }
 
+std::string EngineIdentity::binary_sha256() const {
+    return core::sha256_hex(program_sha256 + "\n" + library_sha256);
+}
+
 bool ProbeResult::passed() const {
     double const excess = measured - expected;  // comparisons with NaN are false
     return problem.empty() && (comparison == Comparison::near ? std::abs(excess) : excess) <= tolerance;

@@ -19,6 +19,8 @@ struct EngineIdentity {
 
     /// SHA-256 over all members except the paths; it is the name of the certificate.
     std::string key() const;
+    /// SHA-256 over the digests of the two files: of the binary alone.
+    std::string binary_sha256() const;
 };
 
 /// How a measured value is compared with the expected one.

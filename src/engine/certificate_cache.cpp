@@ -72,7 +72,7 @@ std::optional<Certificate> find_certificate(EngineIdentity const& identity) {
     std::error_code ignored;
     if (!file || !fs::is_regular_file(*file, ignored)) return {};
     try {
-        auto certificate = parse_certificate(core::read_file(*file));
+        auto certificate = parse_certificate(core::read_file(*file, core::largest_note));
         if (certificate && certificate->passed() && certificate->engine.key() == identity.key())
             return certificate;
     } catch (core::MissingError const&) {

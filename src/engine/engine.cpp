@@ -1,10 +1,15 @@
 #include "engine/engine.hpp"
 
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/text.hpp"
+#include "engine/binary_watch.hpp"
+#include "engine/sole_writer.hpp"
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -15,6 +20,7 @@
 #include <boost/process.hpp>
 #include <boost/process/extend.hpp>
 #include <boost/process/posix.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -70,30 +76,35 @@ fs::path search_program(std::optional<fs::path> const& requested) {
 }
 
 std::string ask_version(fs::path const& program) {
+    core::TemporaryFolder const session(session_name);
+    std::string version, first_line;
+    int code = 0;
     try {
-        core::TemporaryFolder const session(session_name);
         bp::ipstream output;
         // A program that is no LIGGGHTS may do anything, such as never end.
         bp::child child(bp::search_path("env"),
                         bp::args({no_daemon, session_setting(session), "timeout", "10", program.string(),
                                   "-log", "none", "-h"}),
-                        bp::std_out > output, bp::std_err > bp::null, bp::std_in < bp::null);
-        std::string version;
+                        (bp::std_out & bp::std_err) > output, bp::std_in < bp::null);
         for (std::string line; std::getline(output, line);) {
             auto const start = line.find("(Version ");
             if (version.empty() && line.starts_with("LIGGGHTS") && start != std::string::npos) {
                 version = line.substr(start + 9, line.rfind(')') - start - 9);
             }
+            if (first_line.empty()) first_line = core::printable(line, 200);
         }
         child.wait();
-        if (!version.empty()) return version;
+        code = child.exit_code();
     } catch (bp::process_error const& error) {
         throw core::MissingError(
             fmt::format("{} cannot be started ({})", program.string(), error.code().message()));
     }
-    throw core::MissingError(
-        fmt::format("{} does not identify itself as LIGGGHTS; give another program with --liggghts PATH",
-                    program.string()));
+    if (!version.empty()) return version;
+    throw core::MissingError(fmt::format(
+        "{} does not identify itself as LIGGGHTS (it ended with exit code {}{}); give another program with "
+        "--liggghts PATH",
+        program.string(), code,
+        first_line.empty() ? " and printed nothing" : fmt::format(": '{}'", first_line)));
 }
 
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
@@ -123,6 +134,18 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
     for (std::string const& word : {std::string("-in"), launch.input}) words.push_back(word);
     words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
     return words;
+}
+
+/// A new file for what the engine prints.
+std::unique_ptr<std::FILE, int (*)(std::FILE*)> open_output(fs::path const& folder) {
+    fs::path const path = folder / output_file;
+    core::remove_file(path);
+    int const descriptor = core::ParentFolder(path).open(O_WRONLY | O_CREAT | O_EXCL);
+    std::FILE* const file = descriptor < 0 ? nullptr : ::fdopen(descriptor, "w");
+    if (file == nullptr) {
+        throw core::MissingError(fmt::format("cannot write {} ({})", path.string(), core::reason_of_errno()));
+    }
+    return {file, &std::fclose};
 }
 
 ExitStatus decode(int native, double core_time) {
@@ -199,16 +222,19 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                               nullptr)(decode(state->process.native_exit_code(), state->core_time));
         });
     };
-    // Boost opens the file without truncating it, so that the end of the output of an earlier, interrupted
-    // run would remain.
-    std::error_code ignored;
-    fs::remove(folder / output_file, ignored);
+    if (engine.watch) engine.watch->check();
+    WriterLock const lock(folder);
+    auto const output = open_output(folder);
     try {
-        state_->process = bp::child(
-            bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
-            bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > (folder / output_file).string(),
-            bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
-            bp::extend::on_exec_setup([driver = ::getpid()](auto&) { prepare_child(driver); }));
+        state_->process =
+            bp::child(bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
+                      bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > output.get(),
+                      bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
+                      bp::extend::on_exec_setup([driver = ::getpid(), &lock](auto&) {
+                          prepare_child(driver);
+                          lock.keep_in_child();
+                      }));
+        lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
                                              folder.string(), error.code().message()));

@@ -11,13 +11,18 @@
 
 namespace vibrotrough::engine {
 
+class BinaryWatch;
+
 /// A LIGGGHTS program that has reported its version.
 struct Engine {
-    std::filesystem::path program;  ///< path of the binary
-    std::string version;            ///< as reported by the program, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled
-                                    ///< 2022-01-26-19:42:32 by buildd"
-    int ranks = 1;                  ///< number of MPI processes of each run
-    std::string certificate = {};   ///< JSON of the binary's Certificate; empty if it was not probed
+    std::filesystem::path program;   ///< path of the binary
+    std::string version;             ///< as reported by the program, e.g. "LIGGGHTS-PUBLIC 3.8.0, compiled
+                                     ///< 2022-01-26-19:42:32 by buildd"
+    int ranks = 1;                   ///< number of MPI processes of each run
+    std::string certificate = {};    ///< JSON of the binary's Certificate; empty if it was not probed
+    std::string binary_sha256 = {};  ///< of the program's file and its library; empty if they were not read
+    /// Notices when the binary is replaced; none for an engine whose files were not read.
+    std::shared_ptr<BinaryWatch const> watch = {};
 };
 
 /// Finds the engine, which is `requested` if given and otherwise `liggghts` on the PATH, and reads its
@@ -44,13 +49,15 @@ struct Launch {
 };
 
 /// An engine that runs in one deck folder. It dies with the driver (also when the driver is killed) and does
-/// not receive Ctrl-C from the terminal. Destroying the object kills the engine.
+/// not receive Ctrl-C from the terminal. Destroying the object kills the engine. No other engine can start in
+/// the folder as long as it, or a process that it has started, lives (sole_writer.hpp).
 class EngineProcess {
   public:
     /// Starts `liggghts -in <input>` in `folder`, with mpirun if it has several ranks. `on_exit` is called
     /// once, from `context`, by the thread that runs it. That thread must be the one that constructs this
     /// object, and it must outlive the engine.
-    /// @throws MissingError when the process cannot be started
+    /// @throws MissingError when the process cannot be started, the binary is not what it was
+    /// (Engine::watch), or another engine still writes in the folder
     EngineProcess(boost::asio::io_context& context, Engine const& engine, std::filesystem::path const& folder,
                   std::function<void(ExitStatus)> on_exit, Launch const& launch = {});
     ~EngineProcess();

@@ -7,6 +7,7 @@
 #include "engine/probe_decks.hpp"
 #include "engine/probe_output.hpp"
 #include "engine/probe_verdicts.hpp"
+#include "engine/stop_signals.hpp"
 #include "engine/three_grains.hpp"
 
 #include <chrono>
@@ -37,7 +38,8 @@ class DeckRunner {
     /// Returns false if it was interrupted.
     bool run(std::vector<ProbeDeck> const& decks) {
         context_.restart();
-        boost::asio::signal_set signals(context_, SIGINT, SIGTERM, SIGHUP);
+        boost::asio::signal_set signals(context_);
+        add_stop_signals(signals);
         boost::asio::steady_timer clock(context_, patience);
         bool interrupted = false;
         std::size_t left = decks.size();

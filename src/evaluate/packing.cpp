@@ -155,7 +155,7 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
     auto const series = first_of(parse(prepared, files.cycles), cycles, packing_folder);
     EvaluatedPacking evaluated{*marker, measure_packing(prepared, packing, files, series, phases)};
     add_run(evaluated.record, *marker);
-    evaluated.record.deck = core::read_file(packing_folder / deck::drive_file);
+    evaluated.record.deck = core::read_file(packing_folder / deck::drive_file, core::largest_note);
     return evaluated;
 }
 

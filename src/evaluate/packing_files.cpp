@@ -55,7 +55,8 @@ bool has_marker(fs::path const& packing_folder) {
 
 std::optional<PackingMarker> read_marker(PackingFiles const& files) {
     if (files.cycles_sha256.empty() || !has_marker(files.folder)) return {};
-    Json const json = Json::parse(core::read_file(files.folder / marker_file), nullptr, false);
+    Json const json =
+        Json::parse(core::read_file(files.folder / marker_file, core::largest_note), nullptr, false);
     try {
         if (!json.is_object() || json.at("cycles_sha256") != files.cycles_sha256 ||
             json.at("layer_sha256") != files.layer_sha256)
@@ -97,8 +98,7 @@ void write_marker(PackingFiles const& files, PackingMarker const& marker) {
 }
 
 void remove_marker(fs::path const& packing_folder) {
-    std::error_code ignored;
-    fs::remove(packing_folder / marker_file, ignored);
+    core::remove_file(packing_folder / marker_file);
 }
 
 }  // namespace vibrotrough::evaluate

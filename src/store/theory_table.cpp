@@ -68,7 +68,7 @@ TheoryPoints read_theory_points(std::filesystem::path const& path) {
     }
     if (size > largest_file)
         throw core::InputError(fmt::format("{}: is larger than 2 GiB; split it", path.string()));
-    return parse_theory_points(core::read_text_file(path));
+    return parse_theory_points({path, core::read_given_file(path, core::largest_file)});
 }
 
 TheoryPoints parse_theory_points(core::TextFile const& file) {

@@ -3,6 +3,7 @@
 #include "theory/detail/conveyor_walk.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -334,7 +335,7 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 ConveyorMotion solve(Conveyor const& conveyor) {
     check_ranges(conveyor);
     try {
-        return Solver(conveyor).solve();
+        return Solver(detail::with_noticeable_forces(conveyor)).solve();
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }

@@ -4,6 +4,7 @@
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,7 +133,7 @@ EfficiencySolver& EfficiencySolver::operator=(EfficiencySolver&&) noexcept = def
 Efficiency EfficiencySolver::operator()(PointMass const& input) {
     detail::check_ranges(input);
     try {
-        return memory_->solve_periodic(input);
+        return memory_->solve_periodic(detail::with_noticeable_forces(input));
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }

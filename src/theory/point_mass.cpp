@@ -4,6 +4,7 @@
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/weak_forces.hpp"
 #include "theory/errors.hpp"
 
 #include <algorithm>
@@ -173,7 +174,7 @@ double machine_number(PointMass const& input) {
 Motion solve(PointMass const& input) {
     detail::check_ranges(input);
     try {
-        return solve_checked(input);
+        return solve_checked(detail::with_noticeable_forces(input));
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }

@@ -3,10 +3,6 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -39,23 +35,6 @@ class ErrorWatch {
     vtkNew<vtkCallbackCommand> command_;
 };
 
-/// The file is renamed but, unlike a result, not synced to disk, because a frame can be exported again.
-void write_frame(std::filesystem::path const& path, std::string const& content) {
-    std::filesystem::path const temporary = path.string() + ".part";
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
-    std::error_code failure(errno, std::generic_category());
-    if (file) {
-        std::filesystem::rename(temporary, path, failure);
-        if (!failure) return;
-    }
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw core::MissingError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
-                                         path.string(), failure.message()));
-}
-
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> read_stl(std::filesystem::path const& path) {
@@ -83,7 +62,8 @@ void write_vtp(std::filesystem::path const& path, vtkPolyData& data) {
     if (writer->Write() == 0 || !errors.message().empty()) {
         throw core::MissingError(fmt::format("cannot write {} (VTK: {})", path.string(), errors.message()));
     }
-    write_frame(path, writer->GetOutputString());
+    // Unlike a result, a frame is not synced to disk, because it can be exported again.
+    core::replace_file(path, writer->GetOutputString());
 }
 
 void write_collection(std::filesystem::path const& path, std::vector<CollectionEntry> const& entries) {

@@ -3,7 +3,10 @@
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 
+#include <csignal>
+
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace vibrotrough {
 namespace {
@@ -23,13 +26,16 @@ TEST_F(AtomicFile, WritesAndReplaces) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
-TEST_F(AtomicFile, KeepsTheOldFileWhenTheWriterThrows) {
+TEST_F(AtomicFile, KeepsTheOldFileWhenTheNewOneCannotBeWritten) {
     core::write_file_atomically(folder / "a", "old");
-    auto const half = [](fs::path const& temporary) {
-        core::write_file_atomically(temporary, "half");
-        throw std::runtime_error("power cut");
-    };
-    EXPECT_THROW(core::write_atomically(folder / "a", half), std::runtime_error);
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit const smaller{1000, before.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &smaller), 0);
+    EXPECT_THROW(core::write_file_atomically(folder / "a", std::string(5000, 'x')), core::MissingError);
+    EXPECT_THROW(core::replace_file(folder / "a", std::string(5000, 'x')), core::MissingError);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
     EXPECT_EQ(core::read_file(folder / "a"), "old");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }

@@ -158,18 +158,24 @@ TEST(Check, FindsWhatIsWrong) {
     auto const high = scenario(with("height = \"12 mm\"", "height = \"50 mm\""));
     EXPECT_EQ(finding(high, "periodic length / layer height").severity, Severity::warning);
     auto const many = scenario(with("frames_per_cycle = 0", "frames_per_cycle = 1000"));
-    EXPECT_NEAR(finding(many, "disk").measured / (120.0 * 1000 * 24 * many.layer.grains), 1, 1e-3);
+    // 75 bytes for each grain in each frame of the first packing outweigh everything else.
+    EXPECT_NEAR(finding(many, "disk").measured / (75.0 * 1000 * 24 * many.layer.grains), 1, 0.05);
 }
 
 TEST(Check, AContactMustBeShortAgainstTheFlight) {
-    // Gamma just above 1: hops of a few contact times.
-    auto const hop = finding(scenario(with("throw_number = 2.0", "throw_number = 1.0001")),
-                             "contact time at the trough's speed / flight time");
+    constexpr char const* item = "contact time at the trough's speed / flight time";
+    // Gamma a little above 1: a hop of a fifth of a cycle, which soft grains do not resolve.
+    std::string const soft = with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"0.5 MPa\"",
+                                  with("throw_number = 2.0", "throw_number = 1.05"));
+    auto const hop = finding(scenario(soft), item);
     EXPECT_NE(hop.severity, Severity::fine) << hop.measured;
-    // Below there is no flight to compare with.
-    EXPECT_THROW(finding(scenario(with("throw_number = 2.0", "throw_number = 0.9")),
-                         "contact time at the trough's speed / flight time"),
-                 std::out_of_range);
+    // Below, and where the point mass only grazes, there is no flight to compare with.
+    for (char const* gamma : {"0.9", "1.0", "1.000000001", "1.0001", "1.01"}) {
+        EXPECT_THROW(
+            finding(scenario(with("throw_number = 2.0", std::string("throw_number = ") + gamma)), item),
+            std::out_of_range)
+            << gamma;
+    }
 }
 
 }  // namespace

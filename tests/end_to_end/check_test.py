@@ -2,6 +2,8 @@
 
 import csv
 import json
+import os
+import subprocess
 import unittest
 
 from trough_program import EndToEndTest
@@ -72,6 +74,50 @@ class Check(EndToEndTest):
         self.assertLess(max(cycles / expected, expected / cycles), 3)
         seconds = report["expected_core_hours"] * 3600
         self.assertAlmostEqual(seconds, report["cases"][0]["expected_grain_steps"] / report["grain_steps_per_cpu_second"])
+
+    def test_disk_and_memory_are_those_of_a_run(self):
+        """Bytes of all files of a campaign, and the memory of an engine: expected within a factor of 2."""
+        short = {"measure.max_cycles": 24, "measure.packings": 1, "measure.half_width": 0.5}
+        for number, changes in enumerate((short | {"measure.packings": 3}, short | {"output.frames_per_cycle": 10},
+                                          short | {"layer.grains": 1000, "layer.length": "30 mm", "layer.width": "30 mm"})):  # fmt: skip
+            campaign = self.write_campaign(changes)
+            output = self.folder / f"runs-{number}"
+            _, report, _ = self.findings(campaign)
+            self.run_campaign(campaign, output, wanted=None)
+            files = {path.stat().st_ino: path.stat().st_size for path in output.rglob("*") if path.is_file()}
+            written = sum(files.values())
+            print(f"bytes: {written}, expected {report['expected_bytes']:.0f}, at most {report['largest_bytes']:.0f}")
+            self.assertLess(max(written / report["expected_bytes"], report["expected_bytes"] / written), 2)
+            self.assertLessEqual(report["expected_bytes"], report["largest_bytes"])
+            deck = self.folder / f"deck-{number}"
+            self.call("deck", campaign, "--output", deck)
+            engine = subprocess.Popen(["liggghts", "-in", "settle.liggghts"], cwd=deck / "case-001" / "packing-1",
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+            memory = os.wait4(engine.pid, 0)[2].ru_maxrss * 1024
+            engine.returncode = 0
+            print(f"memory: {memory}, expected {report['engine_memory_bytes']:.0f}")
+            self.assertLess(max(memory / report["engine_memory_bytes"], report["engine_memory_bytes"] / memory), 2)
+
+    def test_long_and_large_campaigns_are_not_small(self):
+        million = self.write_campaign({"measure.max_cycles": 1_000_000})
+        findings, report, _ = self.findings(million)
+        # phases.csv alone has 100 rows of about 250 bytes per cycle.
+        self.assertGreater(report["largest_bytes"], 25e9)
+        self.assertEqual(findings["disk, with max_packings packings of max_cycles cycles"]["severity"], "fine")
+        self.assertEqual(self.findings(self.write_campaign({"measure.max_cycles": 1_000_000, "measure.max_packings": 20}))[0][
+            "disk, with max_packings packings of max_cycles cycles"]["severity"], "warning")  # fmt: skip
+        large = self.write_campaign({"layer.grains": 10_000_000, "layer.length": "600 mm", "layer.width": "600 mm"})
+        findings, report, _ = self.findings(large)
+        self.assertGreater(report["expected_bytes"], 10_000_000 * 600)
+        self.assertGreater(report["engine_memory_bytes"], 10e9)
+        self.assertEqual(findings["memory of one engine"]["severity"], "warning")
+
+    def test_a_throw_number_of_one_is_not_refused(self):
+        """At 1 the point mass just does not fly: there is no flight that a contact could be too long for."""
+        for values in ([1.0], [1.0 + 1e-9, 1.0001], [0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0]):
+            done = self.call("check", self.write_campaign(SOUND, sweep={"trough.throw_number": values}))
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertNotIn("error", done.stdout)
 
     def test_the_table_ends_with_the_cost(self):
         campaign = self.write_campaign(SOUND, sweep={"trough.throw_number": [0.8, 2.0]})

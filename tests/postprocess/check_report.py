@@ -5,6 +5,8 @@ usage: check_report.py SCRIPTS SAMPLE COLUMNS WORK; exits with 77 when Chromium 
 COLUMNS is the program that prints the columns as campaign.json describes them.
 """
 
+import base64
+import hashlib
 import html
 import html.parser
 import json
@@ -128,9 +130,56 @@ def check_budget(scripts, folder):
     (folder / "numerics.json").write_bytes(kept)
 
 
+def figures_in(scripts, folder):
+    (report,) = run_script(scripts, "report.py", folder)
+    return re.findall(r"<figcaption>Figure \d+\. ([^<]*)<", report.read_text(encoding="utf-8"))
+
+
+def check_that_figures_belong_to_the_data(scripts, folder):
+    report = folder / "report"
+    before = figures_in(scripts, folder)
+    # A figure that somebody else put there is not shown, whatever it holds.
+    drawn = (report / "residuals.svg").read_bytes()
+    (report / "residuals.svg").write_bytes(drawn.replace(b"</svg>", b"<script>alert(1)</script></svg>"))
+    assert figures_in(scripts, folder) == [one for one in before if one != "What the theory misses"]
+    # Nor when its digest is forged as well: only what draws is put into the page.
+    notes = json.loads((report / "figures.json").read_text())
+    for harm in (b"<script>alert(1)</script>", b'<g onload="alert(1)"/>', b'<image href="http://example.org/x.png"/>',
+                 b"<foreignObject><body/></foreignObject>", b"<style>@import 'x'</style>", b"<!--> <script>alert(1)</script> -->"):
+        spoilt = drawn.replace(b"</svg>", harm + b"</svg>")
+        (report / "residuals.svg").write_bytes(spoilt)
+        notes["residuals.svg"]["file"] = hashlib.sha256(spoilt).hexdigest()
+        (report / "figures.json").write_text(json.dumps(notes))
+        shown = figures_in(scripts, folder)
+        assert shown == before if harm.startswith(b"<!--") else len(shown) == len(before) - 1, harm
+        page = (report / "report.html").read_text(encoding="utf-8")
+        assert "alert(1)" not in page and "example.org" not in page, harm
+    # The figures of an earlier state of the campaign are not shown beside the table of today.
+    data = json.loads((report / "data" / "campaign.json").read_text(encoding="utf-8"))
+    kept = (report / "data" / "campaign.json").read_bytes()
+    data["cases"] = [dict(row, outcome="open", efficiency_dem=None) for row in data["cases"]]
+    (report / "data" / "campaign.json").write_text(json.dumps(data), encoding="utf-8")
+    assert figures_in(scripts, folder) == []
+    # What is written is never written through a link.
+    (report / "data" / "campaign.json").write_bytes(kept)
+    precious = folder / "precious"
+    precious.write_text("dear")
+    for name in ("residuals.svg", "report.html", "figures.json"):
+        (report / name).unlink()
+        (report / name).symlink_to(precious)
+    run_script(scripts, "figures.py", folder)
+    assert figures_in(scripts, folder) == before
+    assert precious.read_text() == "dear"
+
+
 def check_in_browser(browser, report, work):
     probed = work / "probed.html"
-    probed.write_text(report.read_text(encoding="utf-8").replace("</body>", PROBE + "</body>"), encoding="utf-8")
+    page = report.read_text(encoding="utf-8")
+    own = base64.b64encode(hashlib.sha256(PROBE[len("<script>") : -len("</script>")].encode()).digest()).decode()
+    policy = page.replace("script-src '", f"script-src 'sha256-{own}' '", 1)
+    # The page's policy lets the page's script run, which the probe looks at, the probe, and not the one in between.
+    planted = "<script>document.title = 'planted';</script>"
+    probed.write_text(policy.replace("</body>", planted + PROBE + "</body>"), encoding="utf-8")
     common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
               f"--user-data-dir={work / 'browser'}", "--enable-logging=stderr", "--v=0"]
     done = subprocess.run([*common, "--dump-dom", probed.as_uri()], capture_output=True, text=True, timeout=600)
@@ -142,7 +191,7 @@ def check_in_browser(browser, report, work):
     assert seen["title"] == "sample \u00b7 Vibrotrough" and seen["drawn"] > 100 and seen["width"] > 300, seen
     assert seen["sorted"] == "ascending", seen
     said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    assert not said, said
+    assert len(said) == 1 and "Content Security Policy" in said[0], said
     picture = work / "report.png"
     subprocess.run([*common, "--window-size=1200,1600", f"--screenshot={picture}", report.as_uri()], capture_output=True,
                    timeout=600, check=True)
@@ -166,6 +215,7 @@ def main(scripts, sample, columns, work):
     assert [path.name for path in only] == ["cycles-0123456789abcdef.svg", "cycles-0123456789abcdef.png"], only
     (report,) = run_script(scripts, "report.py", folder)
     check_page(report.read_text(encoding="utf-8"))
+    check_that_figures_belong_to_the_data(scripts, folder)
 
     (folder / "report" / "data" / "campaign.json").write_text("{", encoding="utf-8")
     for script in ("figures.py", "report.py"):

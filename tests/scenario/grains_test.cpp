@@ -97,6 +97,11 @@ TEST(Grains, ShapeFilesAreReadAndTheirMistakesNamed) {
               "line 3: expected 4 values, one per column, but found 3");
     EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,inf\n"), "line 2: column radius: 'inf' is not a finite number");
     EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,0\n"), "line 2: the radius is not above 0");
+    // Third powers of such numbers overflow or are lost in rounding.
+    for (char const* far : {"1e155,0,0,1", "0,-1e300,0,1", "0,0,1001,1", "0,0,0,1e155"}) {
+        std::string const error = error_of(std::string("x,y,z,radius\n0,0,0,1\n") + far + "\n");
+        EXPECT_NE(error.find("more than 1000 times the smallest radius"), std::string::npos) << far << error;
+    }
 }
 
 // A campaign with a shape of its own, from the file beside it.

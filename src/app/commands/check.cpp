@@ -82,6 +82,8 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
     Json const tail{{"grain_steps_per_cpu_second", speed.grain_steps_per_second},
                     {"speed_source", speed.source},
                     {"expected_bytes", found.bytes},
+                    {"largest_bytes", found.largest_bytes},
+                    {"engine_memory_bytes", found.engine_memory},
                     {"expected_core_hours", found.grain_steps / speed.grain_steps_per_second / 3600}};
     std::string const begin = head.dump(2), end = tail.dump(2);
     fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
@@ -105,8 +107,10 @@ void print_text(deck::CampaignCheck const& found, Speed const& speed) {
         if (item.worst.severity != deck::Severity::fine)
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
-    fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles, {:.2g} MB\n",
-               found.cases, found.packings, found.cycles / found.packings, found.bytes / 1e6);
+    fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
+               found.cases, found.packings, found.cycles / found.packings);
+    fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
+               found.largest_bytes / 1e6, found.engine_memory / 1e6);
     fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})\n",
                found.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
                speed.source);
@@ -136,8 +140,8 @@ void add_check(CLI::App& program, int& exit_code) {
     command->add_flag("--json", options->json, "Print JSON for scripts, with all findings of all cases");
     command->footer(
         R"(Checks the time step against Rayleigh and Hertz times, the steps per contact and per cycle, the
-overlaps at rest and at impact, the duration of contacts against that of flights, the periodic box, the neighbour lists
-and the disk space. Prints a table with the worst case of each item, what to change, and the expected cost in
+overlaps at rest and at impact, the duration of contacts against that of flights, the periodic box, the neighbour lists,
+the disk space and the memory of the engine. Prints a table with the worst case of each item, what to change, and the expected cost in
 core-hours: of as many packings as the interval that measure.half_width asks for will probably need. 'vibrotrough plan'
 uses the same rule, learns from the cases that have a result, and prints a range.
 

@@ -3,6 +3,7 @@
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
 #include "app/progress_printer.hpp"
+#include "app/standard_streams.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/numerics_results.hpp"
@@ -147,11 +148,13 @@ int run(Options const& options) {
     campaign::Plan const original = open_campaign(options, engine.version);
     auto const studies = plan_studies(original, options);
     fs::path const folder = original.folder / "convergence";
+    core::make_folder(original.folder);
+    core::OwnFolder const own(original.folder);
     core::make_folder(folder);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     campaign::Plan plan = write_study(original, studies, folder, engine.version);
-    fmt::print(stderr, "{} case{} of '{}' in {} variations\n", studies.size(), studies.size() == 1 ? "" : "s",
-               original.name, plan.cases.size());
+    tell("{} case{} of '{}' in {} variations\n", studies.size(), studies.size() == 1 ? "" : "s",
+         original.name, plan.cases.size());
     campaign::Summary summary;
     {
         ProgressPrinter printer;

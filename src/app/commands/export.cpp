@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
@@ -71,9 +72,9 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
                                planned.prepared->machine_number, trough.friction)};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     auto exported = view::export_frames(source, planned.folder / "frames", [&](int written, int all) {
-        if (terminal) fmt::print(stderr, "\r{}: {} of {} frames\x1b[K", planned.id, written, all);
+        if (terminal) tell("\r{}: {} of {} frames\x1b[K", planned.id, written, all);
     });
-    if (terminal) fmt::print(stderr, "\r\x1b[K");
+    if (terminal) tell("\r\x1b[K");
     return exported;
 }
 

@@ -71,6 +71,8 @@ int run(Options const& options) {
     for (scenario::Scenario const& one : campaign.cases) friction = std::max(friction, one.trough.friction);
     double const k = options.machine_number.value_or(evaluate::default_machine_number(friction));
 
+    core::make_folder(folder);
+    core::OwnFolder const own(folder);
     core::make_folder(test_folder);
     if (!certify(engine, options.accept_failed_probes)) return interrupted;
     fs::path const test_file = test_folder / "shake-test.toml";

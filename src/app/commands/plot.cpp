@@ -6,6 +6,7 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/report_data.hpp"
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -41,6 +42,8 @@ int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
+    core::make_folder(output);
+    core::OwnFolder const own(output);
     bool const finished =
         compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data") > 0;
     if (!finished && !options.report) {
@@ -49,7 +52,8 @@ int run(Options const& options) {
     }
     std::vector<std::string> modules{"numpy", "h5py", "matplotlib"};
     if (options.report) modules.emplace_back("jinja2");
-    std::vector<std::string> arguments{options.folder, "--output", output.string()};
+    std::vector<std::string> arguments{fs::absolute(options.folder).lexically_normal().string(), "--output",
+                                       fs::absolute(output).lexically_normal().string()};
     std::vector<std::string> drawing = arguments;
     for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
     for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});

@@ -4,6 +4,7 @@
 #include "app/exit_code.hpp"
 #include "app/progress_log.hpp"
 #include "app/progress_printer.hpp"
+#include "app/standard_streams.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/folder_lock.hpp"
@@ -85,11 +86,11 @@ std::string describe_submission(campaign::Summary const& summary, std::string_vi
 void print_findings(deck::CampaignCheck const& found, std::string const& campaign_file) {
     int const count = found.warnings() + found.errors();
     if (count == 0) return;
-    fmt::print(stderr, "check: {} finding{} ('vibrotrough check {}' shows all):\n", count,
-               count == 1 ? "" : "s", campaign_file);
+    tell("check: {} finding{} ('vibrotrough check {}' shows all):\n", count, count == 1 ? "" : "s",
+         campaign_file);
     for (deck::CheckedItem const& item : found.items) {
         if (item.worst.severity == deck::Severity::fine) continue;
-        fmt::print(stderr, "  {}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
+        tell("  {}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
 }
 
@@ -130,6 +131,7 @@ int run(Options const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     core::make_folder(folder);
+    core::OwnFolder const own(folder);
     {
         // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
         campaign::FolderLock const lock(folder);

@@ -4,6 +4,7 @@
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -62,7 +63,7 @@ void print_json(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
         {"campaign", plan.name},       {"engine", plan.engine_version}, {"cases_total", cases.size()},
         {"finished", counts.finished}, {"unsure", counts.unsure},       {"failed", counts.failed},
         {"running", counts.running},   {"left", counts.left},           {"cases", list}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
@@ -73,7 +74,7 @@ void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> 
         std::string const least =
             has_ended ? "" : fmt::format(" of at least {}", one.planned->scenario().measure.packings);
         fmt::print("{}  {:<16} packings {}{}{}{}\n", one.planned->id, one.label(), one.packings_done, least,
-                   one.message.empty() ? "" : "  ", one.message);
+                   one.message.empty() ? "" : "  ", core::harmless(one.message));
     }
     fmt::print(
         "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",

@@ -27,9 +27,10 @@ struct Options {
 /// The command line of validate.py.
 std::vector<std::string> script_arguments(Options const& options) {
     std::vector<std::string> all = options.names;
-    all.insert(all.end(), {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
-                           options.output, "--runs", options.runs, "--jobs", std::to_string(options.jobs),
-                           "--points", std::to_string(options.points)});
+    all.insert(all.end(),
+               {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
+                fs::absolute(options.output).string(), "--runs", fs::absolute(options.runs).string(),
+                "--jobs", std::to_string(options.jobs), "--points", std::to_string(options.points)});
     if (options.list) all.emplace_back("--list");
     if (options.long_ones) all.emplace_back("--long");
     if (options.store) all.emplace_back("--store");

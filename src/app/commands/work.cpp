@@ -1,8 +1,11 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
 #include "campaign/execute/packing_worker.hpp"
 #include "campaign/execute/slurm_batch.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "core/text.hpp"
 
 #include <memory>
 
@@ -22,6 +25,8 @@ struct Options {
 
 int run(Options& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
+    // The campaign's folder names the program that is started; whoever looks at the output shall see which.
+    tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
     campaign::PackingId const packing = campaign::read_task(options.task_list, options.index);
     campaign::WorkResult const result =
         campaign::work(options.folder, packing, options.limits, *campaign::make_policy());

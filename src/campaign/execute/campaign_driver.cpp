@@ -9,6 +9,8 @@
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "engine/sole_writer.hpp"
+#include "engine/stop_signals.hpp"
 #include "evaluate/case.hpp"
 #include "store/summary.hpp"
 
@@ -27,21 +29,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Notices SIGINT, SIGTERM and SIGHUP, which then no longer end the process.
+/// Notices the signals that ask for a stop, which then no longer end the process.
 class StopSignals {
   public:
     StopSignals() {
-        signals_.async_wait([this](auto const& cancelled, int) { has_come_ = has_come_ || !cancelled; });
+        engine::add_stop_signals(signals_);
+        wait();
     }
-    bool have_come() {
+    /// How many have come so far.
+    int count() {
         context_.poll();
-        return has_come_;
+        return count_;
     }
 
   private:
+    void wait() {
+        signals_.async_wait([this](auto const& cancelled, int) {
+            if (cancelled) return;
+            ++count_;
+            wait();
+        });
+    }
+
     boost::asio::io_context context_;
-    boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
-    bool has_come_ = false;
+    boost::asio::signal_set signals_{context_};
+    int count_ = 0;
 };
 
 /// What the driver knows of a case.
@@ -80,8 +92,8 @@ class Driver {
 
   private:
     void step() {
-        if (!is_stopping_ && signals_.have_come()) {
-            is_stopping_ = true;
+        for (; signals_heard_ < std::min(signals_.count(), 2); ++signals_heard_) {
+            if (!std::exchange(is_stopping_, true)) observer_.stopping();
             executor_.interrupt();
         }
         for (EndedPacking& ended : executor_.wait()) handle(ended);
@@ -179,8 +191,11 @@ class Driver {
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
         fs::path const remains = planned.packing_folder(packing);
-        if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains))
-            fs::remove_all(remains);
+        if (core::is_link(remains)) core::remove_file(remains);
+        if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains)) {
+            engine::make_sole_writer(remains);
+            core::remove_tree(remains);
+        }
         one.in_hand.insert(packing);
         orders_.push_back({&planned, wanted});
     }
@@ -339,6 +354,7 @@ class Driver {
     Summary summary_;
     bool have_taken_stock_ = false;
     bool is_stopping_ = false;
+    int signals_heard_ = 0;
 };
 
 }  // namespace
@@ -347,6 +363,7 @@ Summary run_campaign(Plan& plan, fs::path const& campaign_file, Policy const& po
                      ExecutorKind const& kind, ExecutorInputs const& inputs, Until until,
                      Observer& observer) {
     core::make_folder(plan.folder);
+    core::OwnFolder const own(plan.folder);
     FolderLock const lock(plan.folder);
     freeze(plan, campaign_file, inputs.engine);
     refuse_other_executors(plan.folder, kind);

@@ -34,6 +34,8 @@ class Observer {
     /// Called once for each case that ends: with its outcome, and why it failed.
     virtual void case_ended(PlannedCase const& planned, core::Outcome outcome,
                             std::string const& message) = 0;
+    /// Called once when a signal has asked for a stop: engines end the cycle that they are in.
+    virtual void stopping() {}
 };
 
 /// What a run came to.
@@ -55,8 +57,8 @@ enum class Until {
 };
 
 /// Makes the campaign's folder, freezes the campaign in it, and runs every packing that the policy wants, the
-/// longest expected first. A failed case does not stop the others. SIGINT, SIGTERM and SIGHUP stop the run;
-/// the same call continues it.
+/// longest expected first. A failed case does not stop the others. The first SIGINT, SIGTERM or SIGHUP stops
+/// the run after the cycles that the engines are in, a second one at once; the same call continues it.
 /// @param plan           cases that the policy adds are appended
 /// @param campaign_file  that the plan was made from
 /// @param kind           of executor

@@ -27,7 +27,7 @@ void remove_partial_files(PlannedCase const& planned) {
     for (auto const& entry : std::filesystem::directory_iterator(planned.folder, ignored)) {
         std::string const name = entry.path().filename().string();
         if (name.starts_with("result.h5.part-") || name.starts_with("failure.json.part-"))
-            std::filesystem::remove(entry.path(), ignored);
+            core::remove_file(entry.path());
     }
 }
 
@@ -63,7 +63,7 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
         evaluate::evaluate_case(*planned.prepared, planned.id, engine_version, std::move(used));
     store::write_result(planned.result_file(), record);
     write_summary(planned, record);
-    std::filesystem::remove(planned.failure_file());
+    core::remove_file(planned.failure_file());
     if (record.outcome == core::Outcome::finished) {  // the packings of other cases may be continued
         for (int const packing : parts.packings) remove_checkpoints(planned.packing_folder(packing));
     }

@@ -78,7 +78,8 @@ class Executor {
     /// Whether no packing is left that was given to it.
     virtual bool is_idle() const = 0;
 
-    /// Asks it to come to an end soon: packings that cannot go on without this process end as interrupted.
+    /// Asks it to come to an end: packings that cannot go on without this process end as interrupted, at the
+    /// first call after the cycle that they are in, at the second at once.
     virtual void interrupt() = 0;
 
     /// The packings that it simulates now, as far as it knows their progress.

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 /// Why the folder takes no more, if it does not: tried, because free space alone says nothing about quotas.
 std::optional<std::string> full_disk(fs::path const& folder) {
     fs::path const probe = folder / fmt::format(".probe-{}", ::getpid());
-    int const file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    core::ParentFolder const parent(probe);
+    int const file = parent.open(O_WRONLY | O_CREAT | O_EXCL);
     int reason = file < 0 ? errno : 0;
     if (file >= 0) {
         std::vector<char> const content(256 << 10, 'x');
@@ -32,7 +33,7 @@ std::optional<std::string> full_disk(fs::path const& folder) {
         if (written >= 0 && written < static_cast<ssize_t>(content.size())) reason = ENOSPC;
         if (reason == 0 && ::fsync(file) != 0) reason = errno;
         ::close(file);
-        ::unlink(probe.c_str());
+        ::unlinkat(parent.descriptor(), parent.name(), 0);
     }
     if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return {};
     return std::strerror(reason);

@@ -5,6 +5,7 @@
 #include "campaign/execute/ranks.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -74,7 +75,8 @@ class LocalExecutor : public Executor {
 
     void interrupt() override {
         queue_.clear();
-        for (Running const& one : running_) one.run->interrupt();
+        Stop const stop = std::exchange(is_interrupted_, true) ? Stop::now : Stop::with_checkpoint;
+        for (Running const& one : running_) one.run->interrupt(stop);
     }
 
     std::vector<RunningPacking> running() const override {
@@ -125,7 +127,7 @@ class LocalExecutor : public Executor {
     void start(PackingOrder const& order, int ranks) {
         PlannedCase const& planned = *order.planned;
         write_case_files(planned);
-        fs::remove(planned.failure_file());  // the file means that the last attempt failed
+        core::remove_file(planned.failure_file());  // the file means that the last attempt failed
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
@@ -143,7 +145,7 @@ class LocalExecutor : public Executor {
         auto const& limit = inputs_.settings.time_limit;
         if (one.is_over_time || !limit || one.elapsed() < *limit) return;
         one.is_over_time = true;
-        one.run->interrupt();
+        one.run->interrupt(Stop::now);
     }
 
     void ended(Place place, PackingEnd end) {
@@ -180,6 +182,7 @@ class LocalExecutor : public Executor {
     std::list<Running> running_;
     std::vector<EndedPacking> ended_;
     Clock::time_point next_look_ = Clock::now();
+    bool is_interrupted_ = false;
 };
 
 }  // namespace

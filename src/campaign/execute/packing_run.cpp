@@ -4,7 +4,9 @@
 #include "core/error.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
+#include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
+#include "engine/sole_writer.hpp"
 
 #include <utility>
 #include <variant>
@@ -15,29 +17,22 @@
 namespace vibrotrough::campaign {
 namespace {
 
+/// The engine writes into its files by their names, wherever these lead.
+void check_files_of_engine(std::filesystem::path const& folder) {
+    std::error_code missing;
+    for (auto const& entry : std::filesystem::directory_iterator(folder, missing)) {
+        // Of the settled packing, which the engine only reads, several packings may have one file.
+        if (entry.path().filename() == deck::settled_file && !core::is_link(entry.path())) continue;
+        if (!core::is_link(entry.path()) && entry.is_directory(missing)) {
+            check_files_of_engine(entry.path());
+        } else {
+            core::check_own_file(entry.path());
+        }
+    }
+}
+
 PackingEnd interrupted_end() {
     return {core::Outcome::interrupted, "the run was interrupted"};
-}
-
-/// What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
-void remove_content(std::filesystem::path const& folder) {
-    std::vector<std::filesystem::path> left;
-    std::error_code ignored;
-    for (auto const& entry : std::filesystem::directory_iterator(folder, ignored))
-        left.push_back(entry.path());
-    for (std::filesystem::path const& path : left) std::filesystem::remove_all(path, ignored);
-}
-
-/// The packing's folder holds its settled packing, so that the deck can be run there by hand.
-void link_file(std::filesystem::path const& from, std::filesystem::path const& to) {
-    std::error_code failure;
-    std::filesystem::create_hard_link(from, to, failure);
-    if (!failure) return;
-    std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, failure);
-    if (failure) {
-        throw core::MissingError(fmt::format("cannot copy {} to {} ({}); check the disk", from.string(),
-                                             to.string(), failure.message()));
-    }
 }
 
 }  // namespace
@@ -56,8 +51,9 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
       start_(std::chrono::steady_clock::now()),
       started_(core::utc_now()),
       engine_certificate_(std::filesystem::is_regular_file(planned.certificate_file())
-                              ? core::read_file(planned.certificate_file())
+                              ? core::read_file(planned.certificate_file(), core::largest_note)
                               : std::string()) {
+    engine::make_sole_writer(folder_);
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (checkpoint && checkpoint->cycle <= packing_.cycles) {
         cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
@@ -113,9 +109,11 @@ void PackingRun::start_on(Settled const& settled) {
         });
         return;
     }
-    remove_content(folder_);
+    // What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
+    core::remove_content(folder_);
     deck::write_deck(deck_, folder_, engine_.ranks);
-    link_file(settled.restart, folder_ / deck::settled_file);
+    // The packing's folder holds its settled packing, so that the deck can be run there by hand.
+    core::link_or_copy(settled.restart, folder_ / deck::settled_file);
     start_engine({});
 }
 
@@ -128,6 +126,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         // Perhaps on another number of ranks than before.
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
+    check_files_of_engine(folder_);
     stop_ = packing_.next_stop(sealed_cycle_);
     core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
@@ -169,9 +168,11 @@ void PackingRun::inspect() {
     }
 }
 
-void PackingRun::interrupt() {
+void PackingRun::interrupt(Stop stop) {
     interrupted_ = true;
-    if (process_) {
+    if (process_ && stop == Stop::with_checkpoint) {
+        core::replace_file(folder_ / deck::control_file, deck::control_at_once());
+    } else if (process_) {
         process_->terminate();
     } else {
         settled_.interrupt();
@@ -181,6 +182,7 @@ void PackingRun::interrupt() {
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.
 std::optional<PackingEnd> PackingRun::go_on() {
     seal();
+    engine::make_sole_writer(folder_);
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (!checkpoint || checkpoint->cycle != stop_) {
         return PackingEnd{core::Outcome::outputs_incomplete,
@@ -193,7 +195,11 @@ std::optional<PackingEnd> PackingRun::go_on() {
 
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
-    if (interrupted_) return interrupted_end();
+    if (engine_.watch) engine_.watch->check();
+    if (interrupted_) {
+        seal();
+        return interrupted_end();
+    }
     engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
     if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
     if (stop_ < packing_.cycles) return go_on();

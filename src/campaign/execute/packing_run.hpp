@@ -22,6 +22,12 @@ struct PackingEnd {
     int signal = 0;                        ///< that killed the engine; 0 when none did
 };
 
+/// How a run is stopped before its end.
+enum class Stop {
+    with_checkpoint,  ///< after the cycle that it is in, so that nothing of it is lost
+    now,              ///< what was simulated since the last checkpoint is lost
+};
+
 /// One packing being simulated: its settled packing, then the engine on the moving trough until it has the
 /// cycles that are wanted. A run that was cut, or that has fewer cycles than are wanted now, continues from
 /// its last checkpoint.
@@ -38,8 +44,8 @@ class PackingRun {
     /// Inspects the cycles written so far, and seals a new checkpoint.
     void inspect();
 
-    /// Ends the engine soon; `on_end` then reports "interrupted".
-    void interrupt();
+    /// Ends the engine; `on_end` then reports "interrupted".
+    void interrupt(Stop stop);
 
     /// The case.
     PlannedCase const& planned() const { return planned_; }

@@ -6,6 +6,10 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/file_lock.hpp"
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
+#include "engine/binary_watch.hpp"
+#include "engine/certificate_cache.hpp"
+#include "engine/stop_signals.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -36,9 +40,8 @@ class Attempt {
           }) {}
 
     PackingEnd run() {
-        signals_.async_wait([this](auto const& cancelled, int) {
-            if (!cancelled) run_.interrupt();
-        });
+        engine::add_stop_signals(signals_);
+        wait_for_signal(Stop::with_checkpoint);
         tick();
         context_.run();
         if (is_over_time_ && end_.failure == core::Outcome::interrupted)
@@ -47,12 +50,21 @@ class Attempt {
     }
 
   private:
+    /// The first signal asks for a checkpoint at the end of the cycle, a second one does not wait for it.
+    void wait_for_signal(Stop stop) {
+        signals_.async_wait([this, stop](auto const& cancelled, int) {
+            if (cancelled) return;
+            run_.interrupt(stop);
+            wait_for_signal(Stop::now);
+        });
+    }
+
     void tick() {
         if (ended_) return;  // its timer had gone off already when the run ended
         run_.inspect();
         if (deadline_ && !is_over_time_ && std::chrono::steady_clock::now() > *deadline_) {
             is_over_time_ = true;
-            run_.interrupt();
+            run_.interrupt(Stop::now);
         }
         clock_.expires_after(250ms);
         clock_.async_wait([this](auto const& cancelled) {
@@ -61,7 +73,7 @@ class Attempt {
     }
 
     boost::asio::io_context context_;
-    boost::asio::signal_set signals_{context_, SIGINT, SIGTERM, SIGHUP};
+    boost::asio::signal_set signals_{context_};
     boost::asio::steady_timer clock_{context_};
     SettledPackings settled_;
     std::optional<std::chrono::steady_clock::time_point> deadline_;
@@ -73,12 +85,24 @@ class Attempt {
 
 engine::Engine same_engine(std::filesystem::path const& folder) {
     engine::Engine const planned = read_engine(folder);
-    engine::Engine const here = engine::find_engine(planned.program);
-    if (here.version == planned.version) return here;
-    throw core::MissingError(
-        fmt::format("{} is '{}' on this machine and '{}' where the campaign was planned; install "
-                    "the same on both, or give run --liggghts another path",
-                    planned.program.string(), here.version, planned.version));
+    engine::Engine here = engine::find_engine(planned.program);
+    if (here.version != planned.version) {
+        throw core::MissingError(
+            fmt::format("{} is '{}' on this machine and '{}' where the campaign was planned; install "
+                        "the same on both, or give run --liggghts another path",
+                        planned.program.string(), here.version, planned.version));
+    }
+    engine::EngineIdentity const identity = engine::identify(here);
+    here.binary_sha256 = identity.binary_sha256();
+    if (!planned.binary_sha256.empty() && here.binary_sha256 != planned.binary_sha256) {
+        throw core::MissingError(
+            fmt::format("{} is not the binary that the campaign was planned with, although it names the same "
+                        "version; call "
+                        "'vibrotrough run' again, which tests it",
+                        planned.program.string()));
+    }
+    here.watch = std::make_shared<engine::BinaryWatch const>(identity);
+    return here;
 }
 
 /// What the policy wants of a packing; none when it does not want it.
@@ -112,6 +136,7 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         deadline = std::chrono::steady_clock::now() +
                    std::chrono::milliseconds(static_cast<long>(*limits.time_limit * 1000));
     }
+    core::OwnFolder const own(campaign_folder);
     engine::Engine engine = same_engine(campaign_folder);
     engine.ranks = limits.ranks;
     PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);

@@ -5,10 +5,12 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "deck/commands.hpp"
+#include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
 
 #include <cmath>
 #include <optional>
+#include <regex>
 
 #include <boost/asio/post.hpp>
 #include <fmt/format.h>
@@ -27,12 +29,15 @@ constexpr double rest_tolerance = 0.02;
 
 constexpr char const* seal_file = "settled.json";
 
-/// Whether the folder holds a packing that was sealed and is still what it was.
-bool is_whole(fs::path const& folder) {
+/// Whether the folder holds the packing of this deck, sealed, and still what it was. A packing that was
+/// copied here from elsewhere has a whole seal, but not the deck.
+bool is_whole(fs::path const& folder, deck::Deck const& deck) {
     try {
         if (!fs::is_regular_file(folder / seal_file) || !fs::is_regular_file(folder / deck::settled_file))
             return false;
-        Json const seal = Json::parse(core::read_file(folder / seal_file));
+        auto const made_with = deck::read_files(folder, deck.settle_files);
+        if (deck::digest_of_commands(made_with) != deck::digest_of_commands(deck.settle_files)) return false;
+        Json const seal = Json::parse(core::read_file(folder / seal_file, core::largest_note));
         return seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / deck::settled_file));
     } catch (Json::exception const&) {
         return false;
@@ -61,19 +66,18 @@ Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) 
 }
 
 /// Puts the finished folder in its place, unless another driver was faster.
-void publish(fs::path const& made, fs::path const& place) {
-    if (is_whole(place)) {
-        fs::remove_all(made);
+void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck) {
+    if (is_whole(place, deck)) {
+        core::remove_tree(made);
         return;
     }
-    fs::remove_all(place);
-    std::error_code failure;
-    fs::rename(made, place, failure);
-    if (failure && !is_whole(place)) {
-        throw core::MissingError(fmt::format("cannot put the settled packing in {} ({}); check the disk",
-                                             place.string(), failure.message()));
+    core::remove_tree(place);
+    try {
+        core::rename_entry(made, place);
+    } catch (core::MissingError const&) {
+        if (!is_whole(place, deck)) throw;
     }
-    fs::remove_all(made);
+    core::remove_tree(made);
 }
 
 }  // namespace
@@ -81,6 +85,7 @@ void publish(fs::path const& made, fs::path const& place) {
 /// A packing that the engine is settling, and what waits for it.
 struct SettledPackings::Settling {
     fs::path folder;
+    deck::Deck deck;
     double weight;
     std::vector<Ready> waiting;
     bool interrupted = false;
@@ -121,7 +126,7 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
         found->second->waiting.push_back(std::move(ready));
         return;
     }
-    if (fs::path const place = place_of(deck, key); is_whole(place)) {
+    if (fs::path const place = place_of(deck, key); is_whole(place, deck)) {
         boost::asio::post(context_, [ready = std::move(ready), restart = place / deck::settled_file] {
             ready({{}, {}, 0, restart});
         });
@@ -129,9 +134,10 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     }
     auto settling = std::make_unique<Settling>();
     settling->folder = folder_ / fmt::format("{}.settling-{}", key, ::getpid());
+    settling->deck = deck;
     settling->weight = weight;
     settling->waiting.push_back(std::move(ready));
-    fs::remove_all(settling->folder);
+    core::remove_tree(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
     settling->process = std::make_unique<engine::EngineProcess>(
         context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
@@ -143,11 +149,11 @@ void SettledPackings::remove_leftovers() {
     std::vector<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        std::string const name = entry.path().filename().string();
-        bool const is_older = name.find(".making-") != std::string::npos;  // up to version 0.1
-        if (is_older || name.find(".settling-") != std::string::npos) leftovers.push_back(entry.path());
+        // 12 hexadecimal digits and a process number; "making" up to version 0.1.
+        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-[0-9]+");
+        if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
     }
-    for (fs::path const& leftover : leftovers) fs::remove_all(leftover);
+    for (fs::path const& leftover : leftovers) core::remove_tree(leftover);
 }
 
 void SettledPackings::interrupt() {
@@ -163,17 +169,18 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     settling_.erase(key);
     boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
+    if (engine_.watch && !settling->interrupted) engine_.watch->check();
     if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     if (!settled.failure) {
-        publish(settling->folder, folder_ / key);
+        publish(settling->folder, folder_ / key, settling->deck);
         settled.restart = folder_ / key / deck::settled_file;
     } else if (settling->interrupted) {
-        fs::remove_all(settling->folder);
+        core::remove_tree(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
         fs::path const kept = folder_ / (key + ".failed");
-        fs::remove_all(kept);
-        fs::rename(settling->folder, kept);
+        core::remove_tree(kept);
+        core::rename_entry(settling->folder, kept);
         settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
     for (Ready const& ready : settling->waiting) ready(settled);

@@ -32,10 +32,10 @@ std::optional<PackingId> parse_task(std::string const& line) {
 
 std::optional<Batch> read_batch(fs::path const& folder) {
     try {
-        Json const json = Json::parse(core::read_file(folder / "batch.json"));
+        Json const json = Json::parse(core::read_file(folder / "batch.json", core::largest_note));
         Batch batch{folder, json.at("name"), {}, {}};
         if (json.contains("job")) batch.job = json.at("job").get<long>();
-        std::istringstream lines(core::read_file(folder / "tasks.txt"));
+        std::istringstream lines(core::read_file(folder / "tasks.txt", core::largest_note));
         for (std::string line; std::getline(lines, line);) {
             auto const task = parse_task(line);
             if (!task) return {};
@@ -59,8 +59,8 @@ std::string job_script(std::string const& number, JobScript const& job) {
         "# Slurm starts it in the campaign's folder; the files task-* say how far it came.\n"
         "trap : TERM INT\n"
         "index=${{SLURM_ARRAY_TASK_ID:?}}\n"
-        "mark() {{ printf '%s\\n' \"$2\" > \"slurm/{0}/.$1\" && mv -f \"slurm/{0}/.$1\" \"slurm/{0}/$1\"; "
-        "}}\n"
+        "mark() {{ rm -f \"slurm/{0}/.$1\" && ( set -C; printf '%s\\n' \"$2\" > \"slurm/{0}/.$1\" ) &&\n"
+        "    mv -fT \"slurm/{0}/.$1\" \"slurm/{0}/$1\"; }}\n"
         "[ -f slurm/{0}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
         "mark \"task-$index.started\" \"$(uname -n) $SLURM_ARRAY_JOB_ID\"\n"
         "{1} work . --task-list slurm/{0}/tasks.txt --index \"$index\" {2}\n"
@@ -107,7 +107,7 @@ PackingActivity lost_task(Batch const& batch, std::size_t index, slurm::TaskRepo
 std::optional<PackingActivity> by_marker(Batch const& batch, std::size_t index) {
     PackingActivity activity{batch.tasks[index], PackingActivity::ended, core::Outcome::interrupted, {}};
     if (fs::is_regular_file(marker(batch, index, "ended"))) {
-        std::string const code = core::read_file(marker(batch, index, "ended"));
+        std::string const code = core::read_file(marker(batch, index, "ended"), core::largest_note);
         activity.message = fmt::format("the task ended with exit code {}; see {}",
                                        core::printable(code.substr(0, code.find('\n')), 10),
                                        marker(batch, index, "out").string());
@@ -115,11 +115,16 @@ std::optional<PackingActivity> by_marker(Batch const& batch, std::size_t index) 
     }
     fs::path const lost = marker(batch, index, "lost");
     if (!fs::is_regular_file(lost)) return {};
-    Json const json = Json::parse(core::read_file(lost), nullptr, false);
+    Json const json = Json::parse(core::read_file(lost, core::largest_note), nullptr, false);
     if (json.is_object()) {
-        activity.outcome =
-            core::outcome_named(json.value("outcome", "")).value_or(core::Outcome::interrupted);
-        activity.message = json.value("message", "");
+        try {
+            auto const outcome = core::outcome_named(json.value("outcome", ""));
+            // A task that was lost has no result, whatever the file says.
+            if (outcome && !core::has_result(*outcome)) activity.outcome = outcome;
+            activity.message = core::harmless(json.value("message", ""));
+        } catch (Json::exception const&) {
+            activity.message = fmt::format("{} is damaged", lost.string());
+        }
     }
     return activity;
 }
@@ -129,7 +134,7 @@ void find_lost_id(Batch& batch) {
     if (batch.job) return;
     for (std::size_t i = 0; i < batch.tasks.size(); ++i) {
         if (!fs::is_regular_file(marker(batch, i, "started"))) continue;
-        std::istringstream text(core::read_file(marker(batch, i, "started")));
+        std::istringstream text(core::read_file(marker(batch, i, "started"), core::largest_note));
         std::string host;
         if (long job = 0; text >> host >> job) batch.job = job;
         return;
@@ -176,7 +181,7 @@ std::vector<PackingActivity> survey_batch(Batch& batch) {
 }  // namespace
 
 PackingId read_task(fs::path const& task_list, int index) {
-    std::istringstream lines(core::read_file(task_list));
+    std::istringstream lines(core::read_file(task_list, core::largest_note));
     std::string line;
     for (int i = 0; i <= index && std::getline(lines, line); ++i) {
         if (i < index) continue;

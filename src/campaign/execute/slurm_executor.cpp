@@ -97,7 +97,7 @@ class SlurmExecutor : public Executor {
             slurm::check(array);
             job = slurm::submit(array);
         } catch (core::MissingError const&) {
-            std::filesystem::remove_all(batch.folder);  // what Slurm refuses leaves nothing behind
+            core::remove_tree(batch.folder);  // what Slurm refuses leaves nothing behind
             throw;
         }
         remember_job(batch, job);

@@ -65,7 +65,8 @@ Learned learn(std::vector<CaseOverview> const& cases) {
 
 std::optional<double> certified_speed(Plan const& plan) {
     try {
-        auto const certificate = engine::parse_certificate(core::read_file(plan.folder / "certificate.json"));
+        auto const certificate =
+            engine::parse_certificate(core::read_file(plan.folder / "certificate.json", core::largest_note));
         if (certificate && certificate->grain_steps_per_cpu_second > 0)
             return certificate->grain_steps_per_cpu_second;
     } catch (core::Error const&) {

@@ -3,7 +3,13 @@
 #include "campaign/state/older_cases.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/text.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,14 +19,107 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Json = nlohmann::ordered_json;
+
+/// What is frozen in a folder: names of files and their contents.
+using FrozenFiles = std::map<std::string, std::string>;
+
+/// engine.json, if this program wrote it; null when there is none.
+/// @throws core::InputError when something else has this name
+Json read_frozen_facts(fs::path const& folder) {
+    fs::path const path = folder / "engine.json";
+    if (!fs::exists(fs::symlink_status(path))) return nullptr;
+    Json json;
+    try {
+        json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
+    } catch (core::MissingError const&) {
+    }
+    if (json.is_object() && json.contains("program") && json.contains("version")) return json;
+    throw core::InputError(
+        fmt::format("{} is not a file of this program, or is damaged, and would be replaced; move it away, "
+                    "or choose another "
+                    "folder with --output",
+                    path.string()));
+}
+
+/// The content of a file that is about to be frozen; none when there is no such file.
+std::optional<std::string> content_before(fs::path const& path) {
+    if (!fs::exists(fs::symlink_status(path))) return {};
+    try {
+        return core::read_file(path, core::largest_note);
+    } catch (core::MissingError const& error) {
+        throw core::InputError(
+            fmt::format("{}, and it would be replaced; move it away, or choose another folder with --output",
+                        error.what()));
+    }
+}
+
+/// Refuses to replace what a person wrote: a file that is neither what was frozen nor what will be.
+void refuse_edited_files(fs::path const& folder, FrozenFiles const& files, Json const& facts) {
+    for (auto const& [name, content] : files) {
+        auto const before = content_before(folder / name);
+        if (!before || *before == content) continue;
+        bool const is_own = !facts.is_null();
+        if (is_own && !facts.contains("frozen")) continue;  // up to version 0.1
+        Json const known = is_own ? facts["frozen"].value(name, Json::array()) : Json::array();
+        if (std::ranges::find(known, Json(core::sha256_hex(*before))) != known.end()) continue;
+        fs::path const path = folder / name;
+        throw core::InputError(fmt::format(
+            "{} {}, and this run would replace it; run {} itself to go on with it, move it away, or choose "
+            "another "
+            "folder with --output",
+            path.string(), is_own ? "was changed since it was frozen here" : "is not a file of this program",
+            name == "campaign.toml" ? path.string() : "a campaign that names it"));
+    }
+}
+
+/// Refuses a folder that holds somebody else's files under the names of a campaign's.
+void refuse_foreign_folder(fs::path const& folder, Json const& facts, FrozenFiles const& files) {
+    bool const is_own =
+        !facts.is_null() || content_before(folder / "campaign.toml") == files.at("campaign.toml");
+    if (is_own) return;
+    for (char const* name :
+         {"campaign.h5", "certificate.json", "cases", "packings", "friction.json", "numerics.json"}) {
+        std::error_code missing;
+        fs::path const path = folder / name;
+        if (!fs::exists(fs::symlink_status(path)) || fs::is_empty(path, missing)) continue;
+        throw core::InputError(
+            fmt::format("{} is there already, but {} is not the folder of a campaign; move it away, or "
+                        "choose another folder "
+                        "with --output",
+                        path.string(), folder.string()));
+    }
+}
+
+/// Writes engine.json and the files whose contents have changed. While they are written, engine.json knows
+/// the digests of the old and of the new contents, so that after a crash none of them seems to be edited.
+void write_frozen(fs::path const& folder, Json facts, FrozenFiles const& files) {
+    Json both = Json::object(), last = Json::object();
+    FrozenFiles changed;
+    for (auto const& [name, content] : files) {
+        last[name] = both[name] = Json::array({core::sha256_hex(content)});
+        auto const before = content_before(folder / name);
+        if (before == content) continue;
+        if (before) both[name].push_back(core::sha256_hex(*before));
+        changed[name] = content;
+    }
+    auto const write_facts = [&](Json const& frozen) {
+        facts["frozen"] = frozen;
+        core::write_file_atomically(folder / "engine.json", facts.dump(2) + "\n");
+    };
+    write_facts(both);
+    for (auto const& [name, content] : changed) core::write_file_atomically(folder / name, content);
+    if (both != last) write_facts(last);
+}
+
 /// An edited campaign may continue in its folder; a different one would hide the cases of the first.
-void refuse_other_campaign(Plan const& plan) {
+void refuse_other_campaign(Plan const& plan, Json const& facts) {
     fs::path const frozen = plan.folder / "campaign.toml";
     std::string name;
     try {
-        if (fs::is_regular_file(frozen)) name = scenario::read_campaign(frozen).name;
+        if (!facts.is_null() && fs::is_regular_file(frozen)) name = scenario::read_campaign(frozen).name;
     } catch (core::InputError const&) {
-        return;  // damaged, or of an older program: it is frozen again
+        return;  // of an older program, or damaged and then refused as an edited file
     }
     if (name.empty() || name == plan.name) return;
     throw core::InputError(
@@ -33,7 +132,8 @@ void refuse_other_campaign(Plan const& plan) {
 void write_named_files(scenario::Scenario const& scenario, fs::path const& folder) {
     for (scenario::NamedFile const& file : named_files(scenario)) {
         std::error_code missing;
-        if (!fs::exists(folder / file.name, missing) || core::read_file(folder / file.name) != file.content)
+        if (!fs::exists(folder / file.name, missing) ||
+            core::read_file(folder / file.name, core::largest_note) != file.content)
             core::write_file_atomically(folder / file.name, file.content);
     }
 }
@@ -51,20 +151,28 @@ void write_case_files(PlannedCase const& planned) {
 }
 
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {
-    core::make_folder(plan.folder / "cases");
-    refuse_other_campaign(plan);
-    nlohmann::ordered_json const json{{"program", engine.program.string()}, {"version", engine.version}};
-    core::write_file_atomically(plan.folder / "engine.json", json.dump(2) + "\n");
+    FrozenFiles files{{"campaign.toml", core::read_file(campaign_file, core::largest_note)}};
     for (fs::path const& file : plan.files)
-        core::write_file_atomically(plan.folder / file.filename(), core::read_file(file));
+        files[file.filename().string()] = core::read_file(file, core::largest_note);
+    for (PlannedCase const& planned : plan.cases) {
+        for (scenario::NamedFile const& file : named_files(planned.scenario()))
+            files[file.name] = file.content;
+    }
+    Json const before = read_frozen_facts(plan.folder);
+    refuse_other_campaign(plan, before);
+    refuse_foreign_folder(plan.folder, before, files);
+    refuse_edited_files(plan.folder, files, before);
+
+    Json facts{{"program", engine.program.string()}, {"version", engine.version}};
+    if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
+    write_frozen(plan.folder, std::move(facts), files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
-        fs::remove(certificate);  // it belongs to another engine
+        core::remove_file(certificate);  // it belongs to another engine
     } else {
         core::write_file_atomically(certificate, engine.certificate);
     }
-    for (PlannedCase const& planned : plan.cases) write_named_files(planned.scenario(), plan.folder);
-    core::write_file_atomically(plan.folder / "campaign.toml", core::read_file(campaign_file));
+    core::make_folder(plan.folder / "cases");
 }
 
 scenario::Campaign read_frozen_campaign(fs::path const& folder) {
@@ -81,15 +189,20 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
 
 Plan open_plan(fs::path const& folder) {
     scenario::Campaign const campaign = read_frozen_campaign(folder);
-    return make_plan(campaign, folder, read_engine(folder).version);
+    auto own = std::make_shared<core::OwnFolder const>(folder);
+    Plan plan = make_plan(campaign, folder, read_engine(folder).version);
+    plan.own = std::move(own);
+    return plan;
 }
 
 engine::Engine read_engine(fs::path const& folder) {
     try {
-        auto const json = nlohmann::json::parse(core::read_file(folder / "engine.json"));
-        return {json.at("program").get<std::string>(), json.at("version").get<std::string>()};
+        auto const json = nlohmann::json::parse(core::read_file(folder / "engine.json", core::largest_note));
+        engine::Engine engine{json.at("program").get<std::string>(), json.at("version").get<std::string>()};
+        engine.binary_sha256 = json.value("binary_sha256", std::string());  // not up to version 0.1
+        return engine;
     } catch (nlohmann::json::exception const&) {
-        throw core::InputError(fmt::format("{} is damaged; run the campaign again to repair it",
+        throw core::InputError(fmt::format("{} is damaged; run the campaign again after removing this file",
                                            (folder / "engine.json").string()));
     }
 }

@@ -3,6 +3,7 @@
 #include "campaign/state/checkpoint.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/time.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
@@ -34,12 +35,14 @@ std::optional<int> packing_number(std::string_view name) {
 std::optional<Failure> read_failure(PlannedCase const& planned) {
     std::error_code missing;
     if (!fs::is_regular_file(planned.failure_file(), missing)) return {};
-    Json const json = Json::parse(core::read_file(planned.failure_file()), nullptr, false);
+    Json const json =
+        Json::parse(core::read_file(planned.failure_file(), core::largest_note), nullptr, false);
     try {
         if (!json.is_object()) return {};
         auto const outcome = core::outcome_named(json.at("outcome").get<std::string>());
-        if (!outcome) return {};
-        return Failure{*outcome, json.at("message"), json.at("packing"), json.at("attempts")};
+        if (!outcome || core::has_result(*outcome)) return {};
+        return Failure{*outcome, core::harmless(json.at("message").get<std::string>()), json.at("packing"),
+                       json.at("attempts")};
     } catch (Json::exception const&) {
         return {};
     }
@@ -71,6 +74,8 @@ std::vector<int> started_packings(PlannedCase const& planned) {
     std::vector<int> numbers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(planned.folder, missing)) {
+        // A symbolic link leads to what is not this campaign's; a run replaces it.
+        if (core::is_link(entry.path())) continue;
         if (auto const number = packing_number(entry.path().filename().string())) numbers.push_back(*number);
     }
     std::ranges::sort(numbers);

@@ -69,7 +69,8 @@ std::string digest_of_drive(std::string const& content) {
 /// of the deck with its comments, which is compared with the file that it was made from.
 bool belongs_to(Json const& seal, fs::path const& folder, std::string const& drive) {
     if (seal.contains("commands_sha256")) return seal.at("commands_sha256") == digest_of_drive(drive);
-    std::string const before = deck::for_one_rank(core::read_file(folder / deck::drive_file));
+    std::string const before =
+        deck::for_one_rank(core::read_file(folder / deck::drive_file, core::largest_note));
     return seal.at("deck_sha256") == core::sha256_hex(before) &&
            deck::commands_of(before) == deck::commands_of(drive);
 }
@@ -99,7 +100,7 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
                                           int steps_per_cycle) {
     try {
         if (!fs::is_regular_file(folder / seal_file)) return {};
-        Json const seal = Json::parse(core::read_file(folder / seal_file));
+        Json const seal = Json::parse(core::read_file(folder / seal_file, core::largest_note));
         Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
                                     seal.at("wall_time"),
                                     seal.value("core_time", seal.at("wall_time").get<double>())};
@@ -121,7 +122,7 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
 std::optional<int> last_checkpoint(fs::path const& folder) {
     std::error_code missing;
     if (!fs::is_regular_file(folder / deck::checkpoint_list, missing)) return {};
-    std::string const list = core::read_file(folder / deck::checkpoint_list);
+    std::string const list = core::read_file(folder / deck::checkpoint_list, core::largest_note);
     auto const lines = whole_lines(list);
     if (lines.empty()) return {};
     auto const cycle = leading_number(without_end(lines.back()));
@@ -139,8 +140,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
     for (fs::path const& file : restart_files(folder)) {
         // The engine may be writing the next one.
-        std::error_code ignored;
-        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) fs::remove(file, ignored);
+        if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) core::remove_file(file);
     }
 }
 
@@ -152,7 +152,8 @@ std::optional<Checkpoint> read_checkpoint(fs::path const& folder, deck::Deck con
 std::optional<Checkpoint> read_own_checkpoint(fs::path const& folder, int steps_per_cycle) {
     try {
         if (!has_checkpoint(folder)) return {};
-        std::string const drive = deck::for_one_rank(core::read_file(folder / deck::drive_file));
+        std::string const drive =
+            deck::for_one_rank(core::read_file(folder / deck::drive_file, core::largest_note));
         return find_checkpoint(folder, drive, steps_per_cycle);
     } catch (core::Error const&) {
         return {};
@@ -174,7 +175,7 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
     // would be sealed and this one removed before the engine has read it.
     core::write_file_atomically(folder / deck::checkpoint_list, fmt::format("{}\n", checkpoint.cycle));
     for (fs::path const& file : restart_files(folder)) {
-        if (*checkpoint_cycle(file.filename().string()) > checkpoint.cycle) fs::remove(file);
+        if (*checkpoint_cycle(file.filename().string()) > checkpoint.cycle) core::remove_file(file);
     }
     if (!fs::is_directory(folder / "dump")) return;
     std::vector<fs::path> later;
@@ -182,14 +183,13 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
         auto const frame = number_between(entry.path().filename().string(), "frames.", ".dump");
         if (frame && *frame > step) later.push_back(entry.path());
     }
-    for (fs::path const& frame : later) fs::remove(frame);
+    for (fs::path const& frame : later) core::remove_file(frame);
 }
 
 void remove_checkpoints(fs::path const& folder) {
-    std::error_code ignored;
-    for (fs::path const& file : restart_files(folder)) fs::remove(file, ignored);
-    fs::remove(folder / seal_file, ignored);
-    fs::remove(folder / deck::checkpoint_list, ignored);
+    for (fs::path const& file : restart_files(folder)) core::remove_file(file);
+    core::remove_file(folder / seal_file);
+    core::remove_file(folder / deck::checkpoint_list);
 }
 
 }  // namespace vibrotrough::campaign

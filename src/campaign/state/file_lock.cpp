@@ -1,6 +1,7 @@
 #include "campaign/state/file_lock.hpp"
 
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -8,19 +9,28 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace vibrotrough::campaign {
 namespace {
 
+bool is_regular(int descriptor) {
+    struct stat status {};
+    return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 int open_file(std::filesystem::path const& path) {
     // Close-on-exec: the engines must not inherit the lock and hold it after the driver.
-    int const descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // O_NONBLOCK: what is in its place may be a pipe, which would wait for a reader.
+    int const descriptor = core::ParentFolder(path).open(O_RDWR | O_CREAT | O_NONBLOCK);
     if (descriptor < 0) {
         throw core::MissingError(fmt::format("cannot write in {} ({}); choose another folder with --output",
-                                             path.parent_path().string(), std::strerror(errno)));
+                                             path.parent_path().string(), core::reason_of_errno()));
     }
-    return descriptor;
+    if (is_regular(descriptor)) return descriptor;
+    ::close(descriptor);
+    throw core::MissingError(fmt::format("{} is not a file; remove it", path.string()));
 }
 
 /// A write lock on the whole file, bound to the open file as flock() is, but one that can be asked for
@@ -55,7 +65,7 @@ FileLock FileLock::wait_for(std::filesystem::path const& path) {
 }
 
 bool FileLock::is_held(std::filesystem::path const& path) {
-    int const descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    int const descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) return false;
     struct flock lock = whole_file();
     bool const held = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;

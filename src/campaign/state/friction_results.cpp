@@ -67,7 +67,7 @@ std::map<std::string, evaluate::LayerFriction> read_friction(std::filesystem::pa
     std::map<std::string, evaluate::LayerFriction> tests;
     if (!std::filesystem::is_regular_file(path)) return tests;
     try {
-        for (Json const& one : Json::parse(core::read_file(path))) {
+        for (Json const& one : Json::parse(core::read_file(path, core::largest_note))) {
             evaluate::LayerFriction test{one.at("layer"),
                                          one.at("case"),
                                          one.at("grain_friction"),

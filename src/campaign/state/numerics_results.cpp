@@ -97,7 +97,7 @@ Json read_list(fs::path const& campaign_folder) {
     fs::path const path = numerics_file(campaign_folder);
     if (!fs::is_regular_file(path)) return Json::array();
     try {
-        Json const json = Json::parse(core::read_file(path));
+        Json const json = Json::parse(core::read_file(path, core::largest_note));
         if (json.at("format") == format_name && json.at("schema_version") == schema_version &&
             json.at("cases").is_array())
             return json.at("cases");

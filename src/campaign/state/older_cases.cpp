@@ -83,13 +83,13 @@ void OlderCases::read_folders() {
         std::string const name = entry.path().filename().string();
         if (!is_case_id(name) || new_ids_.contains(name)) continue;
         if (fs::is_regular_file(entry.path() / current_id_file, missing)) {
-            std::string const current = core::read_file(entry.path() / current_id_file);
+            std::string const current = core::read_file(entry.path() / current_id_file, core::largest_note);
             ids_by_current_id_[current.substr(0, current.find('\n'))] = name;
             continue;
         }
         if (!fs::is_regular_file(entry.path() / "packing-1" / deck::drive_file, missing)) continue;
         try {
-            std::string const toml = core::read_file(entry.path() / "scenario.toml");
+            std::string const toml = core::read_file(entry.path() / "scenario.toml", core::largest_note);
             Files const deck = read_deck(entry.path() / "packing-1");
             if (older_id(toml, engine_version_, deck) != name) continue;
             auto const frozen = scenario::read_campaign(entry.path() / "scenario.toml");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/own_folder.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -54,6 +55,8 @@ struct Plan {
     std::string engine_version;                     ///< of the engine that runs it; part of the ids
     std::deque<PlannedCase> cases;                  ///< in the order of the campaign file, added ones last
     std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
+    /// Keeps what is written and removed within the folder; none for a plan that only looks.
+    std::shared_ptr<core::OwnFolder const> own = {};
 };
 
 /// Works out the cases' ids and folders below `folder`: those of the campaign file, and after them those that

@@ -17,6 +17,7 @@ namespace {
 constexpr int continuous_classes = 10;
 constexpr double lognormal_cut = 2.5;  // standard deviations
 constexpr std::size_t most_spheres = 1000;
+constexpr double largest_proportion = 1000;  ///< of a clump to its smallest radius
 
 double cube(double value) {
     return value * value * value;
@@ -87,6 +88,21 @@ std::vector<Sphere> rod_spheres() {
     return {{-0.5, 0, 0, 0.5}, {0, 0, 0, 0.5}, {0.5, 0, 0, 0.5}};
 }
 
+/// A shape is only its proportions, so that numbers which differ by more are mistakes. Their third powers,
+/// which its moments need, would be lost in rounding or would overflow.
+void check_proportions(std::vector<Sphere> const& spheres) {
+    double const smallest = std::ranges::min(spheres, {}, &Sphere::radius).radius;
+    for (Sphere const& s : spheres) {
+        double const reach = std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z), s.radius});
+        if (!(reach <= largest_proportion * smallest) || !(smallest > 1e-30) || !(reach < 1e30)) {
+            throw std::invalid_argument(fmt::format(
+                "a sphere reaches {:.3g} from the origin, more than {:.0f} times the smallest radius, "
+                "which is {:.3g}",
+                reach, largest_proportion, smallest));
+        }
+    }
+}
+
 std::vector<Sphere> read_spheres(std::string_view text) {
     std::vector<Sphere> spheres;
     for (auto const& [values, line] : core::read_number_table(text, {"x", "y", "z", "radius"})) {
@@ -97,6 +113,7 @@ std::vector<Sphere> read_spheres(std::string_view text) {
     if (spheres.size() > most_spheres)
         throw std::invalid_argument(fmt::format("there are more than {} spheres", most_spheres));
     if (spheres.empty()) throw std::invalid_argument("there are no spheres");
+    check_proportions(spheres);
     return spheres;
 }
 

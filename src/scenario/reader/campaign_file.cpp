@@ -83,7 +83,7 @@ Campaign read_campaign(std::filesystem::path const& path) {
         throw core::InputError(
             fmt::format("{}: there is no such file; give the path of a campaign file (TOML)", path.string()));
     }
-    return parse_campaign(core::read_file(path), path.string(), {path.parent_path(), {}});
+    return parse_campaign(core::read_given_file(path), path.string(), {path.parent_path(), {}});
 }
 
 }  // namespace vibrotrough::scenario

@@ -12,6 +12,7 @@ namespace vibrotrough::scenario {
 namespace {
 
 constexpr std::size_t most_spheres = 100'000'000;  // of a layer
+constexpr double most_grains_on_floor = 1e6;
 
 /// Puts the parts of a case together and checks what concerns several sections.
 class CaseBuilder {
@@ -46,6 +47,7 @@ class CaseBuilder {
                     fmt::format("write at least \"{:.6g} mm\"", 4e3 * largest));
             }
         }
+        check_floor(largest);
         Layer layer{given_.number("layer.length"), given_.number("layer.width"), {}, 0, Block::none};
         if (given_.find("layer.block") != nullptr) {
             layer.grains = 1;
@@ -62,6 +64,18 @@ class CaseBuilder {
             given_.fail("grains.shape", fmt::format("the layer would need {} spheres", spheres),
                         "take fewer grains");
         return layer;
+    }
+
+    /// The floor's mesh has a triangle for every few grains on it.
+    void check_floor(double diameter) const {
+        double const grains =
+            given_.number("layer.length") * given_.number("layer.width") / (diameter * diameter);
+        if (grains <= most_grains_on_floor) return;
+        given_.fail(
+            "layer.length",
+            fmt::format("{:.3g} grains of {:.3g} m would lie side by side on the floor, more than {:.0f}",
+                        grains, diameter, most_grains_on_floor),
+            "make the box smaller or the grains larger; is the unit of the diameter right?");
     }
 
     int grains_for(double height, Layer const& layer, Scenario const& scenario) const {

@@ -216,7 +216,7 @@ class DesignReader {
         campaign_.files.push_back(path);
         PointList list;
         list.where = position_of(table.source());
-        read_csv_rows(path.string(), core::read_file(path), list);
+        read_csv_rows(path.string(), core::read_file(path, core::largest_note), list);
         add(std::move(list));
     }
 

@@ -212,7 +212,8 @@ class CampaignFileReader {
         };
         double const from = part("from"), to = part("to"), step = part("step");
         double const steps = (to - from) / step;
-        if (!(step > 0) || !(steps >= 0) || steps > 1e5) {
+        // An infinite step would give no number: 0 times infinity.
+        if (!(step > 0) || !std::isfinite(step) || !(steps >= 0) || steps > 1e5) {
             fail(where, key.path, "'step' does not lead from 'from' to 'to' in at most 100000 steps",
                  "write { from = a, to = b, step = c } with a <= b and c > 0");
         }
@@ -222,7 +223,7 @@ class CampaignFileReader {
             values.push_back(std::stod(fmt::format("{:.12g}", from + i * step)));
         }
         for (double const value : {values.front(), values.back()}) {
-            if (value < key.least || value > key.most) {
+            if (!(value >= key.least && value <= key.most)) {
                 fail(where, key.path, fmt::format("{} is out of range", value),
                      fmt::format("stay within {}", key.range));
             }

@@ -50,7 +50,7 @@ NamedFile GivenValues::named_file(std::string_view key) const {
     }
     if (std::filesystem::file_size(path, failure) > largest_named_file)
         fail(key, fmt::format("{} is larger than 1 MiB", path.string()), "use a smaller file");
-    return {name, core::read_file(path)};
+    return {name, core::read_file(path, core::largest_note)};
 }
 
 }  // namespace vibrotrough::scenario

@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
 #include "theory/friction_test.hpp"
 
@@ -88,7 +89,7 @@ void inverse(Options const& options, theory::ShakeTest const& test) {
         if (dx > 0) fmt::print(" +- {:.6f}, from {:.6f} to {:.6f}", half, estimate.low, estimate.high);
         fmt::print("\nmode      {}\n", estimate.mode);
     }
-    if (!warning.empty()) fmt::print(stderr, "vibrotrough: warning: {}\n", warning);
+    if (!warning.empty()) tell("vibrotrough: warning: {}\n", warning);
 }
 
 void run(Options const& options) {

@@ -61,8 +61,10 @@ void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& ans
     fmt::print("machine number       {:.6g}\n", theory::machine_number(input.point));
     std::string const interval =
         answer.half_width > 0 ? fmt::format(" +- {:.6f} (95 %)", answer.half_width) : "";
-    fmt::print("velocity efficiency  {:.6f}{}   mean relative velocity / (omega r cos(beta))\n",
-               motion.velocity_efficiency, interval);
+    std::string const speed = std::isfinite(motion.velocity_efficiency)
+                                  ? fmt::format("{:.6f}{}", motion.velocity_efficiency, interval)
+                                  : "none";
+    fmt::print("velocity efficiency  {}   mean relative velocity / (omega r cos(beta))\n", speed);
     fmt::print("outcome              {}\n", theory::to_string(motion.outcome));
     if (!motion.converged) return;
     fmt::print("mode                 {}\n", motion.mode);
@@ -91,7 +93,8 @@ theory::Machine read_machine(Options const& o) {
     return machine;
 }
 
-void run(Options const& options) {
+/// A motion that runs away has no speed, which a script must notice.
+int run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     std::optional<theory::Machine> machine;
     if (options.amplitude) machine = read_machine(options);
@@ -108,6 +111,7 @@ void run(Options const& options) {
         }
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
+    return std::isfinite(answer.motion.velocity_efficiency) ? all_well : some_cases_failed;
 }
 
 }  // namespace
@@ -139,16 +143,18 @@ the layer the mass flow.
 )") + mode_letters +
         R"(
 
+Exit codes:
+    0  the motion has a velocity efficiency
+    1  it runs away downhill and has none
+    2  the input is wrong
+
 Example:
   vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23
 
 Example with a machine:
   vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23 \
       --amplitude "6 mm" --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3")");
-    command->callback([options, &exit_code] {
-        run(*options);
-        exit_code = all_well;
-    });
+    command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace vibrotrough::app

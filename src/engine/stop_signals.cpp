@@ -1,0 +1,15 @@
+#include "engine/stop_signals.hpp"
+
+#include <csignal>
+
+namespace vibrotrough::engine {
+
+void add_stop_signals(boost::asio::signal_set& signals) {
+    for (int const number : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+        signals.add(number);
+    }
+}
+
+}  // namespace vibrotrough::engine

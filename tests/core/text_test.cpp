@@ -1,0 +1,33 @@
+#include "core/text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough::core {
+namespace {
+
+TEST(Text, HarmlessKeepsTheLettersOfAllLanguages) {
+    for (char const* text : {"", "plain", "\u00b5m, \u00e4\u00f6\u00fc", "\u632f\u52d5", "\U0001f600"})
+        EXPECT_EQ(harmless(text), text);
+}
+
+TEST(Text, HarmlessReplacesWhatSteersATerminal) {
+    EXPECT_EQ(harmless("a\x1b[2Jb"), "a?[2Jb");
+    EXPECT_EQ(harmless("a\nb\rc\td\x7f"), "a?b?c?d?");
+    EXPECT_EQ(harmless("\u009b31m"), "?31m") << "a control sequence in one character";
+    EXPECT_EQ(harmless("\u202egnp.exe"), "?gnp.exe") << "right-to-left override";
+    EXPECT_EQ(harmless(std::string_view("a\0b", 3)), "a?b");
+}
+
+// RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF, no piece of a character.
+TEST(Text, HarmlessReplacesBytesThatAreNotUtf8) {
+    EXPECT_EQ(harmless("\xff\xfe"), "??");
+    EXPECT_EQ(harmless("\xc0\x9b"), "??") << "an escape character in an overlong form";
+    EXPECT_EQ(harmless("\xe0\x80\x9b"), "???");
+    EXPECT_EQ(harmless("\xed\xa0\x80"), "???");
+    EXPECT_EQ(harmless("\xf4\x90\x80\x80"), "????");
+    EXPECT_EQ(harmless("\xe6\x8c"), "??");
+    EXPECT_EQ(harmless("\xc3("), "?(");
+}
+
+}  // namespace
+}  // namespace vibrotrough::core
