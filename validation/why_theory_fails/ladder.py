@@ -28,8 +28,6 @@ RUNGS: dict[str, tuple[Changes, list[float]]] = {
     "4 deep, free": ({}, ALL),
     "restitution 0.1": (varied(grains_restitution=0.1, trough_restitution=0.1), PAIR),
     "restitution 0.9": (varied(grains_restitution=0.9, trough_restitution=0.9), PAIR),
-    # Eight spheres each: a third of the floor, which does not change the layer of spheres by more than 0.01 (README).
-    "cubes": (varied(grains_shape="cube", grains_diameter_spread=None, layer_length="15 mm", layer_width="13.5 mm"), ALL),
     "rolling friction 0.5": (varied(grains_rotation="rolling", grains_rolling_friction=0.5), PAIR),
     "grain friction 0.1": (varied(grains_friction=0.1), PAIR),
     "2 deep, blocked": (varied(grains_rotation="blocked", layer_height="6 mm"), PAIR),
@@ -40,6 +38,8 @@ RUNGS: dict[str, tuple[Changes, list[float]]] = {
     "rolling friction 0.1": (varied(grains_rotation="rolling", grains_rolling_friction=0.1), PAIR),
     "monolayer, blocked": (BLOCKED | deep("3 mm"), ALL),
     "monolayer, free": (deep("3 mm"), ALL),
+    # Eight spheres each: a third of the floor, which does not change the layer of spheres by more than 0.01 (README).
+    "cubes": (varied(grains_shape="cube", grains_diameter_spread=None, layer_length="15 mm", layer_width="13.5 mm"), ALL),
     "grain, blocked": (BLOCKED | grains(1), ALL),
     "grain, free": (grains(1), ALL),
 }
