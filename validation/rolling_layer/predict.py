@@ -19,7 +19,8 @@ def held_out_cases() -> tuple[list[tuple[str, float]], laws.Cases]:
     """Group and throw number of each held-out case, and the same for the laws."""
     names = [(group, gamma) for group, (_, numbers) in held_out.HELD_OUT.items() for gamma in numbers]
     columns = list(zip(*(held_out.inputs(group, gamma) for group, gamma in names)))
-    return names, laws.Cases(*(np.array(column, dtype=float) for column in columns[:5]), np.array(columns[5], dtype=bool), np.array(columns[6]))
+    numbers = [np.array(column, dtype=float) for column in columns]
+    return names, laws.Cases(numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5] > 0, numbers[6])
 
 
 def predictions(cases: laws.Cases) -> dict[str, laws.Floats]:
