@@ -65,6 +65,27 @@ def read_theory(path: pathlib.Path) -> tuple[Lines, dict[str, Any]]:
     return lines, {"linewidth": 1.6} if fine else {"linewidth": 0.8, "marker": "x", "markersize": 5}
 
 
+def read_rolling_layer(path: pathlib.Path) -> Lines:
+    """Lines of the rolling-layer law by vibration angle, of a fine curve that has them; NaN where the law was not tested."""
+    points = defaultdict(list)
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            value = row.get("rolling_layer_efficiency")
+            key = (row["vibration_angle_deg"], row.get("inclination_deg"), row.get("friction"))
+            points[key].append((float(row["throw_number"]), float(value) if value else math.nan))
+    lines = defaultdict(list)
+    for key, pairs in points.items():
+        curve = np.array(sorted(pairs)).T
+        if np.isfinite(curve[1]).any():
+            lines[same_angle(float(key[0]))].append(curve)
+    return lines
+
+
+def rotates(columns: Columns) -> bool:
+    """Whether any case has grains that rotate freely, of which the rolling-layer law speaks."""
+    return "free" in columns.get("grain_rotation", np.array([]))
+
+
 def same_angle(degrees: float) -> float:
     """Angles that differ only by rounding are one."""
     return round(degrees, 4)
@@ -83,13 +104,15 @@ def series_of(columns: Columns) -> dict[str, list[int]]:
     }
 
 
-def draw(axes: Axes, columns: Columns, theory: Lines, style: dict[str, Any]) -> None:
+def draw(axes: Axes, columns: Columns, theory: Lines, style: dict[str, Any], rolling: Lines) -> None:
     angles = np.array([same_angle(angle) for angle in np.degrees(columns["vibration_angle"])])
     every_angle = sorted(set(angles) | set(theory))
     for index, angle in enumerate(every_angle):
         colour, dash = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
         for throw_number, efficiency in theory.get(angle, []):
             axes.plot(throw_number, efficiency, color=colour, linestyle=dash, **style)
+        for throw_number, efficiency in rolling.get(angle, []):
+            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, linewidth=0.8, alpha=0.7)
         for number, (label, rows) in enumerate(series_of(columns).items()):
             rows = [row for row in rows if angles[row] == angle]
             if not rows:
@@ -140,14 +163,14 @@ def mark_uncertain(axes: Axes, columns: Columns, branches: list[tuple[float, flo
         )
 
 
-def label(axes: Axes, columns: Columns, attributes: dict[str, Any], theory: Lines) -> None:
+def label(axes: Axes, columns: Columns, attributes: dict[str, Any], theory: Lines, rolling: Lines) -> None:
     confidence = np.unique(columns["confidence"])
     bars = f"{100 * confidence[0]:.3g} % interval" if len(confidence) == 1 else "confidence interval"
     axes.set_xlabel(THROW_NUMBER)
     axes.set_ylabel(EFFICIENCY)
     axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
     plain_axes(axes)
-    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "")
+    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
     # Above the axes, where no point can be mistaken for a part of it; the series first, then the ring.
     handles, names = axes.get_legend_handles_labels()
     order = sorted(range(len(names)), key=lambda index: names[index] == UNCERTAIN)
@@ -164,10 +187,11 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
     theory, style = read_theory(theory_file) if theory_file else ({}, {})
+    rolling = read_rolling_layer(theory_file) if theory_file and rotates(columns) else {}
     figure, axes = new_figure()
-    draw(axes, columns, theory, style)
+    draw(axes, columns, theory, style, rolling)
     mark_uncertain(axes, columns, draw_branches(axes, columns))
-    label(axes, columns, attributes, theory)
+    label(axes, columns, attributes, theory, rolling)
     figure.tight_layout(rect=(0, 0.02, 1, 1))
     return save(figure, output)
 

@@ -36,6 +36,7 @@ FIGURES = [
 CASE_FIGURES = [
     ("cycles", "Every cycle, the discarded start shaded"),
     ("portraits", "Layer and point mass over a cycle"),
+    ("spin", "Spin and slip of the floor grains over a cycle"),
     ("profiles", "Velocity over height"),
 ]
 

@@ -107,18 +107,18 @@ class ValidationCase:
         """The rows that `vibrotrough theory WORDS` prints as CSV."""
         return list(csv.DictReader(io.StringIO(self.theory(*words))))
 
-    def batch(self, columns: Sequence[str], points: Iterable[Sequence[float]]) -> list[Row]:
-        """The rows of `vibrotrough theory batch` for `points`, rows of numbers whose inputs `columns` names."""
+    def batch(self, columns: Sequence[str], points: Iterable[Sequence[float]], words: Sequence[str] = ()) -> list[Row]:
+        """The rows of `vibrotrough theory batch WORDS` for `points`, rows of numbers whose inputs `columns` names."""
         lines = [",".join(columns)] + [",".join(repr(float(value)) for value in point) for point in points]
         with tempfile.TemporaryDirectory() as folder:
             questions, answers = pathlib.Path(folder, "points.csv"), pathlib.Path(folder, "answers.csv")
             questions.write_text("\n".join(lines) + "\n", encoding="utf-8")
-            self.theory("batch", questions, "--output", answers)
+            self.theory("batch", questions, "--output", answers, *words)
             return read_table(answers)
 
-    def efficiencies(self, columns: Sequence[str], points: Iterable[Sequence[float]]) -> Floats:
+    def efficiencies(self, columns: Sequence[str], points: Iterable[Sequence[float]], words: Sequence[str] = ()) -> Floats:
         """The theory's velocity efficiency at each of `points`, as for batch()."""
-        return np.array([float(row["velocity_efficiency"]) for row in self.batch(columns, points)])
+        return np.array([float(row["velocity_efficiency"]) for row in self.batch(columns, points, words)])
 
     def probes(self) -> dict[str, dict[str, Any]]:
         """What `vibrotrough probe-engine` measured and expected, by the probes' names."""

@@ -140,6 +140,18 @@ std::vector<Column> efficiency_columns() {
          .position = 90,
          .terminal = TerminalView{.heading = "eta theory", .subheading = "at mu", .priority = 7},
          .report = ReportView{.heading = "\u03b7, theory"}},
+        {.name = "efficiency_rolling_layer",
+         .unit = "1",
+         .value = field<&Row::efficiency_rolling_layer>,
+         .meaning = "Velocity efficiency of the rolling-layer law with its published constants, for spheres "
+                    "that may "
+                    "rotate; unknown outside the range in which the law has been tested",
+         .format = "{:.3f}",
+         .position = 95,
+         .terminal =
+             TerminalView{
+                 .heading = "eta rolling", .subheading = "layer law", .priority = 2, .only_when_known = true},
+         .report = ReportView{.heading = "\u03b7, rolling layer"}},
         {.name = "mode_theory",
          .unit = "1",
          .value = field<&Row::mode_theory>,

@@ -1,6 +1,7 @@
 #include "compare/comparison.hpp"
 
 #include "theory/point_mass.hpp"
+#include "theory/rolling_layer.hpp"
 
 #include <cmath>
 #include <limits>
@@ -23,6 +24,25 @@ void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
     theory::Motion const motion = solve(point_mass);
     row.mode_theory = known_mode(motion);
     if (motion.converged) row.efficiency_theory = motion.velocity_efficiency;
+}
+
+/// The efficiency of the rolling-layer law where it has been tested, else nothing.
+std::optional<double> rolling_efficiency(theory::PointMass const& point, theory::RollingLaw const& law) {
+    if (theory::outside_tested_range(point)) return {};
+    theory::Motion const motion = theory::solve(theory::RollingLayer{point, law}).motion;
+    if (!motion.converged) return {};
+    return motion.velocity_efficiency;
+}
+
+/// Adds the rolling-layer law for a layer of spheres that may rotate. Rolling friction adds to its dry
+/// torque.
+void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
+    scenario::Grains const& grains = prepared.scenario.grains;
+    bool const spheres = grains.shape == "sphere" && prepared.scenario.layer.block == scenario::Block::none;
+    if (!prepared.point_mass.is_plain || !spheres || grains.rotation == scenario::Rotation::blocked) return;
+    theory::RollingLaw law;
+    if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
+    row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law);
 }
 
 /// Adds the theory at the friction of the layer as a whole. The effect of side walls is already included in
@@ -81,13 +101,15 @@ std::string curve(Line const& line, double from, double to) {
     std::string text;
     for (int i = 0; i <= points; ++i) {
         double const gamma = from + (to - from) * i / points;
-        theory::Motion const motion = theory::solve({.throw_number = gamma,
-                                                     .tan_vibration_angle = std::tan(angle / degrees),
-                                                     .tan_inclination = std::tan(inclination / degrees),
-                                                     .friction = friction});
+        theory::PointMass const point{.throw_number = gamma,
+                                      .tan_vibration_angle = std::tan(angle / degrees),
+                                      .tan_inclination = std::tan(inclination / degrees),
+                                      .friction = friction};
+        theory::Motion const motion = theory::solve(point);
         if (!motion.converged) continue;
-        text += fmt::format("{:.6g},{},{},{},{}\n", gamma, angle, inclination, friction,
-                            motion.velocity_efficiency);
+        auto const rolling = rolling_efficiency(point, {});
+        text += fmt::format("{:.6g},{},{},{},{},{}\n", gamma, angle, inclination, friction,
+                            motion.velocity_efficiency, rolling ? fmt::format("{}", *rolling) : "");
     }
     return text;
 }
@@ -95,7 +117,9 @@ std::string curve(Line const& line, double from, double to) {
 }  // namespace
 
 std::string theory_curves_csv(std::vector<Row> const& rows) {
-    std::string text = "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency\n";
+    std::string text =
+        "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency,rolling_layer_"
+        "efficiency\n";
     std::set<Line> lines;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Row const& row : rows) {
@@ -132,6 +156,7 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
     row.frequency_hz = trough.frequency;
     row.outcome = record ? std::string(name_of(record->outcome)) : outcome;
     add_theory(row, prepared.point_mass);
+    add_rolling_layer(row, prepared);
     if (friction) add_layer_theory(row, prepared.point_mass, *friction);
     if (record) add_measurement(row, *record, prepared.velocity_scale);
     return row;

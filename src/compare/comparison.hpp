@@ -24,6 +24,7 @@ struct Row {
     std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
     std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta), m/s
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
+    std::optional<double> efficiency_rolling_layer;   ///< none outside the tested range of that law
     std::optional<std::string> mode_theory;           ///< phases of that point mass in order
     std::optional<std::string> mode_layer;            ///< phases of the layer as a whole in order
     std::optional<double> efficiency_by_normal_force;  ///< of a point mass under the layer's own normal force
@@ -69,7 +70,8 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
 /// The velocity efficiency of the theory over a fine grid of throw numbers, for every combination of
 /// vibration angle, inclination and friction among the rows. The grid reaches from 0.9 times their smallest
 /// throw number to 1.1 times their largest. CSV with the columns throw_number, vibration_angle_deg,
-/// inclination_deg, friction, velocity_efficiency. Throw numbers without a mean speed are left out.
+/// inclination_deg, friction, velocity_efficiency, rolling_layer_efficiency (of free spheres; empty where
+/// that law has not been tested). Throw numbers without a mean speed are left out.
 std::string theory_curves_csv(std::vector<Row> const& rows);
 
 }  // namespace vibrotrough::compare

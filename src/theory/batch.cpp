@@ -35,17 +35,19 @@ class FirstError {
 
 }  // namespace
 
-BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs) {
+BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs,
+                        std::optional<RollingLaw> const& rolling) {
+    static_cast<void>(PointSolver(rolling));  // its constants are checked once, not in a thread
     BatchResult answer{std::vector<MapPoint>(inputs.size()), 0};
     FirstError first_error;
     tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, inputs.size(), 64), [&](auto const& range) {
-            EfficiencySolver solver;
+            PointSolver solver(rolling);
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 try {
-                    answer.points[i] = solve_inputs(inputs[i], solver);
+                    answer.points[i] = solver(inputs[i]);
                 } catch (std::invalid_argument const& error) {
                     first_error.note(i, error.what());
                 }

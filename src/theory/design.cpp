@@ -1,7 +1,7 @@
 #include "theory/design.hpp"
 
 #include "theory/detail/input_check.hpp"
-#include "theory/efficiency.hpp"
+#include "theory/map.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ using Variables = std::vector<double>;
 
 class Search {
   public:
-    explicit Search(DesignLimits const& limits) : limits_(limits) {}
+    explicit Search(DesignLimits const& limits) : limits_(limits), solver_(limits.rolling) {}
 
     Design at(Variables const& x) {
         DesignLimits const& l = limits_;
@@ -37,8 +37,12 @@ class Search {
         double const omega = 2 * pi * d.frequency;
         d.machine_number = omega * omega * d.amplitude / l.gravity;
         d.throw_number = d.machine_number * std::sin(x[2]) / std::cos(x[3]);
-        Efficiency const e =
-            solver_({std::min(d.throw_number, 1e4), std::tan(x[2]), std::tan(x[3]), l.friction});
+        Inputs inputs;
+        inputs.set(Input::throw_number, std::min(d.throw_number, 1e4));
+        inputs.set(Input::tan_vibration_angle, std::tan(x[2]));
+        inputs.set(Input::tan_inclination, std::tan(x[3]));
+        inputs.set(Input::friction, l.friction);
+        MapPoint const e = solver_(inputs);
         d.velocity_efficiency = e.velocity_efficiency;
         d.conveying_speed = e.velocity_efficiency * omega * d.amplitude * std::cos(x[2]);
         d.mass_flow = l.bulk_density * l.layer_height * l.layer_width * d.conveying_speed;
@@ -64,7 +68,7 @@ class Search {
 
   private:
     DesignLimits limits_;
-    EfficiencySolver solver_;
+    PointSolver solver_;
 };
 
 double speed(Variables const& x, Variables&, void* data) {
@@ -105,6 +109,24 @@ DesignLimits with_friction_margin(DesignLimits limits) {
     limits.inclination.high = std::min(limits.inclination.high, steepest);
     detail::require_range(limits.inclination.low <= limits.inclination.high, "inclination",
                           limits.inclination.high, "within 95 % of the friction coefficient");
+    return limits;
+}
+
+/// The law of rolling layers is used only where it has been tested (outside_tested_range()).
+DesignLimits within_tested_range(DesignLimits limits) {
+    if (!limits.rolling) return limits;
+    auto const narrowed = [](Range const& range, double low, double high, char const* name,
+                             char const* text) {
+        Range const common{std::max(range.low, low), std::min(range.high, high)};
+        detail::require_range(common.low <= common.high, name, range.low, text);
+        return common;
+    };
+    limits.max_throw_number = std::min(limits.max_throw_number, 2.6);
+    limits.vibration_angle =
+        narrowed(limits.vibration_angle, std::atan(0.25), std::atan(1.0), "vibration_angle",
+                 "in rad, tan(beta) within [0.25, 1], of the rolling-layer law");
+    limits.inclination = narrowed(limits.inclination, -std::atan(0.08), std::atan(0.08), "inclination",
+                                  "in rad, tan(alpha) within [-0.08, 0.08], of the rolling-layer law");
     return limits;
 }
 
@@ -162,7 +184,7 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
 
 Design fastest_design(DesignLimits const& requested) {
     check(requested);
-    DesignLimits const limits = with_friction_margin(requested);
+    DesignLimits const limits = within_tested_range(with_friction_margin(requested));
     Search search(limits);
     nlopt::srand(1);
     Variables start = search.low();
@@ -186,13 +208,13 @@ Design fastest_design(DesignLimits const& requested) {
     return design;
 }
 
-std::vector<Sensitivity> sensitivities_at(Design const& design, double friction) {
+std::vector<Sensitivity> sensitivities_at(Design const& design, DesignLimits const& limits) {
     Inputs inputs;
     inputs.set(Input::throw_number, design.throw_number);
     inputs.set(Input::tan_vibration_angle, std::tan(design.vibration_angle));
     inputs.set(Input::tan_inclination, std::tan(design.inclination));
-    inputs.set(Input::friction, friction);
-    return sensitivities(inputs);
+    inputs.set(Input::friction, limits.friction);
+    return sensitivities(inputs, limits.rolling);
 }
 
 }  // namespace vibrotrough::theory

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "theory/quantities.hpp"
+#include "theory/rolling_layer.hpp"
 #include "theory/sensitivity.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +28,15 @@ struct DesignLimits {
     double min_mass_flow = 0;  ///< kg/s, 0: no requirement; needs a layer
     double gravity = 9.81;     ///< m/s^2
     double bulk_density = 0, layer_height = 0, layer_width = 0;  ///< kg/m^3, m, m; 0 without a layer
+    /// The law of rolling layers; nothing: a point mass. The throw number is then kept within [1.25, 2.6] and
+    /// tan(beta) and tan(alpha) within the law's tested range.
+    std::optional<RollingLaw> rolling = {};
 };
 
 /// A machine within the limits and its conveying speed.
 struct Design {
     double frequency, amplitude, vibration_angle, inclination;  ///< SI, rad
-    double throw_number, machine_number, velocity_efficiency;   ///< Gamma, K and eta of the point mass
+    double throw_number, machine_number, velocity_efficiency;   ///< Gamma, K and eta
     double conveying_speed;                                     ///< m/s
     double mass_flow;                                           ///< kg/s; 0 without a layer
     std::string mode;  ///< letters of the phases in order, e.g. "FPN"
@@ -40,9 +45,9 @@ struct Design {
     std::vector<std::string> active_limits;
 };
 
-/// Finds the machine with the highest conveying speed of the plastic point mass within the limits: a global
-/// search by NLopt's ISRES over frequency, amplitude, vibration angle and inclination, with machine number
-/// and throw number as constraints, refined by COBYLA.
+/// Finds the machine with the highest conveying speed of the plastic point mass, or of a rolling layer,
+/// within the limits: a global search by NLopt's ISRES over frequency, amplitude, vibration angle and
+/// inclination, with machine number and throw number as constraints, refined by COBYLA.
 ///
 /// The search is random with a fixed seed. Other machines with a speed within 0.1 % of the optimum may exist.
 /// The inclination is kept within |tan(alpha)| <= 0.95 mu; beyond this the mass is close to running away.
@@ -51,7 +56,7 @@ struct Design {
 /// @throws std::invalid_argument when a limit is out of range
 Design fastest_design(DesignLimits const& requested);
 
-/// How eta answers to each input of a design. @param friction  mu, as in its limits
-std::vector<Sensitivity> sensitivities_at(Design const& design, double friction);
+/// How eta answers to each input of a design. @param limits  those of the design: friction and law
+std::vector<Sensitivity> sensitivities_at(Design const& design, DesignLimits const& limits);
 
 }  // namespace vibrotrough::theory

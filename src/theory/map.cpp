@@ -1,5 +1,6 @@
 #include "theory/map.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <ctime>
@@ -45,11 +46,11 @@ class Grid {
   public:
     Grid(Inputs const& fixed, Map& map) : fixed_(fixed), map_(map) {}
 
-    MapPoint solve(double x, double y, EfficiencySolver& solver) const {
+    MapPoint solve(double x, double y, PointSolver& solver) const {
         Inputs inputs = fixed_;
         inputs.set(map_.x.input, x);
         inputs.set(map_.y.input, y);
-        MapPoint point = solve_inputs(inputs, solver);
+        MapPoint point = solver(inputs);
         if (!inputs.plastic()) point.mode = with_chains_joined(point.mode);
         return point;
     }
@@ -57,28 +58,28 @@ class Grid {
         return map_.points[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.x.count) +
                            static_cast<std::size_t>(i)];
     }
-    void solve_line(int line, bool along_y, EfficiencySolver& solver) const {
+    void solve_line(int line, bool along_y, PointSolver& solver) const {
         int const length = along_y ? map_.y.count : map_.x.count;
         for (int k = 0; k < length; ++k) {
             int const i = along_y ? line : k, j = along_y ? k : line;
             at(i, j) = solve(map_.x.value(i), map_.y.value(j), solver);
         }
     }
-    void locate_boundaries(int row, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const;
+    void locate_boundaries(int row, PointSolver& solver, std::vector<BoundaryPiece>& found) const;
 
   private:
     struct Crossing {
         double x, y;
         ModeCode mode_a, mode_b;
     };
-    std::optional<Crossing> crossing(int i0, int j0, int i1, int j1, EfficiencySolver& solver) const;
+    std::optional<Crossing> crossing(int i0, int j0, int i1, int j1, PointSolver& solver) const;
 
     Inputs fixed_;
     Map& map_;
 };
 
 /// A point on the edge between two nodes where the mode changes.
-std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, EfficiencySolver& solver) const {
+std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, PointSolver& solver) const {
     ModeCode const a = at(i0, j0).mode, b = at(i1, j1).mode;
     if (a == b) return std::nullopt;
     double const x0 = map_.x.value(i0), y0 = map_.y.value(j0), dx = map_.x.value(i1) - x0,
@@ -101,7 +102,7 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Eff
     return Crossing{x0 + s * dx, y0 + s * dy, a, beyond};
 }
 
-void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<BoundaryPiece>& found) const {
+void Grid::locate_boundaries(int j, PointSolver& solver, std::vector<BoundaryPiece>& found) const {
     for (int i = 0; i + 1 < map_.x.count; ++i) {
         ModeCode const corner = at(i, j).mode;
         bool periodic =
@@ -134,23 +135,54 @@ void Grid::locate_boundaries(int j, EfficiencySolver& solver, std::vector<Bounda
 }
 
 template <class Work>
-void for_lines(int lines, Work const& work) {
+void for_lines(int lines, std::optional<RollingLaw> const& rolling, Work const& work) {
     tbb::parallel_for(tbb::blocked_range<int>(0, lines, 4), [&](tbb::blocked_range<int> const& range) {
-        EfficiencySolver solver;
+        PointSolver solver(rolling);
         for (int line = range.begin(); line < range.end(); ++line) work(line, solver);
     });
 }
 
 }  // namespace
 
-MapPoint solve_inputs(Inputs const& inputs, EfficiencySolver& solver) {
+PointSolver::PointSolver(std::optional<RollingLaw> const& rolling) {
+    if (rolling) rolling_.emplace(*rolling);
+}
+
+MapPoint PointSolver::operator()(Inputs const& inputs) {
+    if (rolling_) {
+        if (!inputs.plastic()) {
+            throw std::invalid_argument(
+                "the rolling-layer law has no restitution, static friction, drag, walls or other drive");
+        }
+        Motion const m = (*rolling_)(inputs.point()).motion;
+        return {m.velocity_efficiency, 0, mode_code(m), m.period_cycles, m.outcome};
+    }
     if (inputs.plastic()) {
-        Efficiency const e = solver(inputs.point());
+        Efficiency const e = point_mass_(inputs.point());
         return {e.velocity_efficiency, 0, e.mode, e.period_cycles, e.outcome};
     }
     ConveyorMotion const m = solve(inputs.conveyor());
     return {m.motion.velocity_efficiency, m.half_width, mode_code(m.motion), m.motion.period_cycles,
             m.motion.outcome};
+}
+
+std::size_t count_untested(std::vector<Inputs> const& inputs) {
+    return static_cast<std::size_t>(std::count_if(inputs.begin(), inputs.end(), [](Inputs const& one) {
+        return !one.incomplete() && outside_tested_range(one.point());
+    }));
+}
+
+std::size_t count_untested(Inputs const& fixed, Map const& map) {
+    std::size_t count = 0;
+    for (int j = 0; j < map.y.count; ++j) {
+        for (int i = 0; i < map.x.count; ++i) {
+            Inputs inputs = fixed;
+            inputs.set(map.x.input, map.x.value(i));
+            inputs.set(map.y.input, map.y.value(j));
+            if (outside_tested_range(inputs.point())) ++count;
+        }
+    }
+    return count;
 }
 
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options) {
@@ -166,6 +198,7 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
                                         " is given both as an axis and as a fixed value");
         }
     }
+    static_cast<void>(PointSolver(options.rolling));  // its constants are checked once, not in a thread
     Map map{x, y, {}, {}, 0};
     map.points.resize(static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count));
     Grid const grid(fixed, map);
@@ -174,15 +207,15 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
     tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();
     arena.execute([&] {
-        for_lines(along_y ? x.count : y.count,
-                  [&](int line, EfficiencySolver& solver) { grid.solve_line(line, along_y, solver); });
+        for_lines(along_y ? x.count : y.count, options.rolling,
+                  [&](int line, PointSolver& solver) { grid.solve_line(line, along_y, solver); });
     });
     map.cpu_seconds_per_solution =
         static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(map.points.size());
     if (!options.boundaries || y.count < 2) return map;
     std::vector<std::vector<BoundaryPiece>> found(static_cast<std::size_t>(y.count - 1));
     arena.execute([&] {
-        for_lines(y.count - 1, [&](int line, EfficiencySolver& solver) {
+        for_lines(y.count - 1, options.rolling, [&](int line, PointSolver& solver) {
             grid.locate_boundaries(line, solver, found[static_cast<std::size_t>(line)]);
         });
     });

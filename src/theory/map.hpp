@@ -2,7 +2,9 @@
 
 #include "theory/efficiency.hpp"
 #include "theory/inputs.hpp"
+#include "theory/rolling_layer.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,9 @@ struct Map {
 
 /// How a map is computed.
 struct MapOptions {
-    int jobs = 0;            ///< threads; 0: all cores
-    bool boundaries = true;  ///< whether to locate the boundaries between modes
+    int jobs = 0;                            ///< threads; 0: all cores
+    bool boundaries = true;                  ///< whether to locate the boundaries between modes
+    std::optional<RollingLaw> rolling = {};  ///< solves rolling layers with this law instead of point masses
 };
 
 /// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).
@@ -57,13 +60,33 @@ struct MapOptions {
 /// map.
 ///
 /// @throws std::invalid_argument when the inputs are incomplete, an axis is also given as a fixed input, or a
-/// value is out of range; PhaseError when a point cannot be solved
+/// value is out of range, also one of the law; PhaseError when a point cannot be solved
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options);
 
 /// How many different modes the points of a map have.
 std::size_t count_modes(Map const& map);
 
-/// One point as in a map, for any inputs. `solver` is used for the plastic point mass.
-MapPoint solve_inputs(Inputs const& inputs, EfficiencySolver& solver);
+/// Solves points as in a map, for any inputs, one after another. Use one per thread.
+class PointSolver {
+  public:
+    /// @param rolling  the law of rolling layers; nothing: point masses
+    /// @throws std::invalid_argument when a constant of the law is out of range
+    explicit PointSolver(std::optional<RollingLaw> const& rolling = {});
+
+    /// @throws std::invalid_argument when the inputs are incomplete, out of range, or extend the point mass
+    /// of a rolling layer; PhaseError when the point cannot be solved
+    MapPoint operator()(Inputs const& inputs);
+
+  private:
+    EfficiencySolver point_mass_;
+    std::optional<RollingLayerSolver> rolling_;
+};
+
+/// How many of the inputs are outside the range in which the rolling-layer law has been tested; incomplete
+/// ones do not count.
+std::size_t count_untested(std::vector<Inputs> const& inputs);
+
+/// The same for the points of a map.
+std::size_t count_untested(Inputs const& fixed, Map const& map);
 
 }  // namespace vibrotrough::theory

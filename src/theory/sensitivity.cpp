@@ -11,9 +11,8 @@ namespace {
 
 constexpr double relative_step = 1e-5;
 
-double efficiency(Inputs const& inputs) {
-    EfficiencySolver solver;
-    MapPoint const point = solve_inputs(inputs, solver);
+double efficiency(Inputs const& inputs, PointSolver& solver) {
+    MapPoint const point = solver(inputs);
     if (point.outcome != Outcome::periodic) {
         throw std::invalid_argument("sensitivities cannot be computed: " + to_string(point.outcome));
     }
@@ -28,8 +27,9 @@ bool at_lower_limit(Input input, double value) {
 
 }  // namespace
 
-std::vector<Sensitivity> sensitivities(Inputs const& inputs) {
-    double const eta = efficiency(inputs);
+std::vector<Sensitivity> sensitivities(Inputs const& inputs, std::optional<RollingLaw> const& rolling) {
+    PointSolver solver(rolling);
+    double const eta = efficiency(inputs, solver);
     std::vector<Sensitivity> answers;
     for (std::size_t i = 0; i < input_count; ++i) {
         auto const input = static_cast<Input>(i);
@@ -39,9 +39,9 @@ std::vector<Sensitivity> sensitivities(Inputs const& inputs) {
         double const low = at_lower_limit(input, *value) ? *value : *value - step, high = *value + step;
         Inputs changed = inputs;
         changed.set(input, low);
-        double const below = efficiency(changed);
+        double const below = efficiency(changed, solver);
         changed.set(input, high);
-        double const slope = (efficiency(changed) - below) / (high - low);
+        double const slope = (efficiency(changed, solver) - below) / (high - low);
         answers.push_back({input, *value, slope, eta == 0 ? 0 : slope * *value / eta});
     }
     return answers;

@@ -55,7 +55,7 @@ class Seeing(EndToEndTest):
         for case in finished:
             with h5py.File(self.output / "cases" / case / "result.h5") as file:
                 if len(file.get("phases/1", [])):  # too few cycles have no curves
-                    wanted |= {f"{kind}-{case}.png" for kind in ("portraits", "profiles")}
+                    wanted |= {f"{kind}-{case}.png" for kind in ("portraits", "spin", "profiles")}
         self.assertLessEqual(wanted, {path.name for path in drawn})
         for path in drawn:
             self.assertEqual(path.parent, self.output / "report")

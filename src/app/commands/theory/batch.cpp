@@ -18,6 +18,7 @@ namespace {
 
 struct Options {
     std::string input;
+    RollingOption rolling;
     Text output, jobs;
 };
 
@@ -30,12 +31,14 @@ void run(Options const& options) {
     }
     int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
     store::TheoryPoints const table = store::read_theory_points(options.input);
+    auto const law = options.rolling.law();
     theory::BatchResult answer;
     try {
-        answer = theory::solve_batch(table.points, jobs);
+        answer = theory::solve_batch(table.points, jobs, law);
     } catch (std::invalid_argument const& error) {
         throw core::InputError(fmt::format("{}: {}; write a value within", options.input, error.what()));
     }
+    if (law) warn_if_untested(theory::count_untested(table.points), table.points.size());
     if (extension == ".csv") {
         core::write_file_atomically(output, store::theory_answers_csv(table, answer.points));
     } else {
@@ -52,6 +55,7 @@ void add_theory_batch(CLI::App& theory, int& exit_code) {
     auto const options = std::make_shared<Options>();
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
+    options->rolling.add_to(*command);
     command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     command->footer(
         std::string(
@@ -65,8 +69,13 @@ the motion has no period, else 0), mode, period_cycles and converged.
 )") + mode_letters +
         R"(
 
+Write --rolling-layer behind the file, or the file's name is taken for its value.
+
 Example:
-  vibrotrough theory batch points.csv --output answers.csv)");
+  vibrotrough theory batch points.csv --output answers.csv
+
+The same points as layers of grains that roll:
+  vibrotrough theory batch points.csv --output answers.csv --rolling-layer)");
     command->callback([options, &exit_code] {
         run(*options);
         exit_code = all_well;

@@ -5,6 +5,7 @@
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -21,6 +22,7 @@ constexpr double degree = std::numbers::pi / 180;
 struct Options {
     Text friction, frequency, amplitude, vibration_angle, inclination, machine_number, throw_number;
     Text mass_flow, bulk_density, layer_height, layer_width, gravity;
+    RollingOption rolling;
     bool json = false;
 };
 
@@ -106,7 +108,8 @@ nlohmann::ordered_json as_json(theory::Design const& d) {
 }
 
 void run(Options const& options) {
-    theory::DesignLimits const limits = read(options);
+    theory::DesignLimits limits = read(options);
+    limits.rolling = options.rolling.law();
     theory::Design d;
     try {
         d = theory::fastest_design(limits);
@@ -114,8 +117,12 @@ void run(Options const& options) {
         throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
     }
     auto json = as_json(d);
-    for (auto const& s : theory::sensitivities_at(d, limits.friction)) {
+    for (auto const& s : theory::sensitivities_at(d, limits)) {
         json["sensitivity"][std::string(theory::name_of(s.input))] = s.derivative;
+    }
+    if (limits.rolling) {
+        warn_if_untested(
+            {d.throw_number, std::tan(d.vibration_angle), std::tan(d.inclination), limits.friction});
     }
     if (options.json) {
         fmt::print("{}\n", json.dump(2));
@@ -160,12 +167,14 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
     add("--layer-height", options->layer_height, "For example \"20 mm\"");
     add("--layer-width", options->layer_width, "For example \"200 mm\"");
     add("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
+    options->rolling.add_to(*command);
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(
         std::string(
             R"(A range is "LOW to HIGH"; a single value fixes the quantity. Prints the drive of the fastest machine,
 its speed and mass flow, the limits that hold it back, and how the velocity efficiency eta changes with each input
-there.
+there. With --rolling-layer the search stays where that law has been tested: throw number up to 2.6, tan(beta) 0.25 to
+1, |tan(alpha)| up to 0.08.
 
 )") + mode_letters +
         R"(

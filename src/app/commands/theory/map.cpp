@@ -18,6 +18,7 @@ namespace {
 
 struct Options {
     TheoryOptions motion;
+    RollingOption rolling;
     Text x, y, output, jobs;
 };
 
@@ -73,13 +74,15 @@ void run(Options const& options) {
     complete.set(x.input, x.from);
     complete.set(y.input, y.from);
     require_complete(complete);
+    auto const law = options.rolling.law();
     theory::Map map;
     try {
-        map = theory::solve_map(fixed, x, y, {.jobs = jobs});
+        map = theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law});
     } catch (std::invalid_argument const& error) {
         throw core::InputError(
             fmt::format("the map leaves the range of the theory: {}; write other axes", error.what()));
     }
+    if (law) warn_if_untested(theory::count_untested(fixed, map), map.points.size());
     auto const stem = output.parent_path() / output.stem();
     std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     store::write_theory_map(output, map, fixed);
@@ -105,6 +108,7 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
                         "HDF5 file to write; the .vti and .vtp files for ParaView get the same name");
     command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     options->motion.add_to(*command);
+    options->rolling.add_to(*command);
     command->footer(
         std::string(
             R"(Writes the velocity efficiency and the mode at each point of the grid, and the lines between modes. The

@@ -2,6 +2,7 @@
 
 #include "theory/conveyor.hpp"
 #include "theory/inputs.hpp"
+#include "theory/rolling_layer.hpp"
 
 #include <optional>
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace vibrotrough::app {
 
@@ -69,6 +71,26 @@ class TheoryOptions {
     std::vector<std::string> along_, normal_;
     bool table_1_rule_ = false;
 };
+
+/// The option --rolling-layer [NAME=VALUE,...], shared by the commands that can solve rolling layers.
+class RollingOption {
+  public:
+    /// Declares the option of a command.
+    void add_to(CLI::App& command);
+    /// The law with the constants that were given; nothing without the option.
+    /// @throws core::InputError when a name is unknown or a value is wrong
+    std::optional<theory::RollingLaw> law() const;
+
+  private:
+    std::string text_;
+    CLI::Option* option_ = nullptr;
+};
+
+/// Warns on standard error that the law has not been tested at this point; nothing inside its range.
+void warn_if_untested(theory::PointMass const& point);
+
+/// Warns on standard error that `count` of `all` points are outside the tested range; nothing when none is.
+void warn_if_untested(std::size_t count, std::size_t all);
 
 /// @throws core::InputError naming the option when the inputs are not complete
 void require_complete(theory::Inputs const& inputs);

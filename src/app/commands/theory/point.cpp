@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "core/error.hpp"
 #include "theory/quantities.hpp"
 
 #include <cmath>
@@ -16,6 +17,7 @@ namespace {
 
 struct Options {
     TheoryOptions motion;
+    RollingOption rolling;
     Text amplitude, gravity, bulk_density, layer_height, layer_width;
     bool json = false;
 };
@@ -93,19 +95,52 @@ theory::Machine read_machine(Options const& o) {
     return machine;
 }
 
+/// What a rolling layer has instead of the point mass.
+theory::ConveyorMotion solve_rolling(Options const& options, theory::Conveyor const& input,
+                                     theory::RollingLaw const& law) {
+    if (!options.motion.plastic()) {
+        throw core::InputError(
+            "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
+            "options out");
+    }
+    warn_if_untested(input.point);
+    theory::ConveyorMotion answer;
+    answer.motion = theory::solve(theory::RollingLayer{input.point, law}).motion;
+    return answer;
+}
+
+/// Speed and mass flow of a rolling layer, the quantities that follow from its efficiency alone.
+std::vector<theory::NamedQuantity> rolling_quantities(theory::PointMass const& point, double efficiency,
+                                                      theory::Machine const& machine) {
+    double const omega = theory::angular_frequency(point, machine);
+    double const beta = std::atan(point.tan_vibration_angle);
+    double const speed = efficiency * omega * machine.amplitude * std::cos(beta);
+    double const section = machine.bulk_density * machine.layer_height * machine.layer_width;
+    std::vector<theory::NamedQuantity> list{{"frequency", "Hz", omega / (2 * std::numbers::pi)},
+                                            {"conveying_speed", "m/s", speed}};
+    if (section > 0) list.push_back({"mass_flow", "kg/s", section * speed});
+    return list;
+}
+
 /// A motion that runs away has no speed, which a script must notice.
 int run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
+    auto const law = options.rolling.law();
     std::optional<theory::Machine> machine;
     if (options.amplitude) machine = read_machine(options);
     theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
-    theory::ConveyorMotion const answer =
-        options.motion.plastic() ? theory::solve_plastic(input, detail) : theory::solve(input);
+    theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
+                                          : options.motion.plastic() ? theory::solve_plastic(input, detail)
+                                                                     : theory::solve(input);
     Json json = as_json(input, answer);
+    if (law) json["outside_tested_range"] = theory::outside_tested_range(input.point).has_value();
     if (!options.json) print_text(input, answer);
-    if (machine && !answer.pieces.empty()) {
+    bool const settled = law ? answer.motion.converged : !answer.pieces.empty();
+    if (machine && settled) {
         if (!options.json) fmt::print("\n");
-        for (auto const& q : theory::listed(theory::engineer_quantities(answer, *machine))) {
+        for (auto const& q :
+             law ? rolling_quantities(input.point, answer.motion.velocity_efficiency, *machine)
+                 : theory::listed(theory::engineer_quantities(answer, *machine))) {
             json["quantities"][q.name] = {{"value", q.value}, {"units", q.unit}};
             if (!options.json) fmt::print("{:<26} {:>12.6g} {}\n", q.name, q.value, q.unit);
         }
@@ -121,6 +156,7 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
         "point", "Solve one motion of a point mass: phases, mode and velocity efficiency");
     auto const options = std::make_shared<Options>();
     options->motion.add_to(*command);
+    options->rolling.add_to(*command);
     auto const add = [&](char const* name, Text& text, char const* help) {
         command->add_option(name, text, help)->group("The machine");
     };
@@ -153,7 +189,10 @@ Example:
 
 Example with a machine:
   vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23 \
-      --amplitude "6 mm" --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3")");
+      --amplitude "6 mm" --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3"
+
+Example of a layer of grains that roll (validation/rolling_layer says what this law predicts and what it does not):
+  vibrotrough theory point --throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 --rolling-layer)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

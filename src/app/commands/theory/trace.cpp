@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "theory/quantities.hpp"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -17,6 +18,7 @@ namespace {
 
 struct Options {
     TheoryOptions motion;
+    RollingOption rolling;
     Text samples, output, amplitude, gravity;
 };
 
@@ -44,11 +46,65 @@ std::string as_csv(std::vector<theory::TraceSample> const& samples, bool si) {
     return table;
 }
 
+struct Table {
+    std::string text, mode;
+};
+
+/// The trace of a rolling layer, with the spin of its floor grains.
+Table trace_rolling(Options const& options, theory::Conveyor const& input, theory::RollingLaw const& law,
+                    int samples, std::optional<theory::Machine> const& machine) {
+    if (!options.motion.plastic()) {
+        throw core::InputError(
+            "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
+            "options out");
+    }
+    warn_if_untested(input.point);
+    theory::RollingMotion const motion = theory::solve(theory::RollingLayer{input.point, law});
+    if (!motion.period) {
+        throw core::InputError(fmt::format("the motion has no period to trace: {}; change the inputs",
+                                           to_string(motion.motion.outcome)));
+    }
+    double omega = 1, along = 1, normal = 1;
+    if (machine) {
+        double const beta = std::atan(input.point.tan_vibration_angle);
+        omega = theory::angular_frequency(input.point, *machine);
+        along = machine->amplitude * std::cos(beta);
+        normal = machine->amplitude * std::sin(beta);
+    }
+    char const* const si_names =
+        "t_s,phase,layer_velocity_m_per_s,spin_m_per_s,slip_m_per_s,gap_m,gap_rate_m_per_s,normal_force_n_"
+        "per_kg,"
+        "tangential_force_n_per_kg\n";
+    std::string text =
+        machine ? si_names : "t,phase,layer_velocity,spin,slip,gap,gap_rate,normal_force,tangential_force\n";
+    for (theory::RollingSample const& s : theory::trace(motion, samples)) {
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{}\n", s.t / omega, theory::to_string(s.kind),
+                        omega * along * s.velocity, omega * along * s.spin,
+                        omega * along * (s.velocity - s.spin), normal * s.gap, omega * normal * s.gap_rate,
+                        omega * omega * normal * s.normal_force, omega * omega * along * s.tangential_force);
+    }
+    return {std::move(text), motion.motion.mode};
+}
+
+void write(Options const& options, int samples, Table const& table) {
+    if (options.output) {
+        core::write_file_atomically(*options.output, table.text);
+        fmt::print("{} samples of mode {} written to {}\n", samples, table.mode, *options.output);
+    } else {
+        fmt::print("{}", table.text);
+    }
+}
+
 void run(Options const& options) {
     int const samples =
         options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
     theory::Conveyor const input = options.motion.conveyor();
     auto const machine = read_machine(options);
+    if (auto const law = options.rolling.law()) {
+        write(options, samples, trace_rolling(options, input, *law, samples, machine));
+        return;
+    }
     theory::ConveyorMotion const motion = theory::solve(input);
     if (motion.pieces.empty()) {
         throw core::InputError(fmt::format("the motion has no period to trace: {}; change the inputs",
@@ -56,13 +112,7 @@ void run(Options const& options) {
     }
     auto trace = theory::trace(motion, samples);
     if (machine) trace = theory::in_si_units(std::move(trace), input.point, *machine);
-    std::string const table = as_csv(trace, machine.has_value());
-    if (options.output) {
-        core::write_file_atomically(*options.output, table);
-        fmt::print("{} samples of mode {} written to {}\n", samples, motion.motion.mode, *options.output);
-    } else {
-        fmt::print("{}", table);
-    }
+    write(options, samples, {as_csv(trace, machine.has_value()), motion.motion.mode});
 }
 
 }  // namespace
@@ -72,6 +122,7 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
         theory.add_subcommand("trace", "Print velocities, forces and the gap over one period as CSV");
     auto const options = std::make_shared<Options>();
     options->motion.add_to(*command);
+    options->rolling.add_to(*command);
     command->add_option("--samples", options->samples, "Number of lines; default: 721");
     command->add_option("--amplitude", options->amplitude,
                         "r, half the stroke, for example \"6 mm\"; all columns are then in SI units");
@@ -82,7 +133,8 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
             R"(These are the curves of Fig. 6 of Sloot & Kruyt (1996). Without --amplitude, lengths along the trough
 (x) are in r cos(beta), lengths normal to it (y) are in r sin(beta), and times are in 1/omega. Forces are per mass and
 do not include impacts. The column "phase" has one of the letters of
-a mode.
+a mode. With --rolling-layer the columns are the velocity of the layer relative to the trough, the surface velocity of the
+spinning floor grains (spin), their slip, the gap (negative in a soft landing) with its rate, and the two forces.
 
 )") + mode_letters +
         R"(

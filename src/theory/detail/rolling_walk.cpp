@@ -1,0 +1,242 @@
+#include "theory/detail/rolling_walk.hpp"
+
+#include "theory/detail/first_zero.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrotrough::theory::detail {
+namespace {
+
+// A margin that begins at zero and falls ends the phase at once; one whose rate is about zero is looked at a
+// first step later. What happens within that step changes a velocity by less than 1e-13.
+constexpr double starts_at_zero = 1e-13, first_step = 1e-7, steep = 1e-6;
+constexpr int most_phases = 2000;                          // within one piece of the normal motion
+constexpr Sample never{.value = 1, .rate = 0, .bend = 0};  // a margin that has no zero
+enum End { of_piece, slip_stops, spin_stops, friction_forwards, friction_backwards };
+
+int sign(double x) {
+    return (x > 0) - (x < 0);
+}
+
+ContactForce sum(ContactForce force, double factor, double constant, double sine) {
+    force = force.scaled(factor);
+    force.constant += constant;
+    force.sine += sine;
+    return force;
+}
+
+}  // namespace
+
+RollingWalk::RollingWalk(RollingLayer const& layer)
+    : gravity_(layer.point.tan_inclination * layer.point.tan_vibration_angle / layer.point.throw_number),
+      tangent_(layer.point.tan_vibration_angle),
+      friction_(layer.point.friction),
+      dry_(layer.law.dry_torque),
+      inertia_(layer.law.spin_inertia),
+      torque_(layer.law.torque),
+      no_spin_(std::isinf(layer.law.torque)) {}
+
+Relaxation RollingWalk::velocity(RollingPhase const& p) const {
+    if (p.slip == 0 && p.contact) return spin(p);
+    double const push = p.contact ? -p.slip * friction_ * tangent_ : 0;
+    return {0, sum(p.normal.force.from(p.start), push, -gravity_, 1), p.velocity};
+}
+
+Relaxation RollingWalk::spin(RollingPhase const& p) const {
+    ContactForce const n = p.normal.force.from(p.start);
+    if (!p.contact) {
+        ContactForce none{.start = p.start};
+        return {no_spin_ ? 0 : torque_ / inertia_, none, p.spin};
+    }
+    if (p.turn == 0) return {0, ContactForce{.start = p.start}, 0};
+    if (p.slip == 0) {
+        double const mass = 1 + inertia_;
+        return {torque_ / mass, sum(n, -p.turn * dry_ * tangent_ / mass, -gravity_ / mass, 1 / mass), p.spin};
+    }
+    return {torque_ / inertia_, n.scaled((p.slip * friction_ - p.turn * dry_) * tangent_ / inertia_), p.spin};
+}
+
+double RollingWalk::friction_force(RollingPhase const& p, double t) const {
+    if (!p.contact) return 0;
+    if (p.slip != 0) return -p.slip * friction_ * tangent_ * p.normal.force(t);
+    double const needed = gravity_ - std::sin(t);
+    return p.turn == 0 ? needed : spin(p).at(t).rate + needed;
+}
+
+/// The phase that begins in state s. @param leaving  a rolling or resting phase ended here because its
+/// friction force reached its limit in this direction; else 0
+RollingPhase RollingWalk::next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const {
+    RollingPhase p{
+        .start = t, .end = t, .slip = 0, .turn = 0, .contact = piece.contact, .velocity = s.v, .spin = s.w};
+    p.normal = piece;
+    if (!piece.contact) return p;
+    p.slip = sign(s.v - s.w);
+    p.turn = sign(s.w);
+    bool const may_turn = !no_spin_ && friction_ > dry_;
+    if (p.slip != 0) {
+        if (p.turn == 0 && may_turn) p.turn = p.slip;
+        return p;
+    }
+    return from_no_slip(p, tangent_ * piece.force(t), leaving);
+}
+
+RollingPhase RollingWalk::from_no_slip(RollingPhase p, double normal_force, int leaving) const {
+    bool const may_turn = !no_spin_ && friction_ > dry_;
+    double const needed = gravity_ - std::sin(p.start);
+    if (p.turn == 0) {
+        double const bears = std::min(friction_, no_spin_ ? friction_ : dry_) * normal_force;
+        if (leaving == 0 && std::abs(needed) <= bears) return p;  // rests
+        int const way = leaving != 0 ? -leaving : -sign(needed);
+        if (!may_turn) {
+            p.slip = way;
+            return p;
+        }
+        p.turn = way;
+        leaving = 0;
+    }
+    double const spin_up = (-needed - torque_ * p.spin - p.turn * dry_ * normal_force) / (1 + inertia_);
+    double const force = spin_up + needed;
+    if (leaving == 0 && std::abs(force) <= friction_ * normal_force) return p;  // rolls
+    p.slip = leaving != 0 ? -leaving : -sign(force);
+    return p;
+}
+
+double RollingWalk::end_of(RollingPhase const& p, double end, int& what) const {
+    what = of_piece;
+    if (!p.contact) return end;
+    Relaxation const v = velocity(p), w = spin(p);
+    ContactForce const n = p.normal.force.from(p.start);
+    auto const search = [&](auto const& margins) {
+        auto const first = margins(p.start);
+        double from = p.start;
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            if (first[k].value > starts_at_zero) continue;
+            if (first[k].rate < -steep) {
+                what = static_cast<int>(k);
+                return p.start;
+            }
+            from = std::min(p.start + first_step, end);
+        }
+        auto const found =
+            first_of_zeros<std::tuple_size_v<std::decay_t<decltype(first)>>>(margins, from, end);
+        what = found.which;
+        return found.t;
+    };
+    if (p.slip != 0) {
+        double const to = search([&](double t) {
+            Clock const clock = Clock::at(t, n);
+            auto const a = v.at(clock), b = w.at(clock);
+            return std::array{
+                p.turn == 0 ? never
+                            : Sample{.value = p.turn * b.value, .rate = p.turn * b.rate, .bend = b.bend},
+                Sample{.value = p.slip * (a.value - b.value),
+                       .rate = p.slip * (a.rate - b.rate),
+                       .bend = a.bend + b.bend}};
+        });
+        what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
+        return to;
+    }
+    double const to = search([&](double t) { return without_slip(p, n, w, t); });
+    constexpr std::array ends{of_piece, spin_stops, friction_forwards, friction_backwards};
+    what = ends[static_cast<std::size_t>(what + 1)];
+    return to;
+}
+
+/// Margins of a phase without slip: of the spin, and of the friction force forwards and backwards.
+std::array<Sample, 3> RollingWalk::without_slip(RollingPhase const& p, ContactForce const& n,
+                                                Relaxation const& w, double t) const {
+    Clock const c = Clock::at(t, n);
+    auto const a = w.at(c);
+    double force = n.constant + n.sine * c.sine + n.cosine * c.cosine;
+    double change = n.sine * c.cosine - n.cosine * c.sine, bend = std::abs(n.sine) + std::abs(n.cosine);
+    for (std::size_t i = 0; i < n.decays.size(); ++i) {
+        double const now = n.decays[i].amplitude * c.decays[i], rate = n.decays[i].rate;
+        force += now;
+        change -= rate * now;
+        bend += rate * rate * std::abs(now);
+    }
+    double const limit =
+        (p.turn == 0 ? std::min(friction_, no_spin_ ? friction_ : dry_) : friction_) * tangent_;
+    double spin_bend = 0;  // w'' from the equation of w
+    if (p.turn != 0)
+        spin_bend = (c.cosine - torque_ * a.rate - p.turn * dry_ * tangent_ * change) / (1 + inertia_);
+    double const needed = a.rate + gravity_ - c.sine, needed_rate = spin_bend - c.cosine;
+    auto const margin = [&](int way) {
+        return Sample{.value = limit * force - way * needed,
+                      .rate = limit * change - way * needed_rate,
+                      .bend = limit * bend + a.jerk + 1};
+    };
+    Sample const turning{.value = p.turn * a.value, .rate = p.turn * a.rate, .bend = a.bend};
+    return {p.turn == 0 ? never : turning, margin(1), margin(-1)};
+}
+
+/// The impulse of a rigid landing: Coulomb friction until the slip ends, with the dry torque in proportion.
+RollingState RollingWalk::land(RollingState s, double impulse) const {
+    double left = impulse * tangent_;
+    bool const may_turn = !no_spin_ && friction_ > dry_;
+    for (int i = 0; i < 8 && left > 0; ++i) {
+        int const slip = sign(s.v - s.w);
+        int turn = sign(s.w);
+        if (slip == 0 && turn == 0) break;
+        if (turn == 0 && may_turn) turn = slip;
+        double rate_v = -slip * friction_;
+        double rate_w = turn == 0 ? 0 : (slip * friction_ - turn * dry_) / inertia_;
+        if (slip == 0) {
+            rate_w = -turn * dry_ / (1 + inertia_);
+            if (std::abs(rate_w) > friction_) {  // cannot be held without slip
+                rate_v = -turn * friction_;
+                rate_w = (turn * friction_ - turn * dry_) / inertia_;
+            } else {
+                rate_v = rate_w;
+            }
+        }
+        double step = left;
+        bool stops = false, sticks = false;
+        if (s.w * rate_w < 0 && -s.w / rate_w <= step) {
+            step = -s.w / rate_w;
+            stops = true;
+        }
+        if (slip != 0 && (s.v - s.w) * (rate_v - rate_w) < 0 && -(s.v - s.w) / (rate_v - rate_w) <= step) {
+            double const sooner = -(s.v - s.w) / (rate_v - rate_w);
+            stops = stops && sooner == step;
+            step = sooner;
+            sticks = true;
+        }
+        s.v += rate_v * step;
+        s.w = stops ? 0 : s.w + rate_w * step;
+        if (sticks) s.v = s.w;
+        if (slip == 0 && rate_v == rate_w) s.v = s.w;
+        left -= step;
+        if (step == 0 && !stops && !sticks) break;
+    }
+    return s;
+}
+
+RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, double& travel,
+                                 std::vector<RollingPhase>* phases) const {
+    for (NormalPiece const& piece : normal.pieces) {
+        if (no_spin_) s.w = 0;
+        if (piece.impulse > 0) s = land(s, piece.impulse);
+        double t = piece.start;
+        int leaving = 0;
+        for (int i = 0; t < piece.end; ++i) {
+            if (i > most_phases) throw PhaseError("the floor grains chatter between rolling and sliding");
+            RollingPhase p = next_phase(piece, t, s, leaving);
+            int what = of_piece;
+            p.end = end_of(p, piece.end, what);
+            Relaxation const v = velocity(p), w = spin(p);
+            travel += v.travel(p.end);
+            s = {v(p.end), p.turn == 0 && p.contact ? 0 : w(p.end)};
+            if (p.contact && p.slip == 0) s.v = s.w;
+            if (what == spin_stops) s = {p.slip == 0 ? 0 : s.v, 0};
+            if (what == slip_stops) s.v = s.w;
+            leaving = what == friction_forwards ? 1 : what == friction_backwards ? -1 : 0;
+            t = p.end;
+            if (phases != nullptr && p.end > p.start) phases->push_back(p);
+        }
+    }
+    return s;
+}
+
+}  // namespace vibrotrough::theory::detail

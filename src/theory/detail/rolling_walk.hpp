@@ -1,0 +1,66 @@
+#pragma once
+
+#include "theory/detail/first_zero.hpp"
+#include "theory/detail/relaxation.hpp"
+#include "theory/detail/rolling_normal.hpp"
+
+#include <vector>
+
+// The motion of a rolling layer along the trough. Internal to this room.
+namespace vibrotrough::theory {
+
+/// A part of the motion with one set of linear equations.
+struct RollingPhase {
+    double start, end;             ///< rad
+    int slip;                      ///< sign of the slip at the floor; 0: the floor grains roll, or all rests
+    int turn;                      ///< sign of the spin; 0: no spin
+    bool contact;                  ///< false in flight
+    double velocity, spin;         ///< at the start: v and w
+    detail::NormalPiece normal{};  ///< the part of the normal motion within which it lies
+};
+
+/// One period of the motion along the trough.
+class RollingPeriod {
+  public:
+    std::vector<RollingPhase> phases;  ///< in order
+    RollingLayer layer{};              ///< whose motion this is
+    double start = 0, end = 0;         ///< rad
+};
+
+namespace detail {
+
+/// v and w at one time.
+struct RollingState {
+    double v = 0, w = 0;
+};
+
+/// Follows the motion along the trough through the pieces of the normal motion.
+class RollingWalk {
+  public:
+    explicit RollingWalk(RollingLayer const& layer);
+
+    /// The state after the pieces, from that before them; adds to `travel` what the layer moved, and keeps
+    /// the phases when asked for.
+    RollingState follow(RollingNormal const& normal, RollingState s, double& travel,
+                        std::vector<RollingPhase>* phases) const;
+    /// The velocity of the layer within a phase, from its start.
+    Relaxation velocity(RollingPhase const& phase) const;
+    /// The spin within a phase.
+    Relaxation spin(RollingPhase const& phase) const;
+    /// The friction force within a phase. @param v, w  the state at t
+    double friction_force(RollingPhase const& phase, double t) const;
+
+  private:
+    RollingPhase next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const;
+    RollingPhase from_no_slip(RollingPhase phase, double normal_force, int leaving) const;
+    double end_of(RollingPhase const& phase, double end, int& what) const;
+    std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
+                                       double t) const;
+    RollingState land(RollingState s, double impulse) const;
+
+    double gravity_, tangent_, friction_, dry_, inertia_, torque_;
+    bool no_spin_;
+};
+
+}  // namespace detail
+}  // namespace vibrotrough::theory

@@ -1,0 +1,382 @@
+#include "theory/rolling_layer.hpp"
+
+#include "theory/detail/first_zero.hpp"
+#include "theory/detail/flight.hpp"
+#include "theory/detail/input_check.hpp"
+#include "theory/detail/rolling_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace vibrotrough::theory {
+namespace {
+
+using detail::RollingNormal;
+using detail::RollingState;
+using detail::RollingWalk;
+using detail::two_pi;
+
+constexpr double settled = 1e-11;        // omega r cos(beta): change of the state from period to period
+constexpr int most_periods = 3000;       // of the map, before a mean is given instead
+constexpr double shortest_phase = 1e-9;  // rad; shorter phases are rounding errors, not motion
+
+struct Constant {
+    char const* name;
+    double RollingLaw::*value;
+};
+
+constexpr std::array<Constant, 5> constants{{{"torque", &RollingLaw::torque},
+                                             {"dry_torque", &RollingLaw::dry_torque},
+                                             {"spin_inertia", &RollingLaw::spin_inertia},
+                                             {"stiffness", &RollingLaw::stiffness},
+                                             {"damping", &RollingLaw::damping}}};
+
+void check_constants(RollingLaw const& law) {
+    using detail::require_range;
+    auto const within = [](double x, double low, double high) { return x >= low && x <= high; };
+    require_range(within(law.torque, 1e-6, 1e6) || std::isinf(law.torque), "torque", law.torque,
+                  "[1e-6, 1e6] or inf");
+    require_range(within(law.dry_torque, 0, 1e6), "dry_torque", law.dry_torque, "[0, 1e6]");
+    require_range(within(law.spin_inertia, 1e-6, 1e3), "spin_inertia", law.spin_inertia, "[1e-6, 1000]");
+    require_range(within(law.stiffness, 2, 1e3) || std::isinf(law.stiffness), "stiffness", law.stiffness,
+                  "[2, 1000] or inf");
+    require_range(within(law.damping, 1.01, 100), "damping", law.damping, "[1.01, 100]");
+}
+
+std::string inputs_text(RollingLayer const& layer) {
+    std::string text = detail::inputs_text(layer.point);
+    for (Constant const& c : constants)
+        text += std::string(" ") + c.name + "=" + detail::number_text(layer.law.*c.value);
+    return text;
+}
+
+/// One period as a map of the state at its start.
+class PeriodMap {
+  public:
+    PeriodMap(RollingWalk const& walk, RollingNormal const& normal) : walk_(walk), normal_(normal) {}
+    RollingState operator()(RollingState s) {
+        travel_ = 0;
+        return walk_.follow(normal_, s, travel_, nullptr);
+    }
+    /// What the layer moved in the last period, in r cos(beta).
+    double travel() const { return travel_; }
+
+  private:
+    RollingWalk const& walk_;
+    RollingNormal const& normal_;
+    double travel_ = 0;
+};
+
+double size(RollingState const& s) {
+    return std::hypot(s.v, s.w);
+}
+
+/// Looks for the state that repeats, by Broyden's method on the change of the state over a period.
+///
+/// Friction and torque only bring states closer together, so that plain periods converge, too. The method
+/// starts as plain periods do, and starts anew when its steps grow although the change does not.
+class Search {
+  public:
+    /// The next state to try, after one that changes by `change` over a period.
+    RollingState propose(RollingState s, RollingState change) {
+        double const now = size(change);
+        if (known_ && now > 4 * size(change_)) *this = Search{};
+        if (known_) update({change.v - change_.v, change.w - change_.w});
+        change_ = change;
+        // The step is -(inverse Jacobian) change, at first the change itself.
+        step_ = {-(a_ * change.v + b_ * change.w), -(c_ * change.v + d_ * change.w)};
+        double const most = known_ ? 4 * std::max(last_, now) : now, length = size(step_);
+        if (length > most) step_ = {step_.v * most / length, step_.w * most / length};
+        last_ = size(step_);
+        known_ = true;
+        return {s.v + step_.v, s.w + step_.w};
+    }
+    /// The distance to the state that repeats, as far as it is known after propose().
+    double distance() const { return size(step_); }
+
+  private:
+    /// Broyden's update of the inverse Jacobian for a step that changed the change by y.
+    void update(RollingState y) {
+        RollingState const hy{a_ * y.v + b_ * y.w, c_ * y.v + d_ * y.w};
+        double const scale = step_.v * hy.v + step_.w * hy.w;
+        if (!(std::abs(scale) > 1e-9 * (step_.v * step_.v + step_.w * step_.w))) {
+            a_ *= 2;  // the change does not depend on the state: go further
+            d_ *= 2;
+            return;
+        }
+        RollingState const miss{(step_.v - hy.v) / scale, (step_.w - hy.w) / scale};
+        RollingState const row{step_.v * a_ + step_.w * c_, step_.v * b_ + step_.w * d_};
+        a_ += miss.v * row.v;
+        b_ += miss.v * row.w;
+        c_ += miss.w * row.v;
+        d_ += miss.w * row.w;
+    }
+
+    double a_ = -1, b_ = 0, c_ = 0, d_ = -1;  // inverse Jacobian, by rows
+    RollingState step_{}, change_{};
+    double last_ = 0;
+    bool known_ = false;
+};
+
+/// Goes from period to period until the state repeats. @return whether it does
+bool settle(PeriodMap& map, RollingState& s) {
+    Search search;
+    for (int i = 0; i < most_periods; ++i) {
+        RollingState const next = map(s), change{next.v - s.v, next.w - s.w};
+        double const scale = settled * (1 + std::abs(next.v));
+        if (i % 100 == 99) search = Search{};
+        RollingState const proposed = search.propose(s, change);
+        bool const plain = i % 100 >= 80;
+        s = plain ? next : proposed;
+        if (size(change) <= scale && (search.distance() <= 10 * scale || size(change) <= 1e-3 * scale))
+            return true;
+        if (plain) search = Search{};
+    }
+    return false;
+}
+
+PhaseKind kind_of(double velocity, bool contact, bool landed) {
+    if (!contact) return PhaseKind::flight;
+    if (velocity == 0) return PhaseKind::rest;
+    if (velocity > 0) return landed ? PhaseKind::positive_slide_after_landing : PhaseKind::positive_slide;
+    return landed ? PhaseKind::negative_slide_after_landing : PhaseKind::negative_slide;
+}
+
+/// Collects the phases of the layer: rolling and slipping parts with the same direction are one slide.
+class PhaseList {
+  public:
+    void add(RollingWalk const& walk, RollingPhase const& p) {
+        if (!p.contact) {
+            append(PhaseKind::flight, p.start, p.end, walk.velocity(p).travel(p.end));
+            landed_ = true;
+            return;
+        }
+        detail::Relaxation const v = walk.velocity(p);
+        double t = p.start;
+        while (t < p.end) {
+            double const middle_sign = sign_after(v, t, p.end);
+            double const to = middle_sign == 0 ? p.end : zero_after(v, middle_sign, t, p.end);
+            append(kind_of(middle_sign, true, landed_), t, to, v.travel(to) - v.travel(t));
+            t = to;
+        }
+    }
+    std::vector<Phase> take() && { return std::move(phases_); }
+
+  private:
+    /// The sign of v just after t.
+    static double sign_after(detail::Relaxation const& v, double t, double end) {
+        auto const a = v.at(t);
+        if (std::abs(a.value) > 1e-12) return a.value;
+        double const later = v(t + std::min(1e-6, (end - t) / 2));
+        return std::abs(later) > 1e-15 ? later : 0;
+    }
+    static double zero_after(detail::Relaxation const& v, double sign, double t, double end) {
+        double const s = sign > 0 ? 1 : -1;
+        double const from = std::min(t + 1e-7, end);
+        return detail::first_zero(
+            [&](double at) {
+                auto const a = v.at(at);
+                return detail::Sample{.value = s * a.value, .rate = s * a.rate, .bend = a.bend};
+            },
+            from, end);
+    }
+    void append(PhaseKind kind, double start, double end, double moved) {
+        bool const same = !phases_.empty() && phases_.back().kind == kind;
+        if (same || (!phases_.empty() && end - start < shortest_phase)) {
+            phases_.back().end = end;
+            phases_.back().relative_displacement += moved;
+            return;
+        }
+        bool const after = kind == PhaseKind::positive_slide_after_landing ||
+                           kind == PhaseKind::negative_slide_after_landing;
+        if (after || kind == PhaseKind::rest) landed_ = false;
+        if (!phases_.empty() && continues(phases_.back().kind, kind)) {
+            phases_.back().end = end;
+            phases_.back().relative_displacement += moved;
+            return;
+        }
+        phases_.push_back({kind, start, end, moved});
+    }
+    /// P after P', and N after N', continue the same slide.
+    static bool continues(PhaseKind before, PhaseKind now) {
+        return (before == PhaseKind::positive_slide_after_landing && now == PhaseKind::positive_slide) ||
+               (before == PhaseKind::negative_slide_after_landing && now == PhaseKind::negative_slide);
+    }
+
+    std::vector<Phase> phases_;
+    bool landed_ = false;
+};
+
+/// Without a flight the list starts with a positive slide, or with a negative one if there is none.
+void rotate_to_slide(std::vector<Phase>& phases) {
+    if (phases.size() > 1 && phases.front().kind == phases.back().kind) {
+        phases.front().start = phases.back().start - two_pi;
+        phases.front().relative_displacement += phases.back().relative_displacement;
+        phases.pop_back();
+    }
+    for (auto const kind : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
+        auto const first =
+            std::find_if(phases.begin(), phases.end(), [&](Phase const& p) { return p.kind == kind; });
+        if (first == phases.end()) continue;
+        for (auto p = phases.begin(); p != first; ++p) {
+            p->start += two_pi;
+            p->end += two_pi;
+        }
+        std::rotate(phases.begin(), first, phases.end());
+        return;
+    }
+}
+
+void describe(Motion& motion, std::vector<Phase> phases, int cycles) {
+    bool const flies =
+        std::any_of(phases.begin(), phases.end(), [](Phase const& p) { return p.kind == PhaseKind::flight; });
+    if (!flies) rotate_to_slide(phases);
+    double const shift = two_pi * std::floor(phases.front().start / two_pi);
+    for (Phase& p : phases) {
+        p.start -= shift;
+        p.end -= shift;
+        motion.mode += to_string(p.kind);
+        if (p.kind == PhaseKind::flight)
+            motion.flight_number = std::max(motion.flight_number, (p.end - p.start) / two_pi);
+    }
+    motion.phases = std::move(phases);
+    motion.period_cycles = cycles;
+    motion.converged = true;
+}
+
+RollingMotion endless(PointMass const& point) {
+    RollingMotion answer{};
+    bool const level = point.tan_inclination == 0;
+    answer.motion.velocity_efficiency =
+        level ? 0 : std::copysign(std::numeric_limits<double>::infinity(), -point.tan_inclination);
+    answer.motion.outcome = level ? Outcome::indifferent : Outcome::runs_away;
+    return answer;
+}
+
+}  // namespace
+
+std::vector<std::string_view> const& rolling_constants() {
+    static std::vector<std::string_view> const names = [] {
+        std::vector<std::string_view> all;
+        for (Constant const& c : constants) all.emplace_back(c.name);
+        return all;
+    }();
+    return names;
+}
+
+bool set_constant(RollingLaw& law, std::string_view name, double value) {
+    for (Constant const& c : constants) {
+        if (name != c.name) continue;
+        law.*c.value = value;
+        return true;
+    }
+    return false;
+}
+
+struct RollingLayerSolver::Memory {
+    RollingLaw law;
+    double throw_number = 0;  // that `normal` belongs to
+    RollingNormal normal;
+
+    RollingMotion solve(PointMass const& point);
+};
+
+RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
+    bool const slides_away = std::abs(point.tan_inclination) > point.friction;
+    if (slides_away || (point.friction == 0 && point.tan_inclination == 0)) return endless(point);
+    if (point.throw_number != throw_number) {
+        throw_number = 0;  // stays so if the next line throws
+        normal = detail::find_rolling_normal(point.throw_number, law);
+        throw_number = point.throw_number;
+    }
+    RollingLayer const layer{point, law};
+    RollingWalk const walk(layer);
+    PeriodMap map(walk, normal);
+    RollingState s{};
+    double const length = normal.pieces.back().end - normal.pieces.front().start;
+    bool const repeats = settle(map, s) && normal.cycles > 0;
+    RollingMotion answer{};
+    auto period = std::make_shared<RollingPeriod>();
+    double travel = 0;
+    walk.follow(normal, s, travel, &period->phases);
+    answer.motion.velocity_efficiency = travel / length;
+    if (!repeats) {
+        answer.motion.outcome = Outcome::unsettled;
+        return answer;
+    }
+    answer.motion.outcome = Outcome::periodic;
+    period->layer = layer;
+    period->start = normal.pieces.front().start;
+    period->end = normal.pieces.back().end;
+    PhaseList list;
+    for (RollingPhase const& p : period->phases) list.add(walk, p);
+    describe(answer.motion, std::move(list).take(), normal.cycles);
+    answer.period = std::move(period);
+    return answer;
+}
+
+RollingLayerSolver::RollingLayerSolver(RollingLaw const& law) : memory_(std::make_unique<Memory>()) {
+    check_constants(law);
+    memory_->law = law;
+}
+RollingLayerSolver::~RollingLayerSolver() = default;
+RollingLayerSolver::RollingLayerSolver(RollingLayerSolver&&) noexcept = default;
+RollingLayerSolver& RollingLayerSolver::operator=(RollingLayerSolver&&) noexcept = default;
+
+RollingMotion RollingLayerSolver::operator()(PointMass const& point) {
+    detail::check_ranges(point);
+    try {
+        return memory_->solve(point);
+    } catch (PhaseError const& error) {
+        throw PhaseError(std::string(error.what()) + " (" + inputs_text({point, memory_->law}) + ")");
+    }
+}
+
+RollingMotion solve(RollingLayer const& layer) {
+    return RollingLayerSolver(layer.law)(layer.point);
+}
+
+std::vector<RollingSample> trace(RollingMotion const& motion, int count) {
+    if (!motion.period || count < 2)
+        throw std::invalid_argument("a trace needs a motion with a period and two samples");
+    RollingPeriod const& period = *motion.period;
+    RollingWalk const walk(period.layer);
+    std::vector<RollingSample> samples;
+    std::size_t i = 0;
+    for (int k = 0; k < count; ++k) {
+        double const t = period.start + (period.end - period.start) * k / (count - 1);
+        while (i + 1 < period.phases.size() && t >= period.phases[i].end) ++i;
+        RollingPhase const& p = period.phases[i];
+        double const v = walk.velocity(p)(t);
+        auto const [gap, gap_rate] =
+            detail::gap_at(p.normal, t, period.layer.point.throw_number, period.layer.law);
+        samples.push_back({.t = t,
+                           .kind = kind_of(v, p.contact, false),
+                           .velocity = v,
+                           .spin = p.contact && p.turn == 0 ? 0 : walk.spin(p)(t),
+                           .gap = gap,
+                           .gap_rate = gap_rate,
+                           .normal_force = p.contact ? p.normal.force(t) : 0,
+                           .tangential_force = walk.friction_force(p, t)});
+    }
+    return samples;
+}
+
+std::optional<std::string> outside_tested_range(PointMass const& p) {
+    auto const outside = [](char const* name, double value, char const* range) {
+        return std::string("the rolling-layer law has not been tested at ") + name + " = " +
+               detail::number_text(value) + ", outside " + range;
+    };
+    if (!(p.throw_number >= 1.25 && p.throw_number <= 2.6))
+        return outside("throw_number", p.throw_number, "[1.25, 2.6]");
+    if (!(std::abs(p.tan_inclination) <= 0.08))
+        return outside("tan_inclination", p.tan_inclination, "[-0.08, 0.08]");
+    if (!(p.tan_vibration_angle >= 0.25 && p.tan_vibration_angle <= 1))
+        return outside("tan_vibration_angle", p.tan_vibration_angle, "[0.25, 1]");
+    if (!(p.friction >= 0.1 && p.friction <= 0.6)) return outside("friction", p.friction, "[0.1, 0.6]");
+    return std::nullopt;
+}
+
+}  // namespace vibrotrough::theory

@@ -1,0 +1,107 @@
+#include "run_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough {
+namespace {
+
+std::string const level = "--throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 ";
+
+nlohmann::json solved(std::string const& words) {
+    Answer const answer = run_program("theory " + words + " --json", StandardError::dropped);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    return nlohmann::json::parse(answer.text);
+}
+
+// The published constants, by the independent integration of tests/theory: 0.673631.
+TEST(TheoryRollingLayer, SolvesAPointWithThePublishedConstants) {
+    auto const answer = solved("point " + level + "--rolling-layer");
+    EXPECT_NEAR(answer.at("velocity_efficiency"), 0.673631, 1e-6);
+    EXPECT_EQ(answer.at("mode"), "FP'N");
+    EXPECT_EQ(answer.at("outside_tested_range"), false);
+    auto const named =
+        solved("point " + level +
+               "--rolling-layer torque=0.61,dry_torque=0.02,spin_inertia=0.1,stiffness=14,damping=2.2");
+    EXPECT_EQ(named.at("velocity_efficiency"), answer.at("velocity_efficiency"));
+}
+
+TEST(TheoryRollingLayer, IsThePointMassInItsLimit) {
+    auto const point = solved("point " + level);
+    auto const limit = solved("point " + level + "--rolling-layer torque=inf,stiffness=inf");
+    EXPECT_NEAR(limit.at("velocity_efficiency"), point.at("velocity_efficiency"), 1e-9);
+    EXPECT_EQ(limit.at("mode"), point.at("mode"));
+}
+
+TEST(TheoryRollingLayer, WarnsOutsideItsRange) {
+    std::string const words =
+        "theory point --throw-number 3 --tan-vibration-angle 0.5 --friction 0.23 --rolling-layer";
+    Answer const answer = run_program(words);
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_NE(answer.text.find("warning: the rolling-layer law has not been tested at throw_number = 3"),
+              std::string::npos);
+    EXPECT_EQ(run_program("theory point " + level + "--rolling-layer").text.find("warning"),
+              std::string::npos);
+}
+
+TEST(TheoryRollingLayer, RefusesWrongConstantsInOneLine) {
+    for (auto const& [constants, words] : std::vector<std::pair<std::string, std::string>>{
+             {"torque=-1", "torque = -1 is outside its range"},
+             {"mass=2", "'mass' is not a constant; write one of torque"},
+             {"torque", "needs NAME=VALUE"},
+             {"torque=soft", "torque"}}) {
+        Answer const answer = run_program("theory point " + level + "--rolling-layer " + constants);
+        EXPECT_EQ(answer.exit_code, 2) << constants;
+        EXPECT_NE(answer.text.find(words), std::string::npos) << answer.text;
+        EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+    }
+    Answer const extended = run_program("theory point " + level + "--restitution 0.2 --rolling-layer");
+    EXPECT_EQ(extended.exit_code, 2);
+}
+
+// The trace has the columns of the layer; its slip is velocity minus spin.
+TEST(TheoryRollingLayer, TracesSpinAndForces) {
+    Answer const answer =
+        run_program("theory trace " + level + "--samples 50 --rolling-layer", StandardError::dropped);
+    EXPECT_EQ(answer.exit_code, 0);
+    std::istringstream lines(answer.text);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "t,phase,layer_velocity,spin,slip,gap,gap_rate,normal_force,tangential_force");
+    int count = 0;
+    while (std::getline(lines, line)) {
+        std::istringstream cells(line.substr(line.find(',', line.find(',') + 1) + 1));
+        double velocity = 0, spin = 0, slip = 0;
+        char comma = 0;
+        cells >> velocity >> comma >> spin >> comma >> slip;
+        EXPECT_NEAR(slip, velocity - spin, 1e-12);
+        ++count;
+    }
+    EXPECT_EQ(count, 50);
+}
+
+TEST(TheoryRollingLayer, SolvesABatchAndADesign) {
+    auto const folder = std::filesystem::temp_directory_path() / "vibrotrough_rolling_batch";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "points.csv")
+        << "throw_number,tan_vibration_angle,friction\n1.7,0.5,0.23\n3,0.5,0.23\n";
+    Answer const batch = run_program("theory batch '" + (folder / "points.csv").string() + "' --output '" +
+                                     (folder / "answers.csv").string() + "' --rolling-layer");
+    EXPECT_EQ(batch.exit_code, 0) << batch.text;
+    EXPECT_NE(batch.text.find("warning: 1 of 2 points"), std::string::npos) << batch.text;
+    std::stringstream answers;
+    answers << std::ifstream(folder / "answers.csv").rdbuf();
+    EXPECT_NE(answers.str().find("0.67363"), std::string::npos) << answers.str();
+    std::filesystem::remove_all(folder);
+    auto const design = solved("design --friction 0.3 --frequency '15 Hz' --rolling-layer");
+    EXPECT_LE(design.at("throw_number").get<double>(), 2.6 * (1 + 1e-6));
+}
+
+}  // namespace
+}  // namespace vibrotrough

@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+import itertools
+import math
+import pathlib
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
+
+import draw  # noqa: E402
+import held_out  # noqa: E402
+import tables  # noqa: E402
+import vibrotrough  # noqa: E402
+from validation_case import Floats, ValidationCase, read_table  # noqa: E402
+
+COLUMNS = ["group", "throw_number", "efficiency", "half_width", "packings", "outcome"]
+PHASES: dict[str, list[Any]] = {"grains.rotation": ["free", "blocked"], "trough.throw_number": [1.7, 2.0]}
+POINT_MASS = "point mass"
+HOLDS, REFUTED = 0.06, 0.10
+THEORIES: dict[str, Mapping[str, float] | None] = {"A0": {}, POINT_MASS: None, "soft landing": {"torque": math.inf}}
+
+
+def measure(run: ValidationCase) -> None:
+    phases(run)
+    rows = []
+    for group, (changes, numbers) in held_out.HELD_OUT.items():
+        table = run.campaign(held_out.campaign_name(group), changes, {"trough.throw_number": numbers[:1] if run.quick else numbers})
+        rows += [[group, round(float(row["throw_number"]), 6), row["efficiency_dem"], row["efficiency_dem_half_width"], row["packings"], row["outcome"]]
+                 for row in table]
+        run.write_table("held_out.csv", COLUMNS, rows)  # after each group: what there is can be judged
+
+
+def phases(run: ValidationCase) -> None:
+    """Mean curves over the cycle of the four layers whose spin is shown."""
+    rows = []
+    table = run.campaign("phases", {"measure.half_width": 0.2, "measure.packings": 2, "measure.max_packings": 2}, PHASES)
+    for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
+        result = vibrotrough.open_result(run.runs / "phases/cases" / row["case"] / "result.h5")
+        rows += draw.phase_rows(result, row, rotation)
+    run.write_table("phases.csv", draw.PHASE_COLUMNS, rows)
+
+
+def score_tables(run: ValidationCase) -> None:
+    """The table of README.md section 4: rms against stored tables, without a refit."""
+    score: dict[str, dict[str, float]] = {}
+    for name, (points, efficiency) in tables.sets(blocked=run.control).items():
+        score[name] = {law: tables.rms(tables.solve(run, points, constants) - efficiency) for law, constants in THEORIES.items()}
+    print("rms of eta:", {name: {law: round(value, 3) for law, value in row.items()} for name, row in score.items()})
+    for name, most in (("level (fit)", 0.03), ("paper, 1.5-2", 0.075), ("krakow", 0.06)):
+        run.between(f"rms of A0's efficiency, {name}", score[name]["A0"], 0, most, "the first fit had 0.023, 0.061 and 0.041; packings scatter by 0.02")
+        run.between(f"rms of A0 over that of the point mass, {name}", score[name]["A0"] / score[name][POINT_MASS], 0, 0.5, "the better theory, by a factor of two")
+    below = score["paper, < 1"]
+    run.finding("The rolling-layer law holds below throw number 1, too", below["A0"] < below[POINT_MASS] / 2,
+                f"rms {below['A0']:.3f}, point mass {below[POINT_MASS]:.3f}")
+
+
+def refit(run: ValidationCase) -> None:
+    """Fits c and mu_i to the level cases by the program; the 95 % region of both, and the fits that leave one case out."""
+    points, efficiency = tables.level("4 deep, blocked" if run.control else "4 deep, free")
+    torques, dry = np.linspace(0.30, 0.85, 12), np.linspace(0, 0.06, 7)
+    squares = np.array([[(tables.solve(run, points, {"torque": c, "dry_torque": m}) - efficiency) ** 2 for m in dry] for c in torques])
+    total = squares.sum(axis=2)
+
+    def best(sums: Floats) -> tuple[float, float]:
+        i, j = np.unravel_index(np.argmin(sums), sums.shape)
+        return float(torques[i]), float(dry[j])
+
+    c, m = best(total)
+    most = total.min() * (1 + 2 / 4 * 6.944)  # F distribution, 2 and 4 degrees of freedom, 95 %
+    where = np.argwhere(total <= most)
+    left_out = [best(total - squares[:, :, k]) for k in range(len(points))]
+    print(f"fit: c = {c:.2f} ({torques[where[:, 0]].min():.2f} to {torques[where[:, 0]].max():.2f}), mu_i = {m:.2f} ({dry[where[:, 1]].min():.2f} to "
+          f"{dry[where[:, 1]].max():.2f}), rms {math.sqrt(total.min() / 6):.3f}; without one case: {[f'{a:.2f}, {b:.2f}' for a, b in left_out]}")
+    published = float(np.sum((tables.solve(run, points, {}) - efficiency) ** 2))
+    run.between("sum of squares of the published constants over that of the best fit to the level cases", published / total.min(), 0, most / total.min(),
+                "the 95 % region of the two constants (F distribution)")
+
+
+def free_rows(run: ValidationCase) -> list[dict[str, str]]:
+    """Held-out cases by which the laws are judged: measured, free to rotate, from throw number 1.25 to 2.6."""
+    low, high = held_out.JUDGED
+    return [row for row in run.table("held_out.csv") if row["efficiency"] and row["group"] != held_out.BLOCKED and low <= float(row["throw_number"]) <= high]
+
+
+def judge_laws(run: ValidationCase) -> None:
+    predicted = {(row["group"], float(row["throw_number"])): row for row in read_table(FOLDER / "predictions.csv")}
+    rows = free_rows(run)
+    measured = np.array([float(row["efficiency"]) for row in rows])
+    inputs = [held_out.inputs(row["group"], float(row["throw_number"])) for row in rows]
+    errors = {POINT_MASS: tables.solve(run, [one[:4] for one in inputs], None) - measured}
+    for law in list(predicted[next(iter(predicted))])[2:]:
+        errors[law] = np.array([float(predicted[(row["group"], float(row["throw_number"]))][law]) for row in rows]) - measured
+    points, efficiency = tables.level("4 deep, free")
+    line = np.polyfit([point[0] for point in points], efficiency, 1)
+    errors["line in Gamma"] = np.polyval(line, [one[0] for one in inputs]) - measured
+    score = {law: tables.rms(error) for law, error in errors.items()}
+    print("held-out rms:", {law: f"{score[law]:.3f} (mean {errors[law].mean():+.3f}, largest {errors[law][np.argmax(abs(errors[law]))]:+.3f})" for law in score})
+    point = score[POINT_MASS]
+    reference = score["soft landing"] if run.control else score["A0"]
+    run.between("held-out rms of A0 over that of the point mass", reference / point, 0, 0.5, "the better theory, by a factor of two")
+    run.between("held-out rms of A0 over that of A0 with forces a quarter of a cycle late", reference / score["A0 a quarter late"], 0, 0.5,
+                "the same constants with shuffled phases")
+    for law in score:
+        if law not in (POINT_MASS, "A0 a quarter late"):
+            verdict = True if score[law] <= HOLDS else False if score[law] > REFUTED else None
+            run.finding(f"{law}: predicts {len(rows)} held-out free layers", verdict,
+                        f"rms of eta {score[law]:.3f}, point mass {point:.3f}; it holds up to {HOLDS}, is refuted above {REFUTED}")
+    draw.laws(run, rows, errors)
+
+
+def judge_phases(run: ValidationCase) -> None:
+    curves = draw.Phases(run.table("phases.csv"))
+    for gamma in curves.throw_numbers():
+        rolling = curves.mean("free", gamma, "spin", 275, 300) / curves.mean("free", gamma, "floor_velocity", 275, 300)
+        run.finding(f"After the landing the floor grains roll (275 to 300 degrees, Gamma {gamma}): their spin is above half of their velocity",
+                    rolling > 0.5, f"{rolling:.2f} of it, F/N {curves.ratio('free', gamma, 275, 300):+.3f}")
+        pushed = curves.ratio("free", gamma, 335, 375)
+        run.finding(f"While the trough pushes forwards the floor grains roll backwards with F/N below mu (335 to 15 degrees, Gamma {gamma})",
+                    pushed < 0.2, f"F/N {pushed:+.3f} of mu = 0.23, spin {curves.mean('free', gamma, 'spin', 335, 375):+.3f}, A0 {curves.a0(run, gamma, 335, 375):+.3f}")
+    draw.phases(run, curves)
+
+
+def main() -> None:
+    run = ValidationCase(FOLDER)
+    if run.long:
+        measure(run)
+    score_tables(run)
+    refit(run)
+    judge_laws(run)
+    judge_phases(run)
+    run.finish()
+
+
+if __name__ == "__main__":
+    main()
