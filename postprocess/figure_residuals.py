@@ -60,7 +60,9 @@ def draw_line(source: "Source", values: Floats) -> Figure:
     axes.axhline(0.0, color="#888888", linewidth=1.0)
     axes.errorbar(source.campaign["throw_number"], values, yerr=source.campaign["efficiency_half_width"],
                   color=COLOURS[0], marker=MARKERS[0], linestyle="none", capsize=3)
-    reach = 1.15 * np.nanmax(np.append(np.abs(values) + np.nan_to_num(source.campaign["efficiency_half_width"]), 0.05))
+    # The interval of a single short packing is infinite: it has no error bar that could be drawn.
+    widths = np.nan_to_num(source.campaign["efficiency_half_width"], posinf=0.0)
+    reach = 1.15 * np.nanmax(np.append(np.abs(values) + widths, 0.05))
     axes.set_ylim(-reach, reach)
     axes.set_xlabel(THROW_NUMBER)
     axes.set_ylabel(RESIDUAL)

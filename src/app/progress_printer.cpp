@@ -35,7 +35,11 @@ std::string describe(campaign::RunningPacking const& one) {
     if (one.estimate && std::isfinite(one.estimate->mean))
         text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
     text += fmt::format(", {} elapsed", clock_time(one.elapsed));
-    if (one.time_to_go >= 0) text += fmt::format(", about {} to go", clock_time(one.time_to_go));
+    if (one.silent_for > 0) {
+        text += fmt::format(", NO CYCLE FOR {}; is its engine stopped?", clock_time(one.silent_for));
+    } else if (one.time_to_go >= 0) {
+        text += fmt::format(", about {} to go", clock_time(one.time_to_go));
+    }
     return text;
 }
 

@@ -104,11 +104,18 @@ void check(DesignLimits const& l) {
 /// When |tan(alpha)| is close to mu, the speed depends on the last digit of the friction coefficient, and
 /// beyond mu it is unbounded.
 DesignLimits with_friction_margin(DesignLimits limits) {
+    constexpr double degrees = 180 / pi;
     double const steepest = std::atan(max_friction_used * limits.friction);
+    // The flattest inclination that is allowed, with its sign, as it was given.
+    double const flattest = limits.inclination.low > 0    ? limits.inclination.low
+                            : limits.inclination.high < 0 ? limits.inclination.high
+                                                          : 0;
+    std::string const range = "up to " + detail::number_text(steepest * degrees) +
+                              " deg, where tan(alpha) is 95 % of the friction coefficient";
+    detail::require_range(std::abs(flattest) <= steepest, "inclination in deg", flattest * degrees,
+                          range.c_str());
     limits.inclination.low = std::max(limits.inclination.low, -steepest);
     limits.inclination.high = std::min(limits.inclination.high, steepest);
-    detail::require_range(limits.inclination.low <= limits.inclination.high, "inclination",
-                          limits.inclination.high, "within 95 % of the friction coefficient");
     return limits;
 }
 

@@ -1,4 +1,4 @@
-"""Fifty times kill -9 at random moments, of the driver, of an engine, of both: the campaign comes out as if nothing had been.
+"""A hundred times kill -9 at random moments, of the driver, of an engine, of both: the campaign comes out as if nothing had been.
 
 The moments come from a generator with a fixed seed, but the machine's own timing decides what they hit; what is checked
 holds for every moment.
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 import h5py  # noqa: E402
 from trough_program import EndToEndTest, engines_in, fingerprint, processes_in, wait_until, without_wall_time  # noqa: E402
 
-KILLS = int(os.environ.get("VIBROTROUGH_KILLS", "50"))
+KILLS = int(os.environ.get("VIBROTROUGH_KILLS", "100"))
 SEED = int(os.environ.get("VIBROTROUGH_SEED", "1"))
 # The fewest grains that settle and the fewest cycles that may be asked for: a packing takes less than a second.
 CHANGES = {"measure.packings": 2, "measure.max_cycles": 20, "measure.half_width": 1.0}

@@ -10,7 +10,8 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
-from trough_program import PATIENCE, PROGRAM, EndToEndTest, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
+from trough_program import (  # noqa: E402
+    PATIENCE, PROGRAM, EndToEndTest, count_cycles, engines_in, fingerprint, pause, wait_until, without_wall_time)  # fmt: skip
 
 SWEEP = {"layer.grains": [60, 70]}
 
@@ -158,6 +159,23 @@ class Trouble(EndToEndTest):
         (failure,) = self.failures()
         self.assertEqual((failure["outcome"], failure["attempts"]), ("time-limit", 1))
         self.assertIn("more time", failure["try_again"])
+
+    def test_an_engine_that_stands_still(self):
+        """Without a time limit nothing ends it; what is wrong is said, and the run goes on when the engine does."""
+        campaign = self.write_campaign({"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000})
+        driver = self.start_campaign(campaign)
+        tables = wait_until(lambda: list(self.output.glob("cases/*/packing-1/cycles.csv")), "the packing ran", driver)
+        wait_until(lambda: count_cycles(tables[0]) > 8, "some cycles were simulated", driver)
+        (engine,) = engines_in(self.output)
+        self.assertTrue(pause(engine))
+        log = self.output / "campaign.log"
+        wait_until(lambda: "no cycle for" in log.read_text(), "the log says so", driver)
+        seen = count_cycles(tables[0])
+        os.kill(engine, signal.SIGCONT)
+        wait_until(lambda: count_cycles(tables[0]) > seen, "the run went on", driver)
+        driver.send_signal(signal.SIGINT)
+        code, output, errors = self.finish(driver)
+        self.assertEqual(code, 130, output + errors)
 
     def test_retries_where_they_make_sense(self):
         campaign = self.write_campaign({"measure.packings": 1})

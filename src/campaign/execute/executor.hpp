@@ -44,6 +44,7 @@ struct RunningPacking {
     double elapsed;                                    ///< s
     double time_to_go;                                 ///< s, negative while unknown
     int ranks;                                         ///< MPI ranks of its engine
+    double silent_for = 0;  ///< s without a new cycle, when that is far more than a cycle took; else 0
 };
 
 /// Runs packings: on this machine, or on a cluster. An executor knows no policy: it runs what it is given.

@@ -85,7 +85,7 @@ class LocalExecutor : public Executor {
             int const cycles = one.run->cycles(), wanted = one.order.packing.cycles;
             double const to_go = cycles > 0 ? one.elapsed() / cycles * (wanted - cycles) : -1;
             shown.push_back({one.order.planned, one.order.packing.number, cycles, wanted, one.run->estimate(),
-                             one.elapsed(), to_go, one.ranks});
+                             one.elapsed(), to_go, one.ranks, one.run->silent_for()});
         }
         return shown;
     }
