@@ -10,6 +10,8 @@ from validation_case import Floats, ValidationCase
 
 PHASE_COLUMNS = ["grains", "throw_number", "phase_deg", "touching", "layer_velocity", "floor_velocity", "spin", "normal_force", "tangential_force"]
 FRICTION = 0.23
+LEAST_TOUCHING = 4  # grains on the floor for a mean over them
+GRAINS = 174  # of the layer in base.toml
 LEVEL = ["--tan-vibration-angle", 0.5, "--friction", FRICTION]
 TICKS = [0, 90, 180, 270, 360]
 
@@ -58,6 +60,16 @@ class Phases:
         part = self.window(grains, gamma, low, high)
         return float(self.column(grains, gamma, "tangential_force")[part].sum() / self.column(grains, gamma, "normal_force")[part].sum())
 
+    def torque(self, gamma: float, low: float, high: float) -> tuple[float, float]:
+        """What hinders the spin of the free floor grains, M = -F - I w', over the spin and over N; means of a window."""
+        spin, touching = self.column("free", gamma, "spin"), self.column("free", gamma, "touching")
+        unit = 0.5 / gamma  # of forces: a weight is tan(beta) / Gamma in omega^2 r cos(beta) per mass
+        spin_up = np.gradient(spin, 2 * np.pi / len(spin))
+        torque = -self.column("free", gamma, "tangential_force") * unit - 0.4 * touching / GRAINS * spin_up
+        part = self.window("free", gamma, low, high)
+        return (float(torque[part].mean() / spin[part].mean()),
+                float(torque[part].mean() / (unit * self.column("free", gamma, "normal_force")[part].mean())))
+
     def a0(self, run: ValidationCase, gamma: float, low: float, high: float) -> float:
         """The mean spin of A0 within a window."""
         phase, spin = a0_curve(run, gamma, "spin")
@@ -74,13 +86,15 @@ def a0_curve(run: ValidationCase, gamma: float, name: str) -> tuple[Floats, Floa
 
 def phases(run: ValidationCase, curves: Phases) -> None:
     """Spin, velocity of the floor grains and of the layer, and forces over the phase, free and blocked."""
-    figure, axes = new_figure(2, 4, size=(13, 6), sharex=True, sharey="row")
-    for place, (grains, gamma) in enumerate((grains, gamma) for gamma in curves.throw_numbers() for grains in ("free", "blocked")):
+    numbers = curves.throw_numbers()
+    figure, axes = new_figure(2, 2 * len(numbers), size=(6.5 * len(numbers), 6), sharex=True, sharey="row")
+    for place, (grains, gamma) in enumerate((grains, gamma) for gamma in numbers for grains in ("free", "blocked")):
         upper, lower = axes[0][place], axes[1][place]
         phase = curves.column(grains, gamma, "phase_deg")
         for name, label, colour, dash in (("layer_velocity", "layer", COLOURS[6], "-"), ("floor_velocity", "floor grains", COLOURS[0], "--"),
                                           ("spin", "spin w", COLOURS[1], "-.")):
-            upper.plot(phase, curves.column(grains, gamma, name), color=colour, ls=dash, label=label)
+            carried = (curves.column(grains, gamma, "touching") >= LEAST_TOUCHING) | (name == "layer_velocity")
+            upper.plot(phase, np.where(carried, curves.column(grains, gamma, name), np.nan), color=colour, ls=dash, label=label)
         normal, tangential = curves.column(grains, gamma, "normal_force"), curves.column(grains, gamma, "tangential_force")
         pressed = normal > 0.05
         lower.plot(phase[pressed], tangential[pressed] / normal[pressed], ".", ms=4, color=COLOURS[0], label="F / N, simulated")
@@ -89,11 +103,12 @@ def phases(run: ValidationCase, curves: Phases) -> None:
             angles, spin = a0_curve(run, gamma, "spin")
             upper.plot(angles, spin, color=COLOURS[1], lw=0.8, label="spin w, A0")
             forces = a0_curve(run, gamma, "tangential_force")[1], a0_curve(run, gamma, "normal_force")[1]
-            held = forces[1] > 0
-            lower.plot(angles[held], forces[0][held] / (0.5 * forces[1][held]), color=COLOURS[1], lw=0.8, label="F / N, A0")
+            with np.errstate(invalid="ignore", divide="ignore"):
+                ratio = np.where(forces[1] > 0, forces[0] / (0.5 * forces[1]), np.nan)
+            lower.plot(angles, ratio, color=COLOURS[1], lw=0.8, label="F / N, A0")
         for limit in (-FRICTION, FRICTION):
             lower.axhline(limit, color="#999999", lw=0.6)
-        upper.set(title=f"Γ = {gamma}, rotation {grains}", ylim=(-0.5, 2))
+        upper.set(title=f"Γ = {gamma}, rotation {grains}", ylim=(-0.9, 2))
         lower.set(xlabel="phase ωt, degrees", xticks=TICKS, ylim=(-0.35, 0.45))
         for part in (upper, lower):
             plain_axes(part)

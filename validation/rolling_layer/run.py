@@ -15,33 +15,38 @@ import draw  # noqa: E402
 import held_out  # noqa: E402
 import tables  # noqa: E402
 import vibrotrough  # noqa: E402
+from campaign_program import Row  # noqa: E402
 from validation_case import Floats, ValidationCase, read_table  # noqa: E402
 
 COLUMNS = ["group", "throw_number", "efficiency", "half_width", "packings", "outcome"]
 PHASES: dict[str, list[Any]] = {"grains.rotation": ["free", "blocked"], "trough.throw_number": [1.7, 2.0]}
+FEW_PACKINGS = {"measure.half_width": 0.2, "measure.packings": 2, "measure.max_packings": 2}
+ALSO_SHOWN = 1.9
 POINT_MASS = "point mass"
 HOLDS, REFUTED = 0.06, 0.10
 THEORIES: dict[str, Mapping[str, float] | None] = {"A0": {}, POINT_MASS: None, "soft landing": {"torque": math.inf}}
 
 
 def measure(run: ValidationCase) -> None:
-    phases(run)
-    rows = []
-    for group, (changes, numbers) in held_out.HELD_OUT.items():
-        table = run.campaign(held_out.campaign_name(group), changes, {"trough.throw_number": numbers[:1] if run.quick else numbers})
-        rows += [[group, round(float(row["throw_number"]), 6), row["efficiency_dem"], row["efficiency_dem_half_width"], row["packings"], row["outcome"]]
-                 for row in table]
-        run.write_table("held_out.csv", COLUMNS, rows)  # after each group: what there is can be judged
-
-
-def phases(run: ValidationCase) -> None:
-    """Mean curves over the cycle of the four layers whose spin is shown."""
-    rows = []
-    table = run.campaign("phases", {"measure.half_width": 0.2, "measure.packings": 2, "measure.max_packings": 2}, PHASES)
+    """Simulates what is held out; of four layers and of two of the held-out groups the mean curves over the cycle are kept, too."""
+    rows, curves = [], []
+    table = run.campaign("phases", FEW_PACKINGS, PHASES)
     for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
-        result = vibrotrough.open_result(run.runs / "phases/cases" / row["case"] / "result.h5")
-        rows += draw.phase_rows(result, row, rotation)
-    run.write_table("phases.csv", draw.PHASE_COLUMNS, rows)
+        curves += phase_rows(run, "phases", row, rotation)
+    for group, (changes, numbers) in held_out.HELD_OUT.items():
+        name = held_out.campaign_name(group)
+        for row in run.campaign(name, changes, {"trough.throw_number": numbers[:1] if run.quick else numbers}):
+            gamma = round(float(row["throw_number"]), 6)
+            rows.append([group, gamma, row["efficiency_dem"], row["efficiency_dem_half_width"], row["packings"], row["outcome"]])
+            if gamma == ALSO_SHOWN and group in ("throw number", held_out.BLOCKED):
+                curves += phase_rows(run, name, row, "blocked" if group == held_out.BLOCKED else "free")
+        run.write_table("held_out.csv", COLUMNS, rows)  # after each group: what there is can be judged
+        run.write_table("phases.csv", draw.PHASE_COLUMNS, curves)
+
+
+def phase_rows(run: ValidationCase, campaign: str, row: Row, rotation: str) -> list[list[object]]:
+    """Mean curves over the cycle of one case."""
+    return draw.phase_rows(vibrotrough.open_result(run.runs / campaign / "cases" / row["case"] / "result.h5"), row, rotation)
 
 
 def score_tables(run: ValidationCase) -> None:
@@ -80,7 +85,7 @@ def refit(run: ValidationCase) -> None:
                 "the 95 % region of the two constants (F distribution)")
 
 
-def free_rows(run: ValidationCase) -> list[dict[str, str]]:
+def free_rows(run: ValidationCase) -> list[Row]:
     """Held-out cases by which the laws are judged: measured, free to rotate, from throw number 1.25 to 2.6."""
     low, high = held_out.JUDGED
     return [row for row in run.table("held_out.csv") if row["efficiency"] and row["group"] != held_out.BLOCKED and low <= float(row["throw_number"]) <= high]
@@ -121,6 +126,11 @@ def judge_phases(run: ValidationCase) -> None:
         pushed = curves.ratio("free", gamma, 335, 375)
         run.finding(f"While the trough pushes forwards the floor grains roll backwards with F/N below mu (335 to 15 degrees, Gamma {gamma})",
                     pushed < 0.2, f"F/N {pushed:+.3f} of mu = 0.23, spin {curves.mean('free', gamma, 'spin', 335, 375):+.3f}, A0 {curves.a0(run, gamma, 335, 375):+.3f}")
+        early, late = curves.torque(gamma, 286, 294), curves.torque(gamma, 340, 350)
+        run.finding(f"The torque against the spin grows with the compaction of the layer, 5 times or more from 290 to 345 degrees (Gamma {gamma})",
+                    late[0] > 5 * early[0], f"M / w {early[0]:.2f} and {late[0]:.2f}, M / N {early[1]:+.3f} and {late[1]:+.3f}; A0 has M / w = 0.61")
+        run.between(f"control: F / N of the layer without rotation while it slips back (310 to 375 degrees, Gamma {gamma})",
+                    curves.ratio("blocked", gamma, 310, 375), 0.225, 0.235, "sliding contacts: mu = 0.23")
     draw.phases(run, curves)
 
 

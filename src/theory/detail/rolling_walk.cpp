@@ -138,8 +138,8 @@ double RollingWalk::end_of(RollingPhase const& p, double end, int& what) const {
         return to;
     }
     double const to = search([&](double t) { return without_slip(p, n, w, t); });
-    constexpr std::array ends{of_piece, spin_stops, friction_forwards, friction_backwards};
-    what = ends[static_cast<std::size_t>(what + 1)];
+    constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
+    what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
     return to;
 }
 
