@@ -180,7 +180,7 @@ class ValidationCase:
 
     def provenance(self) -> str:
         """Date, program with its commit, and machine, for the first line of a table."""
-        return f"{today()}; {self._ask('--version').strip()}; {machine()}"
+        return f"{today()}; {self._ask('--version').splitlines()[0]}; {machine()}"
 
     def finish(self) -> NoReturn:
         """Writes verdict.json, except in a negative control, and exits with HOLDS or FAILS. A case without criteria fails."""
