@@ -36,6 +36,14 @@ void add_compare(CLI::App& program, int& exit_code);
 void add_friction_test(CLI::App& program, int& exit_code);
 /// Measures the numerical error of a campaign's results.
 void add_convergence(CLI::App& program, int& exit_code);
+/// Learns the velocity efficiency over a domain.
+void add_learn(CLI::App& program, int& exit_code);
+/// Finds inputs of a simulated layer from measured speeds.
+void add_calibrate(CLI::App& program, int& exit_code);
+/// Finds the machine for a mass flow, with its risk.
+void add_design(CLI::App& program, int& exit_code);
+/// Predicts the velocity efficiency between the cases of a campaign.
+void add_predict(CLI::App& program, int& exit_code);
 /// Writes files for ParaView.
 void add_export(CLI::App& program, int& exit_code);
 /// Draws figures.

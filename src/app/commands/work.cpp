@@ -4,8 +4,10 @@
 #include "app/standard_streams.hpp"
 #include "campaign/execute/packing_worker.hpp"
 #include "campaign/execute/slurm_batch.hpp"
+#include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/text.hpp"
+#include "learn/learner.hpp"
 
 #include <memory>
 
@@ -29,7 +31,8 @@ int run(Options& options) {
     tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
     campaign::PackingId const packing = campaign::read_task(options.task_list, options.index);
     campaign::WorkResult const result =
-        campaign::work(options.folder, packing, options.limits, *campaign::make_policy());
+        campaign::work(options.folder, packing, options.limits,
+                       campaign::UntilPrecise(learn::read_wanted_half_widths(options.folder)));
     fmt::print("{}\n", result.message);
     switch (result.kind) {
         case campaign::WorkResult::finished:

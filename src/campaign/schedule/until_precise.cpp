@@ -43,11 +43,11 @@ struct Round {
 /// One decision about one case, from its first round to the one that is not complete.
 class Replay {
   public:
-    explicit Replay(KnownCase const& known)
+    Replay(KnownCase const& known, std::optional<double> half_width)
         : known_(known),
           prepared_(*known.planned->prepared),
           plan_(known.planned->scenario().measure),
-          wanted_{plan_.confidence, plan_.half_width} {}
+          wanted_{plan_.confidence, half_width.value_or(plan_.half_width)} {}
 
     CaseDecision decide() {
         Round round{{}, first_cycles()};
@@ -114,9 +114,9 @@ class Replay {
     /// The next round; false when the case ends with this one.
     bool advance(Round& round) const {
         if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
-        if (evaluate::outcome_of(estimate_, plan_.half_width) == core::Outcome::finished) return false;
+        if (evaluate::outcome_of(estimate_, wanted_.half_width) == core::Outcome::finished) return false;
         if (round.count() >= plan_.max_packings) {
-            return half_width_with(lengthened(round)) <= plan_.half_width && lengthen(round);
+            return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
         }
         if (round.count() > 1 && cycles_are_cheaper(round) && lengthen(round)) return true;
         return grow(round, packings_of_next_round(round));
@@ -213,7 +213,8 @@ class Replay {
 }  // namespace
 
 CaseDecision UntilPrecise::decide(KnownCase const& known) const {
-    return Replay(known).decide();
+    auto const given = half_widths_.find(known.planned->id);
+    return Replay(known, given == half_widths_.end() ? std::nullopt : std::optional(given->second)).decide();
 }
 
 }  // namespace vibrotrough::campaign

@@ -2,6 +2,9 @@
 
 #include "campaign/schedule/policy.hpp"
 
+#include <map>
+#include <string>
+
 namespace vibrotrough::campaign {
 
 /// Adds packings, or cycles to all packings, until the interval of the case is as narrow as
@@ -23,7 +26,15 @@ namespace vibrotrough::campaign {
 ///   measure.max_core_time do not allow another round.
 class UntilPrecise : public Policy {
   public:
+    /// Half-widths wanted of single cases, by id, in place of measure.half_width.
+    using HalfWidths = std::map<std::string, double>;
+
+    /// @param half_widths  of single cases; all others as measure.half_width asks
+    explicit UntilPrecise(HalfWidths half_widths = {}) : half_widths_(std::move(half_widths)) {}
     CaseDecision decide(KnownCase const& known) const override;
+
+  private:
+    HalfWidths half_widths_;
 };
 
 }  // namespace vibrotrough::campaign

@@ -26,25 +26,16 @@ std::size_t count_cases(CampaignText const& text, std::string const& file) {
     return count;
 }
 
-/// Sets a key and removes the key that it excludes.
-void set(CaseValues& values, std::string const& key, Value const& value) {
-    std::string_view const group = find_key(key)->group;
-    if (!group.empty()) {
-        std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == group; });
-    }
-    values[key] = value;
-}
-
 /// The values of case number `index`. The last list varies fastest; after all lists comes the last axis.
 CaseValues pick(CampaignText const& text, std::size_t index) {
     CaseValues values = text.base;
     for (auto list = text.lists.rbegin(); list != text.lists.rend(); ++list) {
         auto const& point = list->points[index % list->points.size()];
-        for (std::size_t k = 0; k < point.size(); ++k) set(values, list->keys[k], point[k]);
+        for (std::size_t k = 0; k < point.size(); ++k) set_value(values, list->keys[k], point[k]);
         index /= list->points.size();
     }
     for (auto axis = text.sweep.rbegin(); axis != text.sweep.rend(); ++axis) {
-        set(values, axis->key, {axis->values[index % axis->values.size()], axis->where});
+        set_value(values, axis->key, {axis->values[index % axis->values.size()], axis->where});
         index /= axis->values.size();
     }
     return values;

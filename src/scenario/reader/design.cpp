@@ -68,6 +68,19 @@ bool holds(Condition const& condition, Content const& value) {
 
 }  // namespace
 
+double DomainAxis::at(double fraction) const {
+    double const value = low + fraction * (high - low);
+    return find_key(key)->kind == KeyKind::integer ? std::round(value) : value;
+}
+
+void set_value(CaseValues& values, std::string const& key, Value const& value) {
+    std::string_view const group = find_key(key)->group;
+    if (!group.empty()) {
+        std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == group; });
+    }
+    values[key] = value;
+}
+
 std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
     if (auto const found = given.find(key); found != given.end()) return found->second.content;
     Trough const& trough = scenario.trough;

@@ -17,6 +17,15 @@ struct PointList {
     Position where;                          ///< of the section in the campaign file
 };
 
+/// The range of a key in the domain of a surface that is learnt.
+struct DomainAxis {
+    std::string key;   ///< path of the key, whose values are numbers
+    double low, high;  ///< ends of the range, SI units
+
+    /// The value at a fraction of the range; a whole number where the key needs one.
+    double at(double fraction) const;
+};
+
 /// A condition on one key. All bounds that are set must hold.
 struct Condition {
     std::string key;                     ///< path of the key
@@ -27,6 +36,9 @@ struct Condition {
 
 /// Cases for which all these conditions hold are left out.
 using Exclusion = std::vector<Condition>;
+
+/// Sets a key, and removes the key that it excludes.
+void set_value(CaseValues& values, std::string const& key, Value const& value);
 
 /// The value that a case has for a key: given, derived from others (such as the throw number of a drive whose
 /// frequency was given), or the default. Numbers are in SI units; nullopt when the case has no such value.

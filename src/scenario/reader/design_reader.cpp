@@ -41,6 +41,7 @@ class DesignReader {
         if (name == "zip") read_zip(*node.as_table());
         if (name == "points_from") read_csv(*node.as_table());
         if (name == "sample") read_sample(*node.as_table());
+        if (name == "domain") read_domain(*node.as_table());
     }
 
   private:
@@ -143,14 +144,46 @@ class DesignReader {
         add(std::move(list));
     }
 
-    int whole(toml::table const& table, char const* name, int least, int most) const {
+    /// A whole number of a section. @param example  what to write instead
+    int whole(toml::table const& table, std::string_view section, char const* name, int least, int most,
+              int example) const {
         toml::node const* const node = table.get(name);
         std::int64_t const value = node != nullptr ? node->value_exact<std::int64_t>().value_or(-1) : -1;
         if (value < least || value > most)
-            fail(node ? node->source() : table.source(), fmt::format("sample.{}", name),
+            fail(node ? node->source() : table.source(), fmt::format("{}.{}", section, name),
                  node ? "is not a whole number in its range" : "is missing",
-                 fmt::format("write {} = {}, in the range {} to {}", name, std::max(least, 64), least, most));
+                 fmt::format("write {} = {}, in the range {} to {}", name, example, least, most));
         return static_cast<int>(value);
+    }
+
+    /// All keys of a section but `others`, each with its range.
+    std::vector<DomainAxis> read_ranges(toml::table const& table, std::string_view section,
+                                        std::initializer_list<std::string_view> others) const {
+        std::vector<DomainAxis> ranges;
+        for (auto const& [name, node] : table) {
+            if (std::ranges::find(others, name.str()) != others.end()) continue;
+            Key const& key = known_key(name.str(), name.source());
+            auto const [low, high] = read_range(key, name, node);
+            ranges.push_back({std::string(name.str()), low, high});
+        }
+        if (ranges.empty() || ranges.size() > 40)
+            fail(table.source(), section, "needs ranges for 1 to 40 keys",
+                 "write \"trough.throw_number\" = { from = 1, to = 3 }");
+        return ranges;
+    }
+
+    void add_sample(SampleMethod method, int count, int seed, std::vector<DomainAxis> const& ranges,
+                    toml::table const& table) {
+        PointList list;
+        list.where = position_of(table.source());
+        for (DomainAxis const& range : ranges) list.keys.push_back(range.key);
+        for (auto const& row :
+             sample_cube(method, count, static_cast<int>(ranges.size()), static_cast<unsigned>(seed))) {
+            std::vector<Value> point;
+            for (std::size_t k = 0; k < row.size(); ++k) point.push_back({ranges[k].at(row[k]), list.where});
+            list.points.push_back(std::move(point));
+        }
+        add(std::move(list));
     }
 
     void read_sample(toml::table const& table) {
@@ -158,32 +191,19 @@ class DesignReader {
         if (method != "sobol" && method != "latin-hypercube")
             fail(table.source(), "sample.method", "is neither \"sobol\" nor \"latin-hypercube\"",
                  "write method = \"sobol\"");
-        int const count = whole(table, "count", 1, most_points);
-        int const seed = table.contains("seed") ? whole(table, "seed", 0, 2'147'483'647) : 1;
-        PointList list;
-        list.where = position_of(table.source());
-        std::vector<std::array<double, 2>> ranges;
-        for (auto const& [name, node] : table) {
-            if (name.str() == "method" || name.str() == "count" || name.str() == "seed") continue;
-            Key const& key = known_key(name.str(), name.source());
-            ranges.push_back(read_range(key, name, node));
-            list.keys.emplace_back(name.str());
-        }
-        if (ranges.empty() || ranges.size() > 40)
-            fail(table.source(), "sample", "needs ranges for 1 to 40 keys",
-                 "write \"trough.throw_number\" = { from = 1, to = 3 }");
-        auto const cube = sample_cube(method == "sobol" ? SampleMethod::sobol : SampleMethod::latin_hypercube,
-                                      count, static_cast<int>(ranges.size()), static_cast<unsigned>(seed));
-        for (auto const& row : cube) {
-            std::vector<Value> point;
-            for (std::size_t k = 0; k < row.size(); ++k) {
-                double const value = ranges[k][0] + row[k] * (ranges[k][1] - ranges[k][0]);
-                bool const integer = find_key(list.keys[k])->kind == KeyKind::integer;
-                point.push_back({integer ? std::round(value) : value, list.where});
-            }
-            list.points.push_back(std::move(point));
-        }
-        add(std::move(list));
+        int const count = whole(table, "sample", "count", 1, most_points, 64);
+        int const seed = table.contains("seed") ? whole(table, "sample", "seed", 0, 2'147'483'647, 64) : 1;
+        add_sample(method == "sobol" ? SampleMethod::sobol : SampleMethod::latin_hypercube, count, seed,
+                   read_ranges(table, "sample", {"method", "count", "seed"}), table);
+    }
+
+    /// The domain of a surface begins with points that fill it.
+    void read_domain(toml::table const& table) {
+        campaign_.domain = read_ranges(table, "domain", {"start", "seed"});
+        int const usual = 4 * static_cast<int>(campaign_.domain.size()) + 2;
+        int const count = table.contains("start") ? whole(table, "domain", "start", 4, 10'000, usual) : usual;
+        int const seed = table.contains("seed") ? whole(table, "domain", "seed", 0, 2'147'483'647, 1) : 1;
+        add_sample(SampleMethod::sobol, count, seed, campaign_.domain, table);
     }
 
     std::array<double, 2> read_range(Key const& key, toml::key const& name, toml::node const& node) const {
@@ -191,7 +211,7 @@ class DesignReader {
         bool const whole_range =
             range != nullptr && range->size() == 2 && range->contains("from") && range->contains("to");
         if (!whole_range) fail(name.source(), name.str(), "is not a range", "write { from = a, to = b }");
-        if (has_words(key)) fail(name.source(), name.str(), "its values have no order", "sample a number");
+        if (has_words(key)) fail(name.source(), name.str(), "its values have no order", "choose a number");
         std::array<double, 2> const ends{std::get<double>(read_content(key, *range->get("from"), file_)),
                                          std::get<double>(read_content(key, *range->get("to"), file_))};
         if (!(ends[0] < ends[1]))
@@ -272,7 +292,8 @@ class DesignReader {
 }  // namespace
 
 bool is_design_section(std::string_view name) {
-    constexpr std::array<std::string_view, 5> names{"zip", "points", "points_from", "sample", "exclude"};
+    constexpr std::array<std::string_view, 6> names{"zip",    "points",  "points_from",
+                                                    "sample", "exclude", "domain"};
     return std::ranges::find(names, name) != names.end();
 }
 

@@ -9,7 +9,8 @@
 
 namespace vibrotrough::scenario {
 
-/// Whether a section of the campaign file belongs to the design: zip, points, points_from, sample, exclude.
+/// Whether a section of the campaign file belongs to the design: zip, points, points_from, sample,
+/// exclude, domain.
 bool is_design_section(std::string_view name);
 
 /// Reads one of these sections into the lists, exclusions and files of `campaign`.

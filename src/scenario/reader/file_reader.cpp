@@ -90,7 +90,7 @@ class CampaignFileReader {
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, core::printable(name.str(), 60), "unknown section",
                  "the sections are campaign, trough, grains, layer, measure, output, solver, sweep, zip, "
-                 "points, points_from, sample, exclude and run");
+                 "points, points_from, sample, domain, exclude and run");
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",

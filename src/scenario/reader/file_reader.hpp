@@ -20,11 +20,12 @@ struct Axis {
 
 /// The campaign file as checked values, before the cases are made.
 struct CampaignText {
-    std::string name;                          ///< of the campaign
-    CaseValues base;                           ///< the keys outside sweep and lists
-    std::vector<Axis> sweep;                   ///< in the order of the file
-    std::vector<PointList> lists;              ///< zipped lists, points, samples
-    std::vector<Exclusion> exclusions;         ///< cases to leave out
+    std::string name;                   ///< of the campaign
+    CaseValues base;                    ///< the keys outside sweep and lists
+    std::vector<Axis> sweep;            ///< in the order of the file
+    std::vector<PointList> lists;       ///< zipped lists, points, samples
+    std::vector<DomainAxis> domain;     ///< of the surface to learn; its first points are among `lists`
+    std::vector<Exclusion> exclusions;  ///< cases to leave out
     std::vector<std::filesystem::path> files;  ///< CSV files of points that the campaign file names
     RunSettings run;                           ///< the section [run]
 };

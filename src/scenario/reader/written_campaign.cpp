@@ -1,6 +1,8 @@
 #include "scenario/reader/written_campaign.hpp"
 
 #include "core/error.hpp"
+#include "scenario/reader/design.hpp"
+#include "scenario/reader/value_reader.hpp"
 
 #include <sstream>
 
@@ -21,6 +23,35 @@ WrittenKeys keys_of(Scenario const& scenario) {
     }
     keys.emplace("grains.shape", "\"sphere\"");  // to_toml leaves this key out for spheres
     return keys;
+}
+
+namespace {
+
+/// The value that to_toml() writes for a key.
+std::optional<Content> written_value(Scenario const& scenario, std::string_view key) {
+    Key const* const known = find_key(key);
+    if (known == nullptr) return {};
+    toml::table const root = toml::parse(to_toml(scenario));
+    auto const dot = key.find('.');
+    toml::node_view const node = root[key.substr(0, dot)][key.substr(dot + 1)];
+    if (!node) return {};
+    return read_content(*known, *node.node(), "scenario.toml");
+}
+
+}  // namespace
+
+std::optional<double> number_of(Scenario const& scenario, std::string_view key) {
+    auto value = written_value(scenario, key);
+    if (!value && find_key(key) != nullptr) value = value_of(scenario, {}, key);
+    auto const* const number = value ? std::get_if<double>(&*value) : nullptr;
+    return number != nullptr ? std::optional(*number) : std::nullopt;
+}
+
+std::optional<std::string> word_of(Scenario const& scenario, std::string_view key) {
+    auto const value = written_value(scenario, key);
+    auto const* const word = value ? std::get_if<std::string>(&*value) : nullptr;
+    if (word != nullptr) return *word;
+    return key == "grains.shape" ? std::optional<std::string>("sphere") : std::nullopt;
 }
 
 std::set<std::string> differing_keys(std::vector<WrittenKeys> const& cases) {

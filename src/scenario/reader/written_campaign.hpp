@@ -3,8 +3,10 @@
 #include "scenario/model/scenario.hpp"
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vibrotrough::scenario {
@@ -14,6 +16,14 @@ using WrittenKeys = std::map<std::string, std::string>;
 
 /// All keys that to_toml() writes for a scenario, and its shape, which to_toml() leaves out for spheres.
 WrittenKeys keys_of(Scenario const& scenario);
+
+/// The number that a case has for a key, in SI units: written, or derived as value_of() does. Nothing when
+/// the case has no such number.
+/// @param key  path of a key that can be varied
+std::optional<double> number_of(Scenario const& scenario, std::string_view key);
+
+/// The word that a case has for a key, such as "rolling" for grains.rotation; nothing when it has none.
+std::optional<std::string> word_of(Scenario const& scenario, std::string_view key);
 
 /// The keys whose values differ between cases.
 /// @throws core::InputError when one case gives a key that another does not

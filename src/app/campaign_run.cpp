@@ -1,0 +1,97 @@
+#include "app/campaign_run.hpp"
+
+#include "app/commands/common_options.hpp"
+#include "app/engine_certificate.hpp"
+#include "app/progress_log.hpp"
+#include "app/progress_printer.hpp"
+#include "app/standard_streams.hpp"
+#include "campaign/state/folder_lock.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/own_folder.hpp"
+#include "deck/campaign_check.hpp"
+
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Prints what is not fine on standard error, one line each.
+void print_findings(deck::CampaignCheck const& found, std::string const& campaign_file) {
+    int const count = found.warnings() + found.errors();
+    if (count == 0) return;
+    tell("check: {} finding{} ('vibrotrough check {}' shows all):\n", count, count == 1 ? "" : "s",
+         campaign_file);
+    for (deck::CheckedItem const& item : found.items) {
+        if (item.worst.severity == deck::Severity::fine) continue;
+        tell("  {}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
+    }
+}
+
+/// Checks the campaign and prints what is not fine. @throws InputError when there are errors that the user
+/// has not accepted
+void check(RunOptions const& options, scenario::Campaign const& campaign) {
+    deck::CampaignCheck const found = deck::check_campaign(campaign);
+    print_findings(found, options.campaign_file);
+    if (found.errors() == 0 || options.accept_findings) return;
+    throw core::InputError(
+        fmt::format("{}: {}; correct it (see 'vibrotrough check'), or run it anyway with --accept-findings",
+                    options.campaign_file, found.first_error()));
+}
+
+}  // namespace
+
+void RunOptions::add_to(CLI::App& command) {
+    add_campaign_file(command, campaign_file);
+    add_results_folder(command, output);
+    command
+        .add_option(
+            "--jobs", jobs,
+            "Number of cores to use. Each engine takes one core, or several when it has several MPI ranks")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    add_engine(command, engine);
+    command.add_option("--progress", progress, "How to show progress on standard error")
+        ->check(CLI::IsMember({"text", "json", "none"}))
+        ->capture_default_str();
+    command.add_flag("--quiet", quiet, "Show no progress; the same as --progress none");
+    command.add_flag("--accept-failed-probes", accept_failed_probes, accept_failed_probes_help);
+    command.add_flag("--accept-findings", accept_findings,
+                     "Run although the check of the campaign found errors (see 'vibrotrough check')");
+}
+
+std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
+    if (quiet || progress == "none") return std::make_unique<NoProgress>();
+    if (progress == "json") return std::make_unique<JsonProgress>();
+    return std::make_unique<ProgressPrinter>();
+}
+
+ReadyCampaign prepare_run(RunOptions const& options) {
+    scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
+    std::optional<fs::path> const program =
+        options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
+    engine::Engine engine = engine::find_engine(program);
+    fs::path const folder =
+        options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
+    core::make_folder(folder);
+    auto own = std::make_shared<core::OwnFolder const>(folder);
+    {
+        // Fail now, before anything else is done, if the disk is full or another driver works in the folder.
+        campaign::FolderLock const lock(folder);
+    }
+    check(options, campaign);
+    bool const is_interrupted = !certify(engine, options.accept_failed_probes);
+    campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
+    plan.own = std::move(own);
+    campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
+    campaign::ExecutorInputs const inputs{folder, engine, campaign.run, options.jobs,
+                                          fs::read_symlink("/proc/self/exe")};
+    return {std::move(campaign), std::move(plan), &kind, inputs, is_interrupted};
+}
+
+}  // namespace vibrotrough::app

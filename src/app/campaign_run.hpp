@@ -1,0 +1,49 @@
+#pragma once
+
+#include "campaign/execute/campaign_driver.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+/// The options of every command that simulates a campaign.
+struct RunOptions {
+    std::string campaign_file;          ///< path
+    std::string output;                 ///< folder of the results; empty for runs/NAME
+    std::string engine;                 ///< path of the engine; empty for the one on the PATH
+    std::string progress = "text";      ///< text, json or none
+    bool quiet = false;                 ///< the same as none
+    bool accept_failed_probes = false;  ///< run an engine that failed its probes
+    bool accept_findings = false;       ///< run although the check found errors
+    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< cores to use
+
+    /// Declares the options of a command.
+    void add_to(CLI::App& command);
+    /// The observer that shows the progress as asked.
+    std::unique_ptr<campaign::Observer> make_observer() const;
+};
+
+/// A campaign that is ready to be run.
+struct ReadyCampaign {
+    scenario::Campaign campaign;         ///< as its file says
+    campaign::Plan plan;                 ///< its cases
+    campaign::ExecutorKind const* kind;  ///< that it asks for
+    campaign::ExecutorInputs inputs;     ///< of the executor
+    bool is_interrupted;                 ///< by a signal, while the engine was tested
+};
+
+/// Reads and checks a campaign, finds and tests the engine, and makes the plan in the folder of the results.
+/// @throws core::InputError when the campaign is wrong, core::MissingError when there is no usable engine,
+/// the disk refuses, or another process drives the campaign
+ReadyCampaign prepare_run(RunOptions const& options);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,163 @@
+#include "app/campaign_run.hpp"
+#include "app/commands.hpp"
+#include "app/commands/theory/options.hpp"
+#include "app/exit_code.hpp"
+#include "app/progress_log.hpp"
+#include "campaign/schedule/until_precise.hpp"
+#include "campaign/state/added_cases.hpp"
+#include "campaign/state/overview.hpp"
+#include "core/error.hpp"
+#include "core/quantity.hpp"
+#include "core/shell.hpp"
+#include "learn/learner.hpp"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    RunOptions shared;
+    Text half_width, budget, batch;
+};
+
+/// "4 core-hours" in core-seconds.
+double read_core_time(std::string const& text) {
+    std::string plain = text;
+    if (auto const at = plain.find("core-"); at != std::string::npos) plain.erase(at, 5);
+    return read_positive_quantity("--budget", plain, "s", "4 core-hours");
+}
+
+learn::LearnGoal read_goal(Options const& options) {
+    learn::LearnGoal goal{};
+    goal.half_width = read_number_within("--half-width", required("--half-width", options.half_width, "0.03"),
+                                         "0.03", 1e-4, 1);
+    goal.budget = read_core_time(required("--budget", options.budget, "\"4 core-hours\""));
+    goal.batch = options.batch ? read_count("--batch", *options.batch, "8", 1, 1000)
+                               : std::max(4, options.shared.jobs);
+    return goal;
+}
+
+std::string place_text(learn::Place const& place, std::vector<learn::SurfaceInput> const& inputs) {
+    std::string text;
+    for (std::size_t k = 0; k < place.size(); ++k)
+        text += fmt::format("{}{}={:.4g}", k == 0 ? "" : ",", inputs[k].key, place[k]);
+    return text;
+}
+
+std::string describe(learn::LearnStatus const& s, std::vector<learn::SurfaceInput> const& inputs) {
+    return fmt::format(
+        "{} cases{}: largest half-width {:.4f} at {}, mean {:.4f}; Q2 {:.3f}, {} of {} left-out points "
+        "covered; {:.3g} core-hours spent, "
+        "about {:.2g} to go",
+        s.cases, s.apart > 0 ? fmt::format(" ({} more kept apart)", s.apart) : "",
+        s.certainty.at_worst.half_width, place_text(s.certainty.worst, inputs), s.certainty.mean_half_width,
+        s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600);
+}
+
+/// Adds the cases of a batch to the plan, and remembers what is wanted of them and of those that go on.
+void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
+                std::map<std::string, double>& wanted) {
+    for (learn::LearnStep const& step : steps) {
+        if (!step.added) {
+            wanted[step.case_id] = step.half_width;
+        } else if (campaign::PlannedCase const* const added = campaign::add_case(plan, *step.added)) {
+            wanted[added->id] = step.half_width;
+        }
+    }
+    learn::write_wanted_half_widths(plan.folder, wanted);
+}
+
+/// Says how learning ended. @return the exit code
+int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std::string const& folder) {
+    bool const reached = learn::Learner::has_reached(status, goal);
+    if (reached) {
+        fmt::print("the surface is known to +- {:g} everywhere in the domain\n", goal.half_width);
+    } else if (status.certainty.at_worst.half_width > goal.half_width) {
+        fmt::print(
+            "not reached: the largest half-width is {:.4f} instead of {:g}, and the budget allows no further "
+            "step; raise --budget\n",
+            status.certainty.at_worst.half_width, goal.half_width);
+    } else {
+        fmt::print("not reached: the half-widths are as asked, but they cannot be trusted\n");
+    }
+    for (std::string const& doubt : status.doubts) fmt::print("{}\n", doubt);
+    fmt::print("ask it with: vibrotrough predict {} --at KEY=VALUE,...\n", folder);
+    return reached && status.doubts.empty() ? all_well : some_cases_failed;
+}
+
+int run(Options const& options) {
+    learn::LearnGoal const goal = read_goal(options);
+    ReadyCampaign ready = prepare_run(options.shared);
+    if (ready.is_interrupted) return interrupted;
+    scenario::CaseMaker const maker(options.shared.campaign_file);
+    learn::Learner learner(ready.plan, maker, goal);
+    auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
+    for (campaign::PlannedCase const& planned : ready.plan.cases)
+        wanted.emplace(planned.id, learner.first_half_width(planned.scenario()));
+    learn::write_wanted_half_widths(ready.plan.folder, wanted);
+    while (true) {
+        {
+            auto const shown = options.shared.make_observer();
+            LoggingObserver observer(*shown, ready.plan.folder);
+            campaign::Summary const summary = campaign::run_campaign(
+                ready.plan, options.shared.campaign_file, campaign::UntilPrecise(wanted), *ready.kind,
+                ready.inputs, campaign::Until::done, observer);
+            if (summary.interrupted) {
+                fmt::print("interrupted; the same command continues it\n");
+                return interrupted;
+            }
+        }
+        campaign::write_campaign_file(ready.plan);
+        learn::LearnStatus const status = learner.look();
+        std::string const line = describe(status, learner.inputs());
+        CampaignLog(ready.plan.folder).info("learn: " + line);
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+        auto const steps =
+            learn::Learner::has_reached(status, goal) ? std::vector<learn::LearnStep>{} : learner.choose();
+        if (steps.empty()) return conclude(status, goal, core::shell_word(ready.plan.folder));
+        take_steps(steps, ready.plan, wanted);
+    }
+}
+
+}  // namespace
+
+void add_learn(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command = program.add_subcommand(
+        "learn", "Learn the velocity efficiency over a domain with the least core-hours");
+    options->shared.add_to(*command);
+    command->add_option(
+        "--half-width", options->half_width,
+        "Largest half-width of the 95 % interval wanted anywhere in the domain, for example 0.03");
+    command->add_option("--budget", options->budget,
+                        "Core time of all simulations together, for example \"4 core-hours\"");
+    command->add_option("--batch", options->batch,
+                        "Cases that are chosen at once; default: 4, or the number of jobs if larger");
+    command->footer(
+        R"(The section [domain] of the campaign file gives the ranges of the inputs. A few cases that fill the domain are
+simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
+it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
+there. Learning ends when the largest half-width is as asked and left-out points lie within their predicted intervals as
+often as they should, or when the budget allows no further step; it then says why the goal was not reached.
+
+Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
+what is to go. Ctrl-C stops cleanly, and the same command continues.
+
+Exit codes:
+    0  the surface is as precise as asked, and nothing speaks against it
+    1  it is not, or something speaks against it; the results are kept
+    2  the input is wrong
+    3  something is missing: no liggghts, one that failed its probes, or no disk space
+  130  interrupted
+
+Example:
+  vibrotrough learn domain.toml --half-width 0.03 --budget "4 core-hours" --output runs/domain)");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,206 @@
+#include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
+#include "app/exit_code.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "core/error.hpp"
+#include "core/outcome.hpp"
+#include "learn/campaign_surface.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string folder;
+    std::vector<std::string> places;
+    bool json = false, csv = false;
+};
+
+/// "a=1,b=2" by whole keys.
+std::map<std::string, scenario::Content> read_place(std::string const& text,
+                                                    scenario::CaseMaker const& maker) {
+    std::map<std::string, scenario::Content> values;
+    for (std::size_t from = 0; from <= text.size();) {
+        std::size_t const comma = std::min(text.find(',', from), text.size());
+        std::string const setting = text.substr(from, comma - from);
+        from = comma + 1;
+        auto const equal = setting.find('=');
+        if (equal == std::string::npos || equal == 0) {
+            throw core::InputError(
+                fmt::format("--at {}: '{}' is not KEY=VALUE; write for example --at {}=...", text, setting,
+                            maker.varied_keys().empty() ? "throw_number" : maker.varied_keys().front()));
+        }
+        try {
+            std::string const key = maker.full_key(setting.substr(0, equal));
+            if (!values.emplace(key, maker.read_value(key, setting.substr(equal + 1))).second)
+                throw core::InputError(fmt::format("{} is given twice; keep one", key));
+        } catch (core::InputError const& error) {
+            throw core::InputError(fmt::format("--at {}: {}", text, error.what()));
+        }
+    }
+    return values;
+}
+
+/// The words among the values, which choose the cases of the surface.
+std::map<std::string, scenario::Content> words_among(std::map<std::string, scenario::Content> const& values) {
+    auto words = values;
+    std::erase_if(words, [](auto const& one) { return std::holds_alternative<double>(one.second); });
+    return words;
+}
+
+/// What is predicted at a place.
+struct Prediction {
+    std::vector<learn::SurfaceInput> inputs;
+    learn::Place place;
+    learn::SurfaceValue value;
+    double theory;
+    bool is_inside;
+    std::string remark;  ///< why it should not be used, or only with care; empty otherwise
+    learn::SurfaceQuality quality;
+};
+
+learn::Place numbers_at(std::map<std::string, scenario::Content> const& values,
+                        std::vector<learn::SurfaceInput> const& inputs, std::string const& text) {
+    learn::Place place;
+    for (learn::SurfaceInput const& input : inputs) {
+        auto const found = values.find(input.key);
+        if (found == values.end()) {
+            throw core::InputError(
+                fmt::format("--at {}: has no {}, which the campaign varies; write for example {},{}={:g}",
+                            text, input.key, text, input.key, (input.low + input.high) / 2));
+        }
+        place.push_back(std::get<double>(found->second));
+    }
+    return place;
+}
+
+std::string remarks(learn::Surface const& surface, learn::CampaignPoints const& points,
+                    learn::Place const& place, bool is_inside) {
+    std::vector<std::string> all;
+    if (!is_inside) all.emplace_back("The place lies outside the range of the campaign.");
+    if (auto const* apart = learn::nearest_kept_apart(points, place)) {
+        all.push_back(fmt::format("The nearest case, {}, ended as {} and is not part of the surface.",
+                                  apart->case_id, name_of(apart->outcome)));
+    }
+    for (std::string const& doubt : surface.doubts()) all.push_back(doubt);
+    return fmt::format("{}", fmt::join(all, " "));
+}
+
+Prediction predict(campaign::Plan const& plan, scenario::CaseMaker const& maker, std::string const& text) {
+    auto const values = read_place(text, maker);
+    auto const words = words_among(values);
+    learn::CampaignPoints const points = learn::campaign_points(plan, maker, words);
+    learn::Place const place = numbers_at(values, points.inputs, text);
+    learn::CampaignTheory const theory(maker, points.inputs, words);
+    static_cast<void>(theory.scenario_at(place));  // says what is wrong with the place
+    auto const efficiency = theory.efficiency_at(place);
+    if (!efficiency)
+        throw core::InputError(fmt::format(
+            "--at {}: the theory has no mean speed there, and neither has the surface; choose another place",
+            text));
+    learn::Surface const surface(points.inputs, points.points);
+    bool is_inside = true;
+    for (std::size_t k = 0; k < place.size(); ++k)
+        is_inside = is_inside && place[k] >= points.inputs[k].low && place[k] <= points.inputs[k].high;
+    return {points.inputs,    place,     surface.at(place, *efficiency),
+            *efficiency,      is_inside, remarks(surface, points, place, is_inside),
+            surface.quality()};
+}
+
+Json as_json(Prediction const& p) {
+    Json at = Json::object();
+    for (std::size_t k = 0; k < p.place.size(); ++k) at[p.inputs[k].key] = p.place[k];
+    return {{"at", at},
+            {"efficiency", p.value.efficiency},
+            {"half_width", p.value.half_width},
+            {"efficiency_theory", p.theory},
+            {"inside", p.is_inside},
+            {"remark", p.remark},
+            {"points", p.quality.points},
+            {"q2", p.quality.q2},
+            {"covered", p.quality.covered}};
+}
+
+void print_csv(std::vector<Prediction> const& predictions) {
+    for (learn::SurfaceInput const& input : predictions.front().inputs) fmt::print("{},", input.key);
+    fmt::print("efficiency,half_width,efficiency_theory,inside\n");
+    for (Prediction const& p : predictions) {
+        for (double const value : p.place) fmt::print("{},", value);
+        fmt::print("{},{},{},{}\n", p.value.efficiency, p.value.half_width, p.theory, p.is_inside ? 1 : 0);
+    }
+}
+
+void print_text(Prediction const& p) {
+    for (std::size_t k = 0; k < p.place.size(); ++k) fmt::print("{} = {:g}  ", p.inputs[k].key, p.place[k]);
+    fmt::print("\nvelocity efficiency  {:.3f} +- {:.3f} (theory {:.3f})\n", p.value.efficiency,
+               p.value.half_width, p.theory);
+    fmt::print(
+        "surface              {} points, Q2 = {:.3f}, {} of {} left-out points within their 95 % intervals\n",
+        p.quality.points, p.quality.q2, p.quality.covered, p.quality.points);
+    if (!p.remark.empty()) fmt::print("{}\n", p.remark);
+}
+
+void run(Options const& options) {
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    scenario::CaseMaker const maker(std::filesystem::path(options.folder) / "campaign.toml");
+    std::vector<Prediction> predictions;
+    for (std::string const& place : options.places) predictions.push_back(predict(plan, maker, place));
+    if (options.json) {
+        Json json = Json::array();
+        for (Prediction const& p : predictions) json.push_back(as_json(p));
+        fmt::print("{}\n", (json.size() == 1 ? json.front() : json).dump(2));
+    } else if (options.csv) {
+        print_csv(predictions);
+    } else {
+        for (Prediction const& p : predictions) print_text(p);
+    }
+}
+
+}  // namespace
+
+void add_predict(CLI::App& program, int& exit_code) {
+    CLI::App* const command =
+        program.add_subcommand("predict", "Predict the velocity efficiency between the cases of a campaign");
+    auto const options = std::make_shared<Options>();
+    add_campaign_folder(*command, options->folder);
+    command
+        ->add_option("--at", options->places,
+                     "Values of all keys that the campaign varies; repeat the option for several places")
+        ->required()
+        ->type_name("KEY=VALUE[,KEY=VALUE...]")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    auto* const json =
+        command->add_flag("--json", options->json, "Print JSON: an object, or a list for several places");
+    command->add_flag("--csv", options->csv, "Print CSV")->excludes(json);
+    command->footer(
+        R"(Fits a Gaussian process to the cases that have a result: the theory is its trend, and only the difference between
+layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval. Q2 tells
+how well each case is predicted from all others (1: perfectly, 0: no better than the mean). Cases that are bistable or
+not steady are not part of the surface, and a place near them is marked.
+
+A key may be written without its section where no other varied key has the same name. Quantities have units as in the
+campaign file; bare numbers are SI.
+
+Exit codes:
+    0  all well
+    2  the input is wrong, or too few cases have a result
+
+Example:
+  vibrotrough predict runs/demo --at throw_number=1.9)");
+    command->callback([options, &exit_code] {
+        run(*options);
+        exit_code = all_well;
+    });
+}
+
+}  // namespace vibrotrough::app

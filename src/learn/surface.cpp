@@ -1,0 +1,155 @@
+#include "learn/surface.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+/// 95 % of a normal distribution lie within so many standard deviations.
+constexpr double deviations_in_half_width = 1.959963984540054;
+/// Below this probability extra noise is taken to be real.
+constexpr double significant = 0.01;
+/// A surface whose Q2 is below this does not predict.
+constexpr double least_q2 = 0.5;
+/// Smallest standard deviation of a point: two packings that happen to agree do not make it exact.
+constexpr double least_noise = 1e-4;
+
+SurfaceQuality judge(inference::GaussianProcess const& process) {
+    auto const left_out = process.leave_one_out();
+    auto const& values = process.data().values;
+    double const mean = values.mean();
+    double errors = 0, about_mean = 0;
+    SurfaceQuality q{static_cast<int>(values.size()), 0, 0, 0, 0, process.hyperparameters().extra_noise, 1};
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        auto const& [predicted, sd] = left_out[static_cast<std::size_t>(i)];
+        double const error = values(i) - predicted;
+        errors += error * error;
+        about_mean += std::pow(values(i) - mean, 2);
+        q.covered += std::abs(error) <= deviations_in_half_width * sd ? 1 : 0;
+    }
+    q.q2 = about_mean > 0 ? 1 - errors / about_mean : 0;
+    boost::math::binomial const band(q.points, 0.95);
+    q.least_covered = static_cast<int>(std::floor(boost::math::quantile(band, 0.025)));
+    q.most_covered = static_cast<int>(std::ceil(boost::math::quantile(boost::math::complement(band, 0.025))));
+    return q;
+}
+
+}  // namespace
+
+Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend)
+    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit()) {}
+
+inference::GaussianProcess Surface::fit() {
+    auto const n = static_cast<Eigen::Index>(points_.size());
+    auto const d = static_cast<Eigen::Index>(inputs_.size());
+    if (n < std::max<Eigen::Index>(4, 2 * d)) {
+        throw core::InputError(
+            fmt::format("a surface over {} input{} needs at least {} steady cases with an interval, and "
+                        "there {} {}; simulate more",
+                        d, d == 1 ? "" : "s", std::max<Eigen::Index>(4, 2 * d), n == 1 ? "is" : "are", n));
+    }
+    Eigen::Index const functions = trend_at(0).size();
+    inference::ProcessData data{Eigen::MatrixXd(n, d), Eigen::MatrixXd(n, functions), Eigen::VectorXd(n),
+                                Eigen::VectorXd(n)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+        SurfacePoint const& point = points_[static_cast<std::size_t>(i)];
+        data.inputs.row(i) = scaled(point.place);
+        data.trend.row(i) = trend_at(point.theory);
+        data.values(i) = point.efficiency;
+        data.noise(i) = std::max(least_noise, point.half_width / deviations_in_half_width);
+    }
+    inference::ProcessSettings settings;
+    auto process = inference::GaussianProcess::fitted(data, prior(), settings);
+    settings.has_extra_noise = true;
+    auto const noisy = inference::GaussianProcess::fitted(data, prior(), settings);
+    // Extra noise cannot be negative, so that half of the likelihood ratio's distribution lies at zero (H.
+    // Chernoff, Ann. Math. Stat. 25 (1954) 573-578).
+    double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
+    double const p = 0.5 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(1), ratio));
+    if (p < significant) process = noisy;
+    quality_ = judge(process);
+    quality_.extra_noise_p = p;
+    return process;
+}
+
+Eigen::VectorXd Surface::scaled(Place const& place) const {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(inputs_.size()));
+    for (std::size_t k = 0; k < inputs_.size(); ++k)
+        x(static_cast<Eigen::Index>(k)) = (place[k] - inputs_[k].low) / (inputs_[k].high - inputs_[k].low);
+    return x;
+}
+
+inference::TrendPrior Surface::prior() const {
+    if (trend_ == Trend::theory) return {Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{1, 1}}};
+    return {Eigen::VectorXd{{0.5}}, Eigen::VectorXd{{1}}};
+}
+
+Eigen::VectorXd Surface::trend_at(double theory) const {
+    return trend_ == Trend::theory ? Eigen::VectorXd{{1, theory}} : Eigen::VectorXd{{1}};
+}
+
+SurfaceValue Surface::at(Place const& place, double theory) const {
+    auto const [mean, sd] = process_.predict(scaled(place), trend_at(theory));
+    return {mean, deviations_in_half_width * sd};
+}
+
+double Surface::variance_reduction(Place const& place, double theory, Place const& where, double theory_there,
+                                   double half_width) const {
+    Eigen::VectorXd const x = scaled(where), h = trend_at(theory_there);
+    double const covariance = process_.covariance(scaled(place), trend_at(theory), x, h);
+    double const extra = process_.hyperparameters().extra_noise;
+    double const noise = half_width / deviations_in_half_width;
+    double const variance = std::pow(process_.predict(x, h).sd, 2) + noise * noise + extra * extra;
+    return variance > 0 ? covariance * covariance / variance : 0;
+}
+
+void Surface::believe(SurfacePoint const& point) {
+    inference::ProcessData data = process_.data();
+    Eigen::Index const n = data.values.size();
+    data.inputs.conservativeResize(n + 1, Eigen::NoChange);
+    data.trend.conservativeResize(n + 1, Eigen::NoChange);
+    data.values.conservativeResize(n + 1);
+    data.noise.conservativeResize(n + 1);
+    data.inputs.row(n) = scaled(point.place);
+    data.trend.row(n) = trend_at(point.theory);
+    data.values(n) = point.efficiency;
+    data.noise(n) = std::max(least_noise, point.half_width / deviations_in_half_width);
+    process_ = inference::GaussianProcess(std::move(data), prior(), process_.hyperparameters());
+    points_.push_back(point);
+}
+
+std::vector<std::string> Surface::doubts() const {
+    std::vector<std::string> doubts;
+    if (quality_.q2 < least_q2) {
+        doubts.push_back(
+            fmt::format("Points that are left out are not predicted (Q2 = {:.2f}, where 1 is perfect and 0 "
+                        "is no better than "
+                        "the mean): the inputs do not explain the efficiencies, or there are too few points.",
+                        quality_.q2));
+    }
+    if (!quality_.coverage_is_right()) {
+        doubts.push_back(
+            fmt::format("{} of {} points lie within the 95 % intervals that the others predict, where {} to "
+                        "{} are to be expected: "
+                        "the intervals of the surface are {}.",
+                        quality_.covered, quality_.points, quality_.least_covered, quality_.most_covered,
+                        quality_.covered < quality_.least_covered ? "too narrow" : "too wide"));
+    }
+    if (quality_.extra_noise > 0) {
+        doubts.push_back(
+            fmt::format("The points scatter by {:.2g} (standard deviation) more than their intervals say (p "
+                        "= {:.1g}): the intervals "
+                        "are too narrow, or the efficiency changes faster than the points can show.",
+                        quality_.extra_noise, quality_.extra_noise_p));
+    }
+    return doubts;
+}
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "inference/gaussian_process.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+/// An input of a surface and the range that is scaled to [0, 1].
+struct SurfaceInput {
+    std::string key;   ///< path of the key in the campaign file
+    double low, high;  ///< ends of the range, SI units, low < high
+};
+
+/// A place: one value per input of the surface, SI units.
+using Place = std::vector<double>;
+
+/// A simulated case as a point of the surface.
+struct SurfacePoint {
+    std::string case_id;  ///< of the case
+    Place place;          ///< its inputs
+    double theory;        ///< velocity efficiency of the theory there
+    double efficiency;    ///< velocity efficiency of the layer
+    double half_width;    ///< of its 95 % confidence interval, >= 0
+};
+
+/// Whether the theory's velocity efficiency is part of the trend.
+enum class Trend {
+    theory,    ///< constant and theory: only the difference is learnt
+    constant,  ///< constant alone, for comparison
+};
+
+/// What the surface says of a place.
+struct SurfaceValue {
+    double efficiency;  ///< velocity efficiency of the layer
+    double half_width;  ///< of its 95 % interval
+};
+
+/// How well a surface predicts its own points, each from all others.
+struct SurfaceQuality {
+    int points;   ///< number of points
+    double q2;    ///< 1 - sum of squared errors over that of the mean; 1 at best, <= 0 useless
+    int covered;  ///< points within their predicted 95 % interval
+    int least_covered, most_covered;  ///< central 95 % band of the binomial distribution of `covered`
+    /// Standard deviation of scatter that the points' intervals do not contain; 0 unless it is significant.
+    double extra_noise;
+    double extra_noise_p;  ///< probability of such a sign of extra noise by chance
+
+    /// Whether `covered` lies in its band.
+    bool coverage_is_right() const { return covered >= least_covered && covered <= most_covered; }
+};
+
+/// The velocity efficiency of a layer over the inputs of a campaign, and how sure it is: a Gaussian process
+/// (inference/gaussian_process.hpp) with the trend beta_0 + beta_1 theory, beta_0 ~ N(0, 1), beta_1 ~ N(1,
+/// 1), the noise of every point from its own interval, and hyperparameters of the largest likelihood.
+///
+/// If the points scatter by more than their intervals say (likelihood ratio test, p < 0.01), extra noise is
+/// estimated and kept, so that the surface does not pretend to be sure.
+class Surface {
+  public:
+    /// Fits a surface. @throws core::InputError when there are too few points: fewer than four, or than twice
+    /// the number of inputs
+    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend = Trend::theory);
+
+    /// The velocity efficiency at a place. @param theory  velocity efficiency of the theory there
+    SurfaceValue at(Place const& place, double theory) const;
+
+    /// By how much a further value at `where`, with so wide a 95 % interval, would lower the variance of the
+    /// efficiency at `place`.
+    double variance_reduction(Place const& place, double theory, Place const& where, double theory_there,
+                              double half_width) const;
+
+    /// Takes a point as known, without judging the surface or finding its hyperparameters again.
+    void believe(SurfacePoint const& point);
+
+    /// How well the surface predicts its own points.
+    SurfaceQuality const& quality() const { return quality_; }
+    /// Why the surface should not be used, in whole sentences; empty when nothing speaks against it.
+    std::vector<std::string> doubts() const;
+
+    std::vector<SurfaceInput> const& inputs() const { return inputs_; }     ///< of the surface
+    std::vector<SurfacePoint> const& points() const { return points_; }     ///< on which it rests
+    inference::GaussianProcess const& process() const { return process_; }  ///< behind it
+    /// The place scaled to [0, 1] where the ranges lie.
+    Eigen::VectorXd scaled(Place const& place) const;
+
+  private:
+    inference::GaussianProcess fit();
+    Eigen::VectorXd trend_at(double theory) const;
+    inference::TrendPrior prior() const;
+
+    std::vector<SurfaceInput> inputs_;
+    std::vector<SurfacePoint> points_;
+    Trend trend_;
+    SurfaceQuality quality_{};
+    inference::GaussianProcess process_;
+};
+
+}  // namespace vibrotrough::learn

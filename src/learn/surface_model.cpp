@@ -1,0 +1,178 @@
+#include "learn/surface_model.hpp"
+
+#include "core/error.hpp"
+#include "scenario/reader/written_campaign.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Inputs that a measurement gives: each from the setting of the machine.
+struct MachineKey {
+    std::string_view key;
+    double (*value)(MeasuredSpeed const&);
+};
+
+double omega(MeasuredSpeed const& m) {
+    return 2 * std::numbers::pi * m.frequency;
+}
+double alpha(MeasuredSpeed const& m) {
+    return m.inclination.value_or(0);
+}
+double machine_number(MeasuredSpeed const& m) {
+    return omega(m) * omega(m) * m.amplitude / scenario::gravity;
+}
+
+constexpr std::array<MachineKey, 8> machine_keys{{
+    {"trough.frequency", [](MeasuredSpeed const& m) { return m.frequency; }},
+    {"trough.amplitude", [](MeasuredSpeed const& m) { return m.amplitude; }},
+    {"trough.vibration_angle", [](MeasuredSpeed const& m) { return *m.vibration_angle; }},
+    {"trough.tan_vibration_angle", [](MeasuredSpeed const& m) { return std::tan(*m.vibration_angle); }},
+    {"trough.inclination", [](MeasuredSpeed const& m) { return alpha(m); }},
+    {"trough.tan_inclination", [](MeasuredSpeed const& m) { return std::tan(alpha(m)); }},
+    {"trough.machine_number", [](MeasuredSpeed const& m) { return machine_number(m); }},
+    {"trough.throw_number",
+     [](MeasuredSpeed const& m) {
+         return machine_number(m) * std::sin(*m.vibration_angle) / std::cos(alpha(m));
+     }},
+}};
+
+MachineKey const* machine_key(std::string const& key) {
+    auto const found = std::ranges::find(machine_keys, key, &MachineKey::key);
+    return found == machine_keys.end() ? nullptr : &*found;
+}
+
+/// The machine of a case must be that of the measurement.
+void check_machine(scenario::Scenario const& scenario, MeasuredSpeed const& m) {
+    struct Quantity {
+        char const* name;
+        double campaign, measured, tolerance, in_unit;
+        char const* unit;
+    };
+    scenario::Trough const& t = scenario.trough;
+    // A quarter of a degree, and two percent: as well as machines are usually known.
+    for (Quantity const& q :
+         {Quantity{"amplitude", t.amplitude, m.amplitude, 0.02 * m.amplitude, 1e3, "mm"},
+          Quantity{"frequency", t.frequency, m.frequency, 0.02 * m.frequency, 1, "Hz"},
+          Quantity{"vibration angle", t.vibration_angle, *m.vibration_angle, degree / 4, 1 / degree,
+                   "degrees"},
+          Quantity{"inclination", t.inclination, alpha(m), degree / 4, 1 / degree, "degrees"}}) {
+        if (std::abs(q.campaign - q.measured) <= q.tolerance) continue;
+        throw core::InputError(
+            fmt::format("line {}: the {} is {:.4g} {} and that of the campaign {:.4g} {}; simulate the "
+                        "machine that was measured, or vary this key",
+                        m.line, q.name, q.in_unit * q.measured, q.unit, q.in_unit * q.campaign, q.unit));
+    }
+}
+
+/// Where each input of the surface comes from: a free parameter, or the measurement.
+struct Source {
+    std::optional<std::size_t> parameter;
+    MachineKey const* machine;
+};
+
+class SurfaceModel {
+  public:
+    SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources)
+        : surface_(std::move(surface)), theory_(std::move(theory)), sources_(std::move(sources)) {}
+
+    Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
+        Place place;
+        for (Source const& source : sources_)
+            place.push_back(source.parameter ? values[*source.parameter] : source.machine->value(measured));
+        return place;
+    }
+
+    std::optional<ModelSpeed> operator()(std::span<double const> values,
+                                         MeasuredSpeed const& measured) const {
+        Place const at = place(values, measured);
+        auto const theory = theory_.efficiency_at(at);
+        if (!theory) return {};
+        auto const [efficiency, half_width] = surface_->at(at, *theory);
+        double const trough_speed =
+            omega(measured) * measured.amplitude * std::cos(*measured.vibration_angle);
+        return ModelSpeed{efficiency * trough_speed, half_width / 1.959964 * trough_speed, trough_speed};
+    }
+
+    CampaignTheory const& theory() const { return theory_; }
+
+  private:
+    std::shared_ptr<Surface const> surface_;
+    CampaignTheory theory_;
+    std::vector<Source> sources_;
+};
+
+std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
+                               std::vector<std::string> const& free) {
+    std::vector<Source> sources;
+    for (SurfaceInput const& input : inputs) {
+        auto const found = std::ranges::find(free, input.key);
+        if (found != free.end()) {
+            sources.push_back({static_cast<std::size_t>(found - free.begin()), nullptr});
+        } else if (MachineKey const* const machine = machine_key(input.key)) {
+            sources.push_back({{}, machine});
+        } else {
+            throw core::InputError(fmt::format(
+                "the campaign varies {}, which the measurements do not give; add it to --free", input.key));
+        }
+    }
+    for (std::string const& name : free) {
+        if (std::ranges::find(inputs, name, &SurfaceInput::key) == inputs.end())
+            throw core::InputError(fmt::format("--free {}: the campaign does not vary it", name));
+        if (machine_key(name) != nullptr)
+            throw core::InputError(
+                fmt::format("--free {}: the measurements give it; free another input", name));
+    }
+    return sources;
+}
+
+}  // namespace
+
+std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& inputs) {
+    std::vector<FreeParameter> parameters;
+    for (SurfaceInput const& input : inputs) {
+        if (machine_key(input.key) != nullptr) continue;
+        std::string const unit(scenario::find_key(input.key)->unit);
+        parameters.push_back({input.key, unit.empty() ? "1" : unit, {input.low, input.high}});
+    }
+    return parameters;
+}
+
+SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseMaker const& maker,
+                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds) {
+    auto const inputs = surface->inputs();
+    SurfaceModel const model(std::move(surface), CampaignTheory(maker, inputs, {}), sources_of(inputs, free));
+    std::vector<double> middle;
+    for (std::string const& name : free) {
+        auto const input = std::ranges::find(inputs, name, &SurfaceInput::key);
+        middle.push_back((input->low + input->high) / 2);
+    }
+    for (MeasuredSpeed const& m : speeds) {
+        if (!m.vibration_angle)
+            throw core::InputError(
+                fmt::format("line {} has no vibration angle; write the column vibration_angle_deg", m.line));
+        Place const place = model.place(middle, m);
+        check_machine(model.theory().scenario_at(place), m);
+        for (std::size_t k = 0; k < inputs.size(); ++k) {
+            double const margin = 0.02 * (inputs[k].high - inputs[k].low);
+            if (place[k] >= inputs[k].low - margin && place[k] <= inputs[k].high + margin) continue;
+            throw core::InputError(
+                fmt::format("line {}: {} is {:.4g} there, outside the range {:.4g} to {:.4g} of the "
+                            "campaign; simulate it, too",
+                            m.line, inputs[k].key, place[k], inputs[k].low, inputs[k].high));
+        }
+    }
+    return model;
+}
+
+}  // namespace vibrotrough::learn

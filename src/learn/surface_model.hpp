@@ -1,0 +1,26 @@
+#pragma once
+
+#include "learn/calibration.hpp"
+#include "learn/campaign_surface.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+/// The inputs of a campaign that can be free in a calibration: those that do not describe how the machine was
+/// set. Their priors are the ranges of the surface.
+std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& inputs);
+
+/// The surface of a simulated layer as a model of measured speeds, with its own uncertainty. What a
+/// measurement says of the machine (frequency, amplitude, angles) chooses the place on the surface; the free
+/// parameters are its other inputs.
+/// @param maker  of the campaign; what it does not vary must be as in the measurements
+/// @param free   whole keys among surface_parameters()
+/// @throws core::InputError when an input is neither free nor part of a measurement, or a measurement differs
+/// from the campaign in what the campaign does not vary, or lies outside the range of the surface
+SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseMaker const& maker,
+                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds);
+
+}  // namespace vibrotrough::learn

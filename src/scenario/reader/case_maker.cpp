@@ -1,0 +1,66 @@
+#include "scenario/reader/case_maker.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/csv.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "scenario/reader/value_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::scenario {
+
+CaseMaker::CaseMaker(std::filesystem::path const& campaign_file)
+    : file_(campaign_file.string()),
+      text_(read_campaign_text(core::read_file(campaign_file), file_)),
+      source_{campaign_file.parent_path(), {}} {
+    auto const add = [&](std::string const& key) {
+        if (std::ranges::find(varied_, key) == varied_.end()) varied_.push_back(key);
+    };
+    for (Axis const& axis : text_.sweep) add(axis.key);
+    for (PointList const& list : text_.lists) std::ranges::for_each(list.keys, add);
+}
+
+Scenario CaseMaker::make(std::map<std::string, Content> const& values) const {
+    CaseValues all = text_.base;
+    for (auto const& [key, value] : values) set_value(all, key, {value, {}});
+    return make_scenario(text_.name, all, file_, source_);
+}
+
+std::string CaseMaker::full_key(std::string const& name) const {
+    std::vector<std::string> found;
+    for (std::string const& key : varied_) {
+        if (key == name) return key;
+        if (last_name(key) == name) found.push_back(key);
+    }
+    if (found.size() == 1) return found.front();
+    if (!found.empty()) {
+        throw core::InputError(fmt::format("{} may be {}; write the whole key", core::printable(name, 60),
+                                           fmt::join(found, " or ")));
+    }
+    throw core::InputError(fmt::format("{} is not varied in this campaign; its inputs are {}",
+                                       core::printable(name, 60), fmt::join(varied_, ", ")));
+}
+
+Content CaseMaker::read_value(std::string const& key, std::string const& text) const {
+    Key const& known = *find_key(key);
+    auto const number = core::csv_number(text, ',', core::CsvNumbers::finite);
+    try {
+        if (!has_words(known) && number) {
+            bool const whole = known.kind == KeyKind::integer && *number == std::round(*number);
+            if (whole) return read_content(known, toml::value<std::int64_t>(std::llround(*number)), "");
+            return read_content(known, toml::value<double>(*number), "");
+        }
+        return read_content(known, toml::value<std::string>(text), "");
+    } catch (core::InputError const& error) {
+        std::string const message = error.what();
+        auto const start = message.find(key);
+        throw core::InputError(start == std::string::npos ? message : message.substr(start));
+    }
+}
+
+}  // namespace vibrotrough::scenario

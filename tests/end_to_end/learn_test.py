@@ -1,0 +1,97 @@
+"""Learning a surface, asking it, and calibrating on it, with the real engine."""
+
+import csv
+import io
+import json
+import math
+import unittest
+
+from trough_program import EndToEndTest, campaign_text
+
+# A domain of one input and few points, with a goal that a few batches reach.
+PLAN = {"measure.packings": 4, "measure.half_width": 0.2, "measure.max_cycles": 48, "measure.max_packings": 8}
+DOMAIN = '[domain]\nstart = 4\n"trough.throw_number" = { from = 1.5, to = 3 }\n'
+
+
+class Learn(EndToEndTest):
+    def write_domain(self, design=DOMAIN):
+        path = self.folder / "domain.toml"
+        path.write_text(campaign_text({**PLAN, "trough.throw_number": 2.0}) + design)
+        return path
+
+    def learn(self, *words, half_width="0.4"):
+        return self.call("learn", self.write_domain(), "--output", self.output, "--liggghts", self.engine, "--quiet",
+                         "--accept-findings", "--batch", "2", "--half-width", half_width, *words)
+
+    def predict(self, *places, form="--json"):
+        words = [word for place in places for word in ("--at", place)]
+        answer = self.call("predict", self.output, *words, form)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return answer.stdout
+
+    def test_a_surface_is_learnt_asked_and_used(self):
+        answer = self.learn("--budget", "1 core-hours")
+        self.assertIn(answer.returncode, (0, 1), answer.stderr)
+        self.assertIn("largest half-width", answer.stdout)
+        self.assertIn("covered", answer.stdout)
+        cases = len(self.results())
+        self.assertGreaterEqual(cases, 4)
+
+        one = json.loads(self.predict("throw_number=2.2"))
+        self.assertGreater(one["efficiency"], 0)
+        self.assertGreater(one["half_width"], 0)
+        self.assertEqual(one["at"], {"trough.throw_number": 2.2})
+        self.assertTrue(one["inside"])
+        two = list(csv.DictReader(io.StringIO(self.predict("throw_number=2.2", "trough.throw_number=9", form="--csv"))))
+        self.assertAlmostEqual(float(two[0]["efficiency"]), one["efficiency"], 9)
+        self.assertEqual([row["inside"] for row in two], ["1", "0"])
+
+        # The same command knows what is there: it simulates nothing when the goal is reached.
+        starts = self.starts_file.stat().st_size
+        again = self.learn("--budget", "1 core-hours")
+        self.assertEqual(again.returncode, answer.returncode, again.stderr)
+        self.assertEqual(self.starts_file.stat().st_size, starts)
+        self.assertEqual(len(self.results()), cases)
+
+    def test_a_small_budget_ends_it(self):
+        answer = self.learn("--budget", "1 core-seconds", half_width="0.01")
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertIn("not reached", answer.stdout)
+        self.assertIn("--budget", answer.stdout)
+        self.assertEqual(len(self.results()), 4)  # the start is always simulated
+
+    def test_calibration_on_a_campaign(self):
+        campaign = self.write_campaign({**PLAN, "measure.half_width": 0.15},
+                                       {"trough.throw_number": [1.8, 2.4], "trough.friction": [0.15, 0.25, 0.4]})
+        self.run_campaign(campaign, wanted=None)
+        omega = math.sqrt(2 * 9.81 / (0.003 * math.sin(math.atan(0.5))))
+        speeds = self.folder / "speeds.csv"
+        speeds.write_text("amplitude_mm,frequency_hz,vibration_angle_deg,speed_m_per_s,uncertainty_m_per_s\n"
+                          f"3,{omega / (2 * math.pi)},{math.degrees(math.atan(0.5))},0.15,0.01\n")
+        answer = self.call("calibrate", self.output, "--measured", speeds, "--free", "friction", "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        friction = json.loads(answer.stdout)["parameters"][0]
+        self.assertEqual(friction["name"], "trough.friction")
+        self.assertGreaterEqual(friction["low"], 0.15)
+        self.assertLessEqual(friction["high"], 0.4)
+
+    def test_what_is_wrong_is_refused(self):
+        campaign = self.write_domain()
+        for words, message in (
+            (["learn", campaign, "--output", self.output, "--budget", "1 core-hours"], "--half-width is missing"),
+            (["learn", campaign, "--output", self.output, "--half-width", "0.1"], "--budget is missing"),
+            (["learn", campaign, "--output", self.output, "--half-width", "0.1", "--budget", "4 apples"], "--budget"),
+            (["predict", self.folder, "--at", "throw_number=2"], "campaign"),
+        ):
+            answer = self.call(*words)
+            self.assertEqual(answer.returncode, 2, answer.stderr)
+            self.assertIn(message, answer.stderr)
+        plain = self.write_domain('[sweep]\n"trough.throw_number" = [1.5, 2.0]\n')
+        answer = self.call("learn", plain, "--output", self.output, "--liggghts", self.engine, "--quiet", "--accept-findings",
+                           "--half-width", "0.4", "--budget", "1 core-hours")
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        self.assertIn("[domain]", answer.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,211 @@
+#include "learn/learner.hpp"
+
+#include "campaign/state/added_cases.hpp"
+#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/written_campaign.hpp"
+#include "store/result_file.hpp"
+#include "store/sample_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string const domain_campaign =
+    with("rolling_friction = 0.0", "rolling_friction = 0.1\nrotation = \"rolling\"") +
+    "\n[domain]\n\"trough.throw_number\" = { from = 1, to = 3 }\n\"grains.rolling_friction\" = { from = 0, "
+    "to = 0.3 }\n";
+
+/// A campaign whose results are written by the test instead of being simulated.
+class LearnedCampaign : public testing::Test {
+  protected:
+    explicit LearnedCampaign(std::string const& text = domain_campaign) {
+        std::ofstream(file_) << text;
+        maker.emplace(file_);
+        plan = campaign::make_plan(scenario::read_campaign(file_), own_folder_.path() / "campaign",
+                                   "LIGGGHTS 3.8.0");
+    }
+
+    /// A layer that is faster than the theory around throw number 1.75, the more so the easier it rolls.
+    double layer_at(campaign::PlannedCase const& planned) const {
+        double const gamma = *scenario::number_of(planned.scenario(), "trough.throw_number");
+        double const rolling = *scenario::number_of(planned.scenario(), "grains.rolling_friction");
+        double const theory = prepare::solve(planned.prepared->point_mass).velocity_efficiency;
+        return theory + 0.3 * std::exp(-std::pow((gamma - 1.75) / 0.4, 2)) * std::exp(-rolling / 0.15);
+    }
+
+    /// Writes the result of a case with so wide an interval, which costs 1 core-second at 0.02.
+    void simulate(campaign::PlannedCase const& planned, double half_width,
+                  core::Outcome outcome = core::Outcome::finished) {
+        store::CaseRecord record = store::sample_record(planned.id);
+        record.outcome = outcome;
+        record.estimate.mean = layer_at(planned) + half_width / 1.96 * normal_(random_);
+        record.estimate.half_width = half_width;
+        if (outcome == core::Outcome::bistable_or_slow) record.estimate.mean.reset();
+        for (auto& packing : record.packings)
+            packing.core_time = std::pow(0.02 / half_width, 2) / static_cast<double>(record.packings.size());
+        fs::create_directories(planned.folder);
+        store::write_result(planned.result_file(), record);
+    }
+
+    void simulate_all(double half_width) {
+        for (campaign::PlannedCase const& planned : plan.cases) simulate(planned, half_width);
+    }
+
+    std::optional<scenario::CaseMaker> maker;
+    campaign::Plan plan;
+
+  private:
+    core::TemporaryFolder own_folder_;
+    fs::path file_ = own_folder_.path() / "campaign.toml";
+    std::mt19937_64 random_{4};
+    std::normal_distribution<double> normal_;
+};
+
+// The start: 4 d + 2 points of a Sobol sequence within the ranges.
+TEST_F(LearnedCampaign, BeginsWithPointsThatFillTheDomain) {
+    EXPECT_EQ(plan.cases.size(), 10U);
+    double low = 3, high = 1;
+    for (campaign::PlannedCase const& planned : plan.cases) {
+        double const gamma = *scenario::number_of(planned.scenario(), "trough.throw_number");
+        low = std::min(low, gamma);
+        high = std::max(high, gamma);
+    }
+    EXPECT_GE(low, 1);
+    EXPECT_LE(high, 3);
+    EXPECT_GT(high - low, 1.4);  // ten points in one dimension leave gaps of about a tenth of the range
+}
+
+TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
+    simulate_all(0.03);
+    simulate(plan.cases[3], 0.03, core::Outcome::bistable_or_slow);
+    fs::remove(plan.cases[5].result_file());
+    CampaignPoints const points = campaign_points(plan, *maker);
+    EXPECT_EQ(points.points.size(), 8U);
+    ASSERT_EQ(points.apart.size(), 1U);
+    EXPECT_EQ(points.apart[0].case_id, plan.cases[3].id);
+    EXPECT_EQ(points.missing, 1);
+    ASSERT_EQ(points.inputs.size(), 2U);
+    auto const gamma = std::ranges::find(points.inputs, "trough.throw_number", &SurfaceInput::key);
+    ASSERT_NE(gamma, points.inputs.end());
+    EXPECT_EQ(gamma->low, 1);
+    EXPECT_EQ(gamma->high, 3);
+    // The place of the bistable case is nearest to it; that of another case is not.
+    EXPECT_EQ(nearest_kept_apart(points, points.apart[0].place), &points.apart[0]);
+    EXPECT_EQ(nearest_kept_apart(points, points.points[0].place), nullptr);
+    // The theory of a place is that of the case there.
+    CampaignTheory const theory(*maker, points.inputs, {});
+    EXPECT_NEAR(*theory.efficiency_at(points.points[0].place), points.points[0].theory, 1e-9);
+}
+
+// The loop ends with the half-widths that were asked for, and the surface is as near to the truth as it says.
+TEST_F(LearnedCampaign, ReachesTheHalfWidth) {
+    LearnGoal const goal{0.05, 1e6, 4};
+    Learner learner(plan, *maker, goal);
+    for (campaign::PlannedCase const& planned : plan.cases)
+        simulate(planned, learner.first_half_width(planned.scenario()));
+    LearnStatus status = learner.look();
+    double const at_first = status.certainty.at_worst.half_width;
+    for (int batch = 0; !Learner::has_reached(status, goal); ++batch) {
+        ASSERT_LT(batch, 40) << status.certainty.at_worst.half_width;
+        for (LearnStep const& step : learner.choose()) {
+            if (step.added) {
+                if (auto const* added = campaign::add_case(plan, *step.added))
+                    simulate(*added, step.half_width);
+            } else {
+                for (auto const& planned : plan.cases)
+                    if (planned.id == step.case_id) simulate(planned, step.half_width);
+            }
+        }
+        status = learner.look();
+    }
+    EXPECT_LT(status.certainty.at_worst.half_width, at_first);
+    EXPECT_LE(status.certainty.at_worst.half_width, goal.half_width);
+    EXPECT_EQ(status.core_time_to_go, 0);
+    // 100 places that were not simulated: with 95 % coverage of the truth 95 +- 2 * 2.2 lie within;
+    // hyperparameters are estimated, so that 85 are asked for.
+    CampaignPoints const points = campaign_points(plan, *maker);
+    CampaignTheory const theory(*maker, points.inputs, {});
+    Surface const surface(points.inputs, points.points);
+    int inside = 0;
+    for (auto const& row : scenario::sample_cube(scenario::SampleMethod::latin_hypercube, 100, 2, 3)) {
+        Place place;
+        for (std::size_t k = 0; k < 2; ++k)
+            place.push_back(points.inputs[k].low + row[k] * (points.inputs[k].high - points.inputs[k].low));
+        auto const planned = campaign::plan_case(theory.scenario_at(place), plan.folder, "LIGGGHTS 3.8.0");
+        SurfaceValue const value = surface.at(place, *theory.efficiency_at(place));
+        inside += std::abs(value.efficiency - layer_at(planned)) <= value.half_width ? 1 : 0;
+    }
+    EXPECT_GE(inside, 85);
+}
+
+// What a killed run had learnt is in the files: another learner chooses the same.
+TEST_F(LearnedCampaign, ChoosesTheSameAgain) {
+    simulate_all(0.05);
+    LearnGoal const goal{0.03, 1e6, 5};
+    Learner one(plan, *maker, goal), other(plan, *maker, goal);
+    one.look();
+    other.look();
+    auto const a = one.choose(), b = other.choose();
+    ASSERT_EQ(a.size(), 5U);
+    ASSERT_EQ(b.size(), 5U);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].case_id, b[i].case_id);
+        EXPECT_EQ(a[i].added.has_value(), b[i].added.has_value());
+        if (a[i].added) {
+            EXPECT_EQ(to_toml(*a[i].added), to_toml(*b[i].added));
+        }
+    }
+}
+
+// Cases that were given little precision go on where that is worth more than new places.
+TEST_F(LearnedCampaign, MorePackingsOfAnOldCase) {
+    simulate_all(0.02);
+    simulate(plan.cases[0], 0.5);
+    Learner learner(plan, *maker, {0.02, 1e6, 10});
+    learner.look();
+    auto const steps = learner.choose();
+    EXPECT_TRUE(
+        std::ranges::any_of(steps, [&](LearnStep const& s) { return s.case_id == plan.cases[0].id; }));
+}
+
+TEST_F(LearnedCampaign, TheBudgetLimitsIt) {
+    simulate_all(0.05);
+    Learner learner(plan, *maker, {0.01, 0.5, 4});  // ten cases have cost 0.16 core-seconds each
+    learner.look();
+    EXPECT_TRUE(learner.choose().empty());
+}
+
+TEST_F(LearnedCampaign, WantedHalfWidthsAreKept) {
+    fs::create_directories(plan.folder);
+    EXPECT_TRUE(read_wanted_half_widths(plan.folder).empty());
+    std::map<std::string, double> const wanted{{"a", 0.05}, {"b", 0.0123456789}};
+    write_wanted_half_widths(plan.folder, wanted);
+    EXPECT_EQ(read_wanted_half_widths(plan.folder), wanted);
+    std::ofstream(plan.folder / "learn.json") << "{";
+    EXPECT_THROW(read_wanted_half_widths(plan.folder), core::InputError);
+}
+
+class CampaignWithoutDomain : public LearnedCampaign {
+  protected:
+    CampaignWithoutDomain()
+        : LearnedCampaign(example_campaign + "\n[sweep]\n\"trough.throw_number\" = [1.5, 2, 2.5]\n") {}
+};
+
+TEST_F(CampaignWithoutDomain, IsRefused) {
+    EXPECT_THROW(Learner(plan, *maker, {0.03, 1, 1}), core::InputError);
+    EXPECT_EQ(campaign_points(plan, *maker).inputs[0].high, 2.5);
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn

@@ -1,0 +1,114 @@
+#include "learn/surface.hpp"
+
+#include "core/error.hpp"
+#include "scenario/reader/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"grains.rolling_friction", 0, 0.3}};
+
+/// Like the theory's efficiency: it rises with the throw number, and steeply at a change of mode.
+double theory_at(Place const& p) {
+    return 0.1 + 0.2 * (p[0] - 1) + 0.25 / (1 + std::exp(-(p[0] - 1.95) / 0.03));
+}
+
+/// A layer that is faster than the theory between throw numbers 1.2 and 2.3, the more so the easier it rolls.
+double layer_at(Place const& p) {
+    return theory_at(p) + 0.3 * std::exp(-std::pow((p[0] - 1.75) / 0.4, 2)) * std::exp(-p[1] / 0.15);
+}
+
+std::vector<SurfacePoint> points_of(int count, unsigned seed, double half_width) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<SurfacePoint> points;
+    for (auto const& row : scenario::sample_cube(scenario::SampleMethod::sobol, count, 2, seed)) {
+        Place const place{1 + 2 * row[0], 0.3 * row[1]};
+        double const noise = half_width / 1.96 * normal(random);
+        points.push_back({"case", place, theory_at(place), layer_at(place) + noise, half_width});
+    }
+    return points;
+}
+
+/// How many of `held_out` lie within the surface's 95 % interval of a measurement there.
+int covered(Surface const& surface, std::vector<SurfacePoint> const& held_out) {
+    int inside = 0;
+    for (SurfacePoint const& one : held_out) {
+        SurfaceValue const value = surface.at(one.place, one.theory);
+        inside += std::abs(one.efficiency - value.efficiency) <= std::hypot(value.half_width, one.half_width)
+                      ? 1
+                      : 0;
+    }
+    return inside;
+}
+
+// 95 % of new measurements lie within the intervals; 200 of them are 190 +- 2 * 3, and as the hyperparameters
+// are themselves estimated, 176 (88 %) to 200 are accepted.
+TEST(Surface, CoversHeldOutPoints) {
+    Surface const surface(inputs, points_of(30, 1, 0.03));
+    EXPECT_TRUE(surface.doubts().empty()) << testing::PrintToString(surface.doubts());
+    EXPECT_GT(surface.quality().q2, 0.9);
+    EXPECT_GE(covered(surface, points_of(200, 7, 0.03)), 176);
+}
+
+// The theory's trend carries the steep rise, so that only a smooth difference has to be learnt.
+TEST(Surface, TheTrendOfTheTheoryHelps) {
+    auto const points = points_of(20, 1, 0.02);
+    auto const rms = [&](Surface const& surface) {
+        double sum = 0;
+        for (SurfacePoint const& one : points_of(200, 7, 0))
+            sum += std::pow(surface.at(one.place, one.theory).efficiency - one.efficiency, 2);
+        return std::sqrt(sum / 200);
+    };
+    EXPECT_LT(rms(Surface(inputs, points)), 0.8 * rms(Surface(inputs, points, Trend::constant)));
+}
+
+// Control: efficiencies in another order have nothing to do with their places.
+TEST(SurfaceControl, ShuffledAnswersAreNoticed) {
+    auto points = points_of(30, 1, 0.03);
+    std::vector<std::size_t> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = (7 * i + 11) % order.size();
+    auto const right = points;
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].efficiency = right[order[i]].efficiency;
+    Surface const surface(inputs, points);
+    EXPECT_LT(surface.quality().q2, 0.5);
+    EXPECT_THAT(surface.doubts(), testing::Contains(testing::HasSubstr("not predicted")));
+}
+
+// Control: points that claim to be exact, but scatter by 0.05.
+TEST(SurfaceControl, NoiseSetToZeroIsNoticed) {
+    auto points = points_of(40, 1, 0.1);
+    for (SurfacePoint& one : points) one.half_width = 0;
+    Surface const surface(inputs, points);
+    EXPECT_GT(surface.quality().extra_noise, 0.02);
+    EXPECT_THAT(surface.doubts(), testing::Contains(testing::HasSubstr("more than their intervals say")));
+    // The extra noise is kept, so that the surface is honest all the same.
+    EXPECT_GE(covered(surface, points_of(200, 7, 0.1)), 176);
+}
+
+// believe() lowers the variance at a place by what variance_reduction() says.
+TEST(Surface, BelievingLowersTheVarianceAsForetold) {
+    Surface surface(inputs, points_of(15, 1, 0.03));
+    Place const place{1.4, 0.1}, where{1.5, 0.15};
+    double const before = std::pow(surface.at(place, theory_at(place)).half_width / 1.959964, 2);
+    double const foretold =
+        surface.variance_reduction(place, theory_at(place), where, theory_at(where), 0.04);
+    surface.believe({"", where, theory_at(where), 0.5, 0.04});
+    double const after = std::pow(surface.at(place, theory_at(place)).half_width / 1.959964, 2);
+    EXPECT_NEAR(before - after, foretold, 1e-9);
+}
+
+TEST(Surface, TooFewPointsAreRefused) {
+    EXPECT_THROW(Surface(inputs, points_of(3, 1, 0.03)), core::InputError);
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn
