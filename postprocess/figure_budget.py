@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from figure_style import COLOURS, GREY, Problem, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, GREY, Problem, corner, new_figure, plain, plain_axes, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -52,11 +52,9 @@ def draw_budget(axes: Axes, place: float, budget: Budget, colours: dict[str, str
 
 
 def names_of(source: "Source", budgets: list[Budget]) -> list[str]:
-    """What tells the cases apart: throw number and, when that is not enough, the id."""
-    numbers = [f"\u0393 = {source.row_of(budget['case'])['throw_number']:.3g}" for budget in budgets]
-    if len(set(numbers)) == len(numbers):
-        return numbers
-    return [f"{number}\n{budget['case']}" for number, budget in zip(numbers, budgets)]
+    """What tells the cases apart: the values of the swept keys, else the id."""
+    rows = [source.row_of(budget["case"]) for budget in budgets]
+    return [plain(row.get("label") or row["case"]).replace(", ", "\n") for row in rows]
 
 
 def plot_budget(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:

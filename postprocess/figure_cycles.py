@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import vibrotrough
-from figure_style import COLOURS, DASHES, GREY, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -28,7 +28,7 @@ def plot_cycles(source: "Source", case: str, result: vibrotrough.File, output: p
     last.set_xlabel("cycle  [-]")
     figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=10)
     handles, labels = columns[0, 0].get_legend_handles_labels()
-    title = f"case {case}: throw number {row['throw_number']:.3g}, \u03b2 = {row['vibration_angle_deg']:.3g}\u00b0"
+    title = case_title(row)
     figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1 - 0.22 / height))
     figure.suptitle(title, fontsize=10, y=1 - 0.08 / height)
     note = f"{shown} of {packings} packings" if shown < packings else ""

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
-from figure_style import COLOURS, DASHES, GREY, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -126,8 +126,7 @@ def label_portraits(axes: Any) -> None:
 
 def finish(figure: Figure, source: "Source", case: str, legend_from: Axes) -> None:
     row = source.row_of(case)
-    figure.suptitle(f"case {case}: throw number {row['throw_number']:.3g}, \u03b2 = {row['vibration_angle_deg']:.3g}\u00b0",
-                    fontsize=10)
+    figure.suptitle(case_title(row), fontsize=10)
     height = figure.get_size_inches()[1]
     handles, names = legend_from.get_legend_handles_labels()
     figure.legend(handles, names, ncols=4, loc="upper center", frameon=False, fontsize=9, bbox_to_anchor=(0.5, 1 - 0.2 / height))

@@ -1,4 +1,4 @@
-"""What the theory misses: measured minus theoretical velocity efficiency, over the throw number and a second input."""
+"""What the theory misses: measured minus theoretical velocity efficiency, over the throw number and the swept keys."""
 
 import itertools
 import pathlib
@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import vibrotrough
-from figure_style import COLOURS, INPUTS, MARKERS, THROW_NUMBER, corner, new_figure, plain_axes, save
+from figure_inputs import Input, panels, split_inputs
+from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -19,16 +19,6 @@ Floats = NDArray[np.float64]
 
 MOST_PANELS = 12
 RESIDUAL = "residual \u0394\u03b7 = \u03b7 (DEM) \u2212 \u03b7 (theory)  [-]"
-
-
-def varied_inputs(campaign: vibrotrough.Campaign) -> list[str]:
-    """Inputs with more than one value, the vibration angle first."""
-    found = []
-    for name in INPUTS:
-        values = np.asarray(campaign[name], dtype=float) if name in campaign else np.array([])
-        if len(np.unique(np.round(values[np.isfinite(values)], 12))) > 1:
-            found.append(name)
-    return found
 
 
 def residuals(source: "Source") -> Floats:
@@ -42,29 +32,28 @@ def residuals(source: "Source") -> Floats:
 
 
 def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
-    varied = varied_inputs(source.campaign)
+    over, others = split_inputs(source.campaign, source.inputs)
     values = residuals(source)
-    if not varied:
-        figure = draw_line(source, values)
+    if not others:
+        figure = draw_line(source, over, values)
     else:
-        figure = draw_maps(source, values, varied[0], varied[1:])
+        figure = draw_maps(source, over, others, values)
     missing = np.count_nonzero(~np.isfinite(values))
     corner(figure, source.attributes, f"{missing} of {len(values)} cases have no residual" if missing else "")
     return save(figure, output)
 
 
-def draw_line(source: "Source", values: Floats) -> Figure:
-    """Only the throw number is varied: residuals with their error bars."""
+def draw_line(source: "Source", over: Input, values: Floats) -> Figure:
+    """Only one input is varied: residuals with their error bars."""
     figure, axes = new_figure(size=(7.2, 3.6))
     plain_axes(axes)
     axes.axhline(0.0, color="#888888", linewidth=1.0)
-    axes.errorbar(source.campaign["throw_number"], values, yerr=source.campaign["efficiency_half_width"],
-                  color=COLOURS[0], marker=MARKERS[0], linestyle="none", capsize=3)
-    # The interval of a single short packing is infinite: it has no error bar that could be drawn.
-    widths = np.nan_to_num(source.campaign["efficiency_half_width"], posinf=0.0)
-    reach = 1.15 * np.nanmax(np.append(np.abs(values) + widths, 0.05))
+    half_width = np.asarray(source.campaign["efficiency_half_width"], dtype=float)
+    axes.errorbar(over.places()[0], values, yerr=half_width, color=COLOURS[0], marker=MARKERS[0], linestyle="none", capsize=3)
+    bounded = np.where(np.isfinite(half_width), half_width, 0.0)
+    reach = 1.15 * np.nanmax(np.append(np.abs(values) + bounded, 0.05))
     axes.set_ylim(-reach, reach)
-    axes.set_xlabel(THROW_NUMBER)
+    axes.set_xlabel(over.title)
     axes.set_ylabel(RESIDUAL)
     for text, at, anchor in (("layer faster than theory", 0.98, "top"), ("layer slower than theory", 0.02, "bottom")):
         axes.text(0.99, at, text, transform=axes.transAxes, ha="right", va=anchor, fontsize=8, color="#666666")
@@ -72,37 +61,28 @@ def draw_line(source: "Source", values: Floats) -> Figure:
     return figure
 
 
-def panels(campaign: vibrotrough.Campaign, others: list[str]) -> dict[str, list[int]]:
-    """Rows of each combination of the further inputs, with its name."""
-    keys = list(zip(*(np.round(np.asarray(campaign[name], dtype=float), 12) for name in others))) if others else []
-    if not keys:
-        return {"": list(range(campaign.cases))}
-    found: dict[str, list[int]] = {}
-    for row, key in enumerate(keys):
-        name = ", ".join(INPUTS[other][1].format(INPUTS[other][3] * value) for other, value in zip(others, key))
-        found.setdefault(name, []).append(row)
-    return found
-
-
-def draw_maps(source: "Source", values: Floats, second: str, others: list[str]) -> Figure:
+def draw_maps(source: "Source", over: Input, others: list[Input], values: Floats) -> Figure:
     """A square per case, coloured and with its number; colours from purple (slower) to orange (faster)."""
-    campaign = source.campaign
-    title, _, unit, factor = INPUTS[second]
-    groups = panels(campaign, others)
+    second = others[0]
+    groups = panels(others[1:], source.campaign.cases)
     shown = list(itertools.islice(groups.items(), MOST_PANELS))
     across = min(len(shown), 2)
     down = -(-len(shown) // across)
     figure, grid = new_figure(down, across, size=(4.0 * across + 1.6, 3.4 * down + 0.5), squeeze=False, sharex=True,
                               sharey=True, layout="constrained")
     reach = max(np.nanmax(np.abs(values), initial=0.0, where=np.isfinite(values)), 0.05)
+    (x, x_names), (y, y_names) = over.places(), second.places()
     for axes, (name, rows) in zip(grid.flat, shown):
-        x, y = np.asarray(campaign["throw_number"])[rows], factor * np.asarray(campaign[second], dtype=float)[rows]
-        image = draw_panel(axes, x, y, values[rows], reach)
+        image = draw_panel(axes, x[rows], y[rows], values[rows], reach)
         axes.set_title(name, fontsize=9)
+        if x_names:
+            axes.set_xticks(range(len(x_names)), x_names)
+        if y_names:
+            axes.set_yticks(range(len(y_names)), y_names)
     for axes in grid.flat[len(shown):]:
         axes.set_visible(False)
-    figure.supxlabel(THROW_NUMBER, fontsize=10)
-    figure.supylabel(f"{title}  [{unit}]", fontsize=10)
+    figure.supxlabel(over.title, fontsize=10)
+    figure.supylabel(second.title, fontsize=10)
     figure.colorbar(image, ax=grid, label=RESIDUAL)
     figure.get_layout_engine().set(rect=(0, 0.04, 1, 0.96))
     if len(groups) > len(shown):

@@ -1,7 +1,6 @@
 """What all figures share: colours, fonts, the corner's text, saving."""
 
 import io
-import math
 import pathlib
 from collections.abc import Mapping
 from typing import Any
@@ -24,20 +23,6 @@ GREY = "#666666"
 THROW_NUMBER = "throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)  [-]"
 EFFICIENCY = "velocity efficiency \u03b7 = v / (\u03c9 r cos \u03b2)  [-]"
 
-# Inputs that a sweep may vary besides the throw number: column of campaign.h5, how it is written, factor from SI.
-INPUTS = {
-    "vibration_angle": ("vibration angle \u03b2", "\u03b2 = {:.3g}\u00b0", "\u00b0", math.degrees(1.0)),
-    "inclination": ("inclination \u03b1", "\u03b1 = {:.3g}\u00b0", "\u00b0", math.degrees(1.0)),
-    "friction": ("friction \u03bc", "\u03bc = {:.3g}", "-", 1.0),
-    "amplitude": ("amplitude r", "r = {:.3g} mm", "mm", 1e3),
-    "grain_diameter": ("grain diameter d", "d = {:.3g} mm", "mm", 1e3),
-    "grain_friction": ("friction between grains", "grain \u03bc = {:.3g}", "-", 1.0),
-    "restitution": ("restitution e", "e = {:.3g}", "-", 1.0),
-    "layer_height": ("layer height", "h = {:.3g} mm", "mm", 1e3),
-    "layer_grains": ("number of grains", "{:.0f} grains", "-", 1.0),
-}
-
-
 class Problem(Exception):
     """An error that the user can correct; its text is one line."""
 
@@ -51,6 +36,17 @@ def plain_axes(axes: Axes) -> None:
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def plain(text: str) -> str:
+    """Keys of the campaign file as words: "grains.rolling_friction 0.1" is "grain rolling friction 0.1"."""
+    return text.replace("trough.", "").replace("grains.", "grain ").replace("layer.", "layer ").replace("_", " ")
+
+
+def case_title(row: Mapping[str, Any]) -> str:
+    """A case by its id and what distinguishes it."""
+    told = row.get("label") or f"throw number {row['throw_number']:.3g}"
+    return f"case {row['case']}: {plain(told)}"
 
 
 def corner(figure: Figure, attributes: Mapping[str, Any], text: str = "") -> None:

@@ -21,6 +21,7 @@ import figure_residuals
 import figure_spin
 import vibrotrough
 from drawn_figures import DrawnFigures, digest_of_data
+from figure_inputs import swept_inputs
 from figure_style import Problem
 from plot_campaign import plot_efficiency
 
@@ -39,6 +40,8 @@ class Source:
         except (OSError, ValueError) as error:
             raise Problem(f"cannot read the campaign ({error}); give a campaign's folder, by 'vibrotrough plot DIR'") from error
         self.attributes = self.campaign.attributes
+        units = {name: self.campaign[name].units for name in self.campaign}
+        self.inputs = swept_inputs(self.campaign, units, self.attributes)
         if self.campaign.cases == 0:
             raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
 
@@ -66,7 +69,8 @@ def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Itera
 def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib.Path]]:
     """The figures of the campaign as a whole."""
     if "efficiency" in only:
-        yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency")
+        theory = {row["case"]: row["efficiency_theory"] for row in source.overview["cases"]}
+        yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", theory)
     if "residuals" in only:
         yield figure_residuals.plot_residuals(source, source.output / "residuals")
     if "budget" in only:

@@ -1,18 +1,19 @@
 #!/usr/bin/python3
-"""Draws velocity efficiency against throw number from campaign.h5: DEM points with error bars, one colour per vibration
-angle, over the theory's lines.
+"""Draws velocity efficiency from campaign.h5: DEM points with error bars, and the theory.
 
     plot_campaign.py DIR [--theory FILE.csv] [--output NAME]
 
-DIR holds campaign.h5. FILE.csv is what the program computed of the theory, with at least the columns throw_number,
-vibration_angle_deg and velocity_efficiency (a fine curve, drawn as a line) or efficiency_theory (the theory at the cases,
-as `vibrotrough compare --csv` prints it, drawn as small crosses joined by a thin line). Several angles, and where there are
-columns inclination_deg or friction several of those, stand one below the other. Nothing of the theory is computed here.
-Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
+DIR holds campaign.h5. The figure is drawn over the throw number or, where that is the same in all cases, over the first
+swept key; the first other swept key gives the colour, the second the marker, and each combination of the rest a panel.
+FILE.csv is what the program computed of the theory, with at least the columns throw_number, vibration_angle_deg and
+velocity_efficiency (a fine curve, drawn as a line) or efficiency_theory (the theory at the cases, as `vibrotrough compare
+--csv` prints it, drawn as small crosses joined by a thin line). Lines that belong to several colours are grey. Nothing of
+the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/report/efficiency.
 """
 
 import argparse
 import csv
+import itertools
 import math
 import pathlib
 import sys
@@ -22,62 +23,80 @@ from typing import Any
 import h5py
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from figure_style import COLOURS, DASHES, EFFICIENCY, INPUTS, MARKERS, THROW_NUMBER, Problem, corner, new_figure, plain_axes, save
-
+from figure_inputs import Input, panels, split_inputs, swept_inputs
+from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, corner, new_figure, plain_axes, save
 
 Columns = dict[str, NDArray[Any]]
-Lines = dict[float, list[NDArray[np.float64]]]  # by vibration angle
+Pair = tuple[NDArray[np.float64], NDArray[np.float64]]  # places and efficiencies of a line
+LineKey = tuple[float, float | None, float | None]  # vibration angle and inclination in degrees, friction
 
 UNCERTAIN = "not precise or not steady"
 BISTABLE = "bistable-or-slow"  # the outcome
+MOST_PANELS = 6
 
 
-def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, Any]]:
-    """Columns of campaign.h5 as arrays, and its root attributes."""
+def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str, Any]]:
+    """Columns of campaign.h5 as arrays, their units, and the root attributes. Swept keys are below swept/."""
+    columns: Columns = {}
+    units: dict[str, str] = {}
+
+    def keep(name: str, data: object) -> None:
+        if isinstance(data, h5py.Dataset):
+            columns[name] = data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
+            units[name] = str(data.attrs.get("units", "1"))
+
     try:
         with h5py.File(path) as file:
-            columns = {
-                name: data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:] for name, data in file.items()
-            }
-            return columns, dict(file.attrs)
+            file.visititems(keep)
+            return columns, units, dict(file.attrs)
     except OSError as error:
         raise Problem(f"cannot read {path} ({error}); give a campaign's folder") from error
 
 
-def read_theory(path: pathlib.Path) -> tuple[Lines, dict[str, Any]]:
-    """Lines of the theory: vibration angle in degrees (rounded) -> list of (throw numbers, efficiencies), and their style."""
-    points = defaultdict(list)
+def line_key(row: dict[str, str]) -> LineKey:
+    """What is the same along the line of the theory to which a row belongs."""
+
+    def number(name: str) -> float | None:
+        return same(float(row[name])) if row.get(name) else None
+
+    return same(float(row["vibration_angle_deg"])), number("inclination_deg"), number("friction")
+
+
+def read_theory(path: pathlib.Path) -> tuple[dict[LineKey, Pair], dict[str, Any]]:
+    """Lines of the theory, (throw numbers, efficiencies) by what is the same along them, and their style."""
+    points: dict[LineKey, list[tuple[float, float]]] = defaultdict(list)
+
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = csv.DictReader(file)
             fine = "velocity_efficiency" in (rows.fieldnames or [])
             for row in rows:
-                key = (row["vibration_angle_deg"], row.get("inclination_deg"), row.get("friction"))
                 value = row["velocity_efficiency" if fine else "efficiency_theory"]
-                points[key].append((float(row["throw_number"]), float(value) if value else math.nan))
+                points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
     except (OSError, KeyError, ValueError) as error:
         raise Problem(f"cannot use {path} as a theory curve ({error!r}); see --help for its columns") from error
-    lines = defaultdict(list)
+    lines = {}
     for key, pairs in points.items():
-        lines[same_angle(float(key[0]))].append(np.array(sorted(pairs)).T)
+        places, values = np.array(sorted(pairs)).T
+        lines[key] = (places, values)
     return lines, {"linewidth": 1.6} if fine else {"linewidth": 0.8, "marker": "x", "markersize": 5}
 
 
-def read_rolling_layer(path: pathlib.Path) -> Lines:
-    """Lines of the rolling-layer law by vibration angle, of a fine curve that has them; NaN where the law was not tested."""
-    points = defaultdict(list)
+def read_rolling_layer(path: pathlib.Path) -> dict[LineKey, Pair]:
+    """Lines of the rolling-layer law, of a fine curve that has them; NaN where the law was not tested."""
+    points: dict[LineKey, list[tuple[float, float]]] = defaultdict(list)
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             value = row.get("rolling_layer_efficiency")
-            key = (row["vibration_angle_deg"], row.get("inclination_deg"), row.get("friction"))
-            points[key].append((float(row["throw_number"]), float(value) if value else math.nan))
-    lines = defaultdict(list)
+            points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
+    lines = {}
     for key, pairs in points.items():
-        curve = np.array(sorted(pairs)).T
-        if np.isfinite(curve[1]).any():
-            lines[same_angle(float(key[0]))].append(curve)
+        places, values = np.array(sorted(pairs)).T
+        if np.isfinite(values).any():
+            lines[key] = (places, values)
     return lines
 
 
@@ -86,113 +105,191 @@ def rotates(columns: Columns) -> bool:
     return "free" in columns.get("grain_rotation", np.array([]))
 
 
-def same_angle(degrees: float) -> float:
-    """Angles that differ only by rounding are one."""
-    return round(degrees, 4)
+def same(value: float) -> float:
+    """Values that differ only by rounding are one."""
+    return round(value, 4)
 
 
-def series_of(columns: Columns) -> dict[str, list[int]]:
-    """What the cases differ in besides throw number and vibration angle, for the legend: rows -> label."""
-    shown = {name: (form, factor) for name, (_, form, _, factor) in INPUTS.items() if name != "vibration_angle"}
-    varied = [name for name in shown if len(np.unique(columns[name][np.isfinite(columns[name])])) > 1]
-    groups = defaultdict(list)
-    for row in range(len(columns["case"])):
-        groups[tuple(columns[name][row] for name in varied)].append(row)
-    return {
-        ", ".join(shown[name][0].format(shown[name][1] * value) for name, value in zip(varied, key)): rows
-        for key, rows in sorted(groups.items())
-    }
+class Series:
+    """How the cases are told apart: place, colour, marker and panel of each."""
+
+    def __init__(self, columns: Columns, units: dict[str, str], attributes: dict[str, Any]) -> None:
+        self.columns, self.count = columns, len(columns["case"])
+        self.over, others = split_inputs(columns, swept_inputs(columns, units, attributes))
+        self.colour_by: Input | None = others[0] if others else None
+        self.marker_by: Input | None = others[1] if len(others) > 1 else None
+        self.panels = panels(others[2:], self.count)
+        none = np.zeros(self.count, dtype=np.intp)
+        self.colours = self.colour_by.groups() if self.colour_by else none
+        self.markers = self.marker_by.groups() if self.marker_by else none
+
+    def name(self, row: int) -> str:
+        inputs = [one for one in (self.colour_by, self.marker_by) if one]
+        if inputs:
+            return ", ".join(one.label(row) for one in inputs)
+        return f"\u03b2 = {math.degrees(self.columns['vibration_angle'][row]):.3g}\u00b0"
+
+    def is_over_throw_number(self) -> bool:
+        return self.over.key == "trough.throw_number"
+
+    def line_of(self, row: int) -> LineKey:
+        """The line of the theory that belongs to a case."""
+        angle, inclination = (same(math.degrees(self.columns[name][row])) for name in ("vibration_angle", "inclination"))
+        return angle, inclination, same(float(self.columns["friction"][row]))
 
 
-def draw(axes: Axes, columns: Columns, theory: Lines, style: dict[str, Any], rolling: Lines) -> None:
-    angles = np.array([same_angle(angle) for angle in np.degrees(columns["vibration_angle"])])
-    every_angle = sorted(set(angles) | set(theory))
-    for index, angle in enumerate(every_angle):
-        colour, dash = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
-        for throw_number, efficiency in theory.get(angle, []):
-            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, **style)
-        for throw_number, efficiency in rolling.get(angle, []):
-            axes.plot(throw_number, efficiency, color=colour, linestyle=dash, linewidth=0.8, alpha=0.7)
-        for number, (label, rows) in enumerate(series_of(columns).items()):
-            rows = [row for row in rows if angles[row] == angle]
-            if not rows:
-                continue
-            rows.sort(key=lambda row: columns["throw_number"][row])
-            name = f"\u03b2 = {angle:.3g}\u00b0"
-            axes.errorbar(
-                columns["throw_number"][rows],
-                columns["efficiency"][rows],
-                yerr=columns["efficiency_half_width"][rows],
-                color=colour,
-                marker=MARKERS[(index + number) % len(MARKERS)],
-                markerfacecolor=colour if number == 0 else "white",
-                linestyle="none",
-                capsize=3,
-                label=f"{name}, {label}" if label else name,
-            )
+def colours_of(series: Series, line: LineKey, rows: list[int]) -> set[int]:
+    """The colours of the cases to which a line of the theory belongs, or else of those with its vibration angle."""
+    for known in (3, 1):
+        found = {int(series.colours[row]) for row in rows
+                 if all(one is None or one == other for one, other in zip(line[:known], series.line_of(row)))}
+        if found:
+            return found
+    return set()
 
 
-def draw_branches(axes: Axes, columns: Columns) -> list[tuple[float, float]]:
+def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKey, Pair], style: dict[str, Any]) -> None:
+    """Lines over the throw number, in the colour of their cases; grey where the cases have several."""
+    spare = int(series.colours.max(initial=0)) + 1
+    for line, (places, efficiency) in sorted(theory.items(), key=str):
+        every, here = colours_of(series, line, list(range(series.count))), colours_of(series, line, rows)
+        if every and not here:
+            continue  # of another panel
+        number = min(here, default=spare)
+        spare += not here
+        colour = GREY if len(here) > 1 else COLOURS[number % len(COLOURS)]
+        axes.plot(places, efficiency, color=colour, linestyle="-" if len(here) > 1 else DASHES[number % len(DASHES)], **style)
+
+
+def draw_theory_at_cases(axes: Axes, series: Series, rows: list[int], theory: dict[str, float | None]) -> None:
+    """Over another input the program gives the theory at the cases only."""
+    places, _ = series.over.places()
+    for number in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
+        members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == number), key=lambda row: places[row])
+        values = [theory.get(str(series.columns["case"][row])) for row in members]
+        axes.plot(places[members], [math.nan if value is None else value for value in values], linewidth=0.8, marker="x",
+                  markersize=5, color=COLOURS[number[0] % len(COLOURS)], linestyle=DASHES[number[0] % len(DASHES)])
+
+
+def draw(axes: Axes, series: Series, rows: list[int]) -> None:
+    columns = series.columns
+    places, names = series.over.places()
+    for colour, marker in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
+        members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == (colour, marker)),
+                         key=lambda row: places[row])
+        shade = COLOURS[colour % len(COLOURS)]
+        axes.errorbar(places[members], columns["efficiency"][members], yerr=columns["efficiency_half_width"][members], color=shade,
+                      marker=MARKERS[(colour + marker) % len(MARKERS)], markerfacecolor=shade if marker == 0 else "white",
+                      linestyle="none", capsize=3, label=series.name(members[0]))
+    if names:
+        axes.set_xticks(range(len(names)), names)
+
+
+def draw_branches(axes: Axes, series: Series, members: list[int]) -> list[tuple[float, float]]:
     """Both branches of the cases that are bistable or slow; returns their points. Older campaigns have none."""
-    points = []
+    columns, points = series.columns, []
+    places, _ = series.over.places()
     for side, marker in (("below", "v"), ("above", "^")):
-        efficiency = columns.get(f"efficiency_{side}", np.full(len(columns["case"]), np.nan))
-        rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome == BISTABLE and np.isfinite(efficiency[row])]
+        efficiency = columns.get(f"efficiency_{side}", np.full(series.count, np.nan))
+        rows = [row for row in members if columns["outcome"][row] == BISTABLE and np.isfinite(efficiency[row])]
         if not rows:
             continue
-        axes.errorbar(columns["throw_number"][rows], efficiency[rows], yerr=columns[f"efficiency_{side}_half_width"][rows],
+        axes.errorbar(places[rows], efficiency[rows], yerr=columns[f"efficiency_{side}_half_width"][rows],
                       color="#777777", marker=marker, markerfacecolor="white", linestyle="none", capsize=3,
                       label=f"bistable or slow, from {side}")
-        points += [(columns["throw_number"][row], efficiency[row]) for row in rows]
+        points += [(places[row], efficiency[row]) for row in rows]
     return points
 
 
-def mark_uncertain(axes: Axes, columns: Columns, branches: list[tuple[float, float]]) -> None:
+def mark_uncertain(axes: Axes, series: Series, members: list[int], branches: list[tuple[float, float]]) -> None:
     """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
+    columns, (places, _) = series.columns, series.over.places()
     drawn = np.isfinite(columns["efficiency"])
-    rows = [row for row, outcome in enumerate(columns["outcome"]) if outcome != "finished" and drawn[row]]
-    points = [(columns["throw_number"][row], columns["efficiency"][row]) for row in rows] + branches
+    rows = [row for row in members if columns["outcome"][row] != "finished" and drawn[row]]
+    points = [(places[row], columns["efficiency"][row]) for row in rows] + branches
     if points:
-        axes.scatter(
-            *np.array(points).T,
-            s=160,
-            facecolors="none",
-            edgecolors="#777777",
-            label=UNCERTAIN,
-            zorder=1,
-        )
+        axes.scatter(*np.array(points).T, s=160, facecolors="none", edgecolors="#777777", label=UNCERTAIN, zorder=1)
 
 
-def label(axes: Axes, columns: Columns, attributes: dict[str, Any], theory: Lines, rolling: Lines) -> None:
+def add_legend(figure: Figure, grid: list[Axes], title: str) -> float:
+    """Above the axes, where no point can be mistaken for a part of it; the series first, then the ring. Returns the share of
+    the figure's height that it takes from panels.
+    """
+    found: dict[str, Any] = {}
+    for axes in grid:
+        for handle, name in zip(*axes.get_legend_handles_labels()):
+            found.setdefault(name, handle)
+    names = sorted(found, key=lambda name: name == UNCERTAIN)
+    settings: dict[str, Any] = {"frameon": False, "fontsize": 9, "title": title, "title_fontsize": 9, "columnspacing": 1.2,
+                                "handletextpad": 0.4, "ncols": min(len(names), 3 if max(map(len, names), default=0) < 24 else 2)}
+    handles = [found[name] for name in names]
+    if len(grid) == 1:
+        grid[0].legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), **settings)
+        return 0.0
+    figure.legend(handles, names, loc="upper center", bbox_to_anchor=(0.5, 1.0), **settings)
+    lines = 1 - (-len(names) // settings["ncols"])
+    return float((0.15 + 0.2 * lines) / figure.get_size_inches()[1])
+
+
+def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str, Any], told: str) -> float:
+    """Titles, legend and remarks; returns the share of the height that the legend takes."""
+    columns = series.columns
     confidence = np.unique(columns["confidence"])
     bars = f"{100 * confidence[0]:.3g} % interval" if len(confidence) == 1 else "confidence interval"
-    axes.set_xlabel(THROW_NUMBER)
-    axes.set_ylabel(EFFICIENCY)
-    axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
-    plain_axes(axes)
-    title = f"points: DEM with {bars}" + ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
-    # Above the axes, where no point can be mistaken for a part of it; the series first, then the ring.
-    handles, names = axes.get_legend_handles_labels()
-    order = sorted(range(len(names)), key=lambda index: names[index] == UNCERTAIN)
-    axes.legend([handles[index] for index in order], [names[index] for index in order], frameon=False, fontsize=9, title=title,
-                title_fontsize=9, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3), columnspacing=1.2,
-                handletextpad=0.4)
+    for axes in grid:
+        axes.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
+        plain_axes(axes)
+    if len(grid) == 1:
+        grid[0].set_xlabel(series.over.title)
+        grid[0].set_ylabel(EFFICIENCY)
+    else:
+        figure.supxlabel(series.over.title, fontsize=10)
+        figure.supylabel(EFFICIENCY, fontsize=10)
+    taken = add_legend(figure, grid, f"points: DEM with {bars}{told}")
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
-    corner(axes.figure, attributes, f"{without} of {len(columns['case'])} cases have no mean (not steady or bistable)" if without else "")
+    remarks = [f"{without} of {series.count} cases have no mean (not steady or bistable)"] if without else []
+    if len(series.panels) > len(grid):
+        remarks.append(f"{len(grid)} of {len(series.panels)} combinations of the swept keys")
+    corner(figure, attributes, "; ".join(remarks))
+    return taken
 
 
-def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path) -> list[pathlib.Path]:
-    """Draws the figure; returns the files."""
-    columns, attributes = read_campaign(directory / "campaign.h5")
+def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path,
+                    at_cases: dict[str, float | None] | None = None) -> list[pathlib.Path]:
+    """Draws the figure; returns the files. `at_cases` is the theory's efficiency by case, for other inputs than the throw
+    number.
+    """
+    columns, units, attributes = read_campaign(directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
     theory, style = read_theory(theory_file) if theory_file else ({}, {})
     rolling = read_rolling_layer(theory_file) if theory_file and rotates(columns) else {}
-    figure, axes = new_figure()
-    draw(axes, columns, theory, style, rolling)
-    mark_uncertain(axes, columns, draw_branches(axes, columns))
-    label(axes, columns, attributes, theory, rolling)
-    figure.tight_layout(rect=(0, 0.02, 1, 1))
+    series = Series(columns, units, attributes)
+    told = "; crosses: point-mass theory" if at_cases else ""
+    if series.is_over_throw_number():
+        told = ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
+    shown = list(itertools.islice(series.panels.items(), MOST_PANELS))
+    across = min(len(shown), 2)
+    down = -(-len(shown) // across)
+    if len(shown) == 1:
+        figure, axes = new_figure()
+        grid = [axes]
+    else:
+        figure, axes = new_figure(down, across, size=(3.9 * across, 3.0 * down + 0.9), squeeze=False, sharex=True, sharey=True)
+        grid = list(axes.flat)
+    for one, (name, rows) in zip(grid, shown):
+        if series.is_over_throw_number():
+            draw_theory(one, series, rows, theory, style)
+            draw_theory(one, series, rows, rolling, {"linewidth": 0.8, "alpha": 0.7})
+        elif at_cases:
+            draw_theory_at_cases(one, series, rows, at_cases)
+        draw(one, series, rows)
+        mark_uncertain(one, series, rows, draw_branches(one, series, rows))
+        one.set_title(name, fontsize=9) if len(shown) > 1 else None
+    for one in grid[len(shown):]:
+        one.set_visible(False)
+    taken = label(figure, grid[:len(shown)], series, attributes, told)
+    figure.tight_layout(rect=(0, 0.02, 1, 1 - taken))
     return save(figure, output)
 
 

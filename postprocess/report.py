@@ -20,16 +20,25 @@ import jinja2
 import markupsafe
 
 from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
-from figure_style import Problem
+from figure_style import Problem, plain
+from report_words import conclusion
 
-UNIT_SIGNS = {"1": "", "degree": "\u00b0"}  # of units that are not written as they are
+# Of units that are not written as they are.
+UNIT_SIGNS = {"1": "", "degree": "\u00b0", "1/minute": "1/min", "t/h/m": "t/h per m", "W/m2": "W/m\u00b2", "N s/m3": "N s/m\u00b3"}
 
 Case = dict[str, Any]
 Column = dict[str, Any]
 
+MODE_LETTERS = {
+    "F": "flight: nothing touches the trough",
+    "P": "slide forwards relative to the trough (positive)",
+    "N": "slide backwards relative to the trough (negative)",
+    "R": "rest on the trough",
+    "P\u2032, N\u2032": "slides that directly follow a landing",
+}
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
-    ("efficiency", "Velocity efficiency against throw number"),
+    ("efficiency", "Velocity efficiency of the layer beside the theory"),
     ("residuals", "What the theory misses"),
     ("budget", "Statistical and numerical error"),
 ]
@@ -78,7 +87,7 @@ class Figures:
             print(f"report.py: {self.output / name}.svg is left out, because it does more than draw", file=sys.stderr)
             return None
         self.number += 1
-        return {"number": self.number, "title": title, "svg": inline_svg(drawing, self.number, title)}
+        return {"number": self.number, "title": title, "svg": inline_svg(drawing, self.number, title), "kind": name.split("-")[0]}
 
     def all(self, names: list[tuple[str, str]], case: str | None = None) -> list[dict[str, Any]]:
         data = digest_of_data(self.directory, self.output, case)
@@ -89,8 +98,15 @@ def report_columns(overview: dict[str, Any]) -> list[Column]:
     """The columns that the report shows, from left to right, as campaign.json describes them."""
     shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
     for column in shown:
-        column["unit"] = UNIT_SIGNS.get(column["unit"], column["unit"])
+        column["heading"] = plain(column["heading"])
+        column["unit"] = UNIT_SIGNS.get(column["shown_unit"], column["shown_unit"])
     return sorted(shown, key=lambda column: column["position"])
+
+
+def written(value: Any, column: Column) -> str:
+    """A value as people read it, in the column's unit for people."""
+    shown: str = column["format"].format(column["factor"] * value if isinstance(value, float) else value)
+    return shown
 
 
 def cell(row: Case, column: Column) -> dict[str, Any]:
@@ -99,7 +115,7 @@ def cell(row: Case, column: Column) -> dict[str, Any]:
     if value is None or value == "":
         return {"shown": "", "key": "", "text": column["type"] == "text"}
     key = value if isinstance(value, (int, float)) else str(value)
-    return {"shown": column["format"].format(value), "key": key, "text": column["type"] == "text"}
+    return {"shown": written(value, column), "key": key, "text": column["type"] == "text"}
 
 
 def with_unit(shown: str, unit: str) -> str:
@@ -109,9 +125,10 @@ def with_unit(shown: str, unit: str) -> str:
 def split_columns(columns: list[Column], cases: list[Case]) -> tuple[list[Column], str]:
     """The columns of the table without empty ones, and a sentence about those that are the same in all cases."""
     same = [column for column in columns
-            if column["once_when_same"] and len(cases) > 1 and len({case[column["name"]] for case in cases}) == 1]
-    told = [f"{column['heading']} = {with_unit(column['format'].format(cases[0][column['name']]), column['unit'])}" for column in same]
+            if column["once_when_same"] and len(cases) > 1 and len({case.get(column["name"]) for case in cases}) == 1]
     empty = [column for column in columns if cases and all(case.get(column["name"]) is None for case in cases)]
+    told = [f"{column['heading']} = {with_unit(written(cases[0][column['name']], column), column['unit'])}"
+            for column in same if column not in empty]
     return [column for column in columns if column not in same + empty], ", ".join(told)
 
 
@@ -158,6 +175,9 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
         loader=jinja2.FileSystemLoader(folder), autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     return environment.get_template("report.html").render(
         overview=overview,
+        conclusion=conclusion(cases),
+        mode_letters=MODE_LETTERS,
+        plain=plain,
         script_digest=script_digest((folder / "report.html").read_text(encoding="utf-8")),
         counts=counts(cases),
         columns=columns,

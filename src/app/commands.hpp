@@ -18,6 +18,8 @@ constexpr char const* mode_letters =
 /// main() prints them.
 /// @{
 
+/// Writes a campaign file to begin with.
+void add_init(CLI::App& program, int& exit_code);
 /// Simulates the cases of a campaign.
 void add_run(CLI::App& program, int& exit_code);
 /// Lists the cases of a campaign and what they will cost.

@@ -20,7 +20,36 @@
 namespace vibrotrough::app {
 namespace {
 
+/// The beginning of 'vibrotrough --help': what people come for, with an example each.
+constexpr char const* tasks =
+    R"(Measures with LIGGGHTS simulations (DEM) how fast a vibrating trough conveys a granular layer, and compares it with
+the point-mass theory of vibratory conveying. What do you want to do?
+
+  size a trough, by the theory, in a second:
+      vibrotrough theory design --friction 0.3 --machine-number 4 --stroke "2 mm to 16 mm"
+  know the speed of a machine, by the theory:
+      vibrotrough theory point --frequency "800 rpm" --stroke "12 mm" \
+          --vibration-angle "30 deg" --friction 0.3
+  know the friction of a material, from a shake test:
+      vibrotrough theory friction --machine-number 1.5 --max-relative-displacement 1.9
+  know the friction of a material, from speeds that were measured:
+      vibrotrough theory calibrate speeds.csv --free friction
+  know what my layer does, by simulation:
+      vibrotrough init pellets       # writes pellets.toml, a campaign file to change
+      vibrotrough check pellets.toml
+      vibrotrough run pellets.toml --jobs 2
+      vibrotrough report runs/pellets
+  see how far a campaign is:
+      vibrotrough status runs/pellets
+  compare layer and theory:
+      vibrotrough compare runs/pellets --sort difference:desc
+  know how large the numerical error is:
+      vibrotrough convergence runs/pellets
+  see the grains in ParaView:
+      vibrotrough export runs/pellets)";
+
 void add_commands(CLI::App& program, int& exit_code) {
+    add_init(program, exit_code);
     add_run(program, exit_code);
     add_plan(program, exit_code);
     add_work(program, exit_code);
@@ -83,16 +112,10 @@ std::string describe(CLI::ParseError const& error, CLI::App const& program, int 
 }
 
 int run(int argc, char** argv) {
-    CLI::App program{
-        "Measures with LIGGGHTS simulations (DEM) how fast a vibrating trough conveys a granular layer, and "
-        "compares "
-        "it with the point-mass theory of vibratory conveying"};
+    CLI::App program{tasks};
     program.name("vibrotrough");
     program.formatter(std::make_shared<HelpFormatter>());
-    program.footer(R"('vibrotrough COMMAND --help' explains a command and gives an example. A first campaign:
-  vibrotrough check validation/demo/campaign.toml
-  vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2
-  vibrotrough compare runs/demo)");
+    program.footer("'vibrotrough COMMAND --help' explains a command and gives an example.");
     program.set_version_flag("--version", version_text,
                              "Print version, commit, libraries and engine, and exit");
     program.require_subcommand(1);

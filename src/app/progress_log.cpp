@@ -27,15 +27,25 @@ Json known(double value) {
     return value >= 0 ? Json(value) : Json();
 }
 
+/// Its id and what distinguishes it.
+std::string described(campaign::PlannedCase const& planned) {
+    return planned.label.empty() ? planned.id : fmt::format("{} ({})", planned.id, planned.label);
+}
+
 Json describe(campaign::RunningPacking const& one) {
-    Json json{{"case", one.planned->id},   {"packing", one.packing},
-              {"cycles", one.cycles},      {"cycles_wanted", one.cycles_wanted},
-              {"efficiency", nullptr},     {"efficiency_half_width", nullptr},
-              {"elapsed_s", one.elapsed},  {"time_to_go_s", known(one.time_to_go)},
+    Json json{{"case", one.planned->id},
+              {"label", one.planned->label},
+              {"packing", one.packing},
+              {"cycles", one.cycles},
+              {"cycles_wanted", one.cycles_wanted},
+              {"efficiency", nullptr},
+              {"efficiency_half_width", nullptr},
+              {"elapsed_s", one.elapsed},
+              {"time_to_go_s", known(one.time_to_go)},
               {"silent_s", one.silent_for}};
     if (one.estimate && std::isfinite(one.estimate->mean)) {
         json["efficiency"] = one.estimate->mean;
-        json["efficiency_half_width"] = one.estimate->half_width;
+        if (std::isfinite(one.estimate->half_width)) json["efficiency_half_width"] = one.estimate->half_width;
     }
     return json;
 }
@@ -90,11 +100,8 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
 
 void JsonProgress::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                               std::string const& message) {
-    Json const json{{"event", "case_ended"},
-                    {"time", core::utc_now()},
-                    {"case", planned.id},
-                    {"outcome", name_of(outcome)},
-                    {"message", message}};
+    Json const json{{"event", "case_ended"},  {"time", core::utc_now()},     {"case", planned.id},
+                    {"label", planned.label}, {"outcome", name_of(outcome)}, {"message", message}};
     tell("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -153,9 +160,9 @@ void LoggingObserver::stopping() {
 void LoggingObserver::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                                  std::string const& message) {
     if (message.empty()) {
-        log().info(fmt::format("case {}: {}", planned.id, name_of(outcome)));
+        log().info(fmt::format("case {}: {}", described(planned), name_of(outcome)));
     } else {
-        log().warn(fmt::format("case {}: {}: {}", planned.id, name_of(outcome), message));
+        log().warn(fmt::format("case {}: {}: {}", described(planned), name_of(outcome), message));
     }
     next_.case_ended(planned, outcome, message);
 }

@@ -4,7 +4,6 @@
 #include "core/text.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,13 +13,23 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// Whether a time to go is known and not over: "0:00 to go" of something that still runs would be wrong.
+bool is_worth_telling(double time_to_go) {
+    return time_to_go >= 1;
+}
+
+/// A case by what distinguishes it.
+std::string const& name_of(campaign::PlannedCase const& planned) {
+    return planned.label.empty() ? planned.id : planned.label;
+}
+
 std::string describe(campaign::Progress const& progress) {
     std::string text =
         fmt::format("{} done, {} running, {} left", progress.finished, progress.running, progress.left);
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
     text += fmt::format("; packings {}/{}; {} elapsed", progress.packings_done, progress.packings,
                         clock_time(progress.elapsed));
-    if (progress.time_to_go >= 0) {
+    if (is_worth_telling(progress.time_to_go)) {
         text += fmt::format(", about {} to go; {:.3g} core-hours spent, {:.3g} to go",
                             clock_time(progress.time_to_go), progress.core_time / 3600,
                             progress.core_time_to_go / 3600);
@@ -28,16 +37,19 @@ std::string describe(campaign::Progress const& progress) {
     return text;
 }
 
-/// "  6f285f55cce4 packing 2: cycle 21 of 24, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
+/// "  throw_number 2, packing 2: cycle 21 of 24, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
-    std::string text = fmt::format("  {} packing {}: cycle {} of {}", one.planned->id, one.packing,
+    std::string text = fmt::format("  {}, packing {}: cycle {} of {}", name_of(*one.planned), one.packing,
                                    one.cycles, one.cycles_wanted);
-    if (one.estimate && std::isfinite(one.estimate->mean))
-        text += fmt::format(", eta {:.3f} +- {:.3f}", one.estimate->mean, one.estimate->half_width);
+    if (one.estimate && std::isfinite(one.estimate->mean)) {
+        text += fmt::format(", eta {:.3f}", one.estimate->mean);
+        if (std::isfinite(one.estimate->half_width))
+            text += fmt::format(" +- {:.3f}", one.estimate->half_width);
+    }
     text += fmt::format(", {} elapsed", clock_time(one.elapsed));
     if (one.silent_for > 0) {
         text += fmt::format(", NO CYCLE FOR {}; is its engine stopped?", clock_time(one.silent_for));
-    } else if (one.time_to_go >= 0) {
+    } else if (is_worth_telling(one.time_to_go)) {
         text += fmt::format(", about {} to go", clock_time(one.time_to_go));
     }
     return text;
@@ -90,11 +102,8 @@ void ProgressPrinter::progressed(campaign::Progress const& progress) {
 void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                                  std::string const& message) {
     clear_lines();
-    scenario::Trough const& trough = planned.scenario().trough;
-    tell("case {} (throw number {:.4g}, vibration angle {:.4g} deg, inclination {:.4g} deg): {}{}{}\n",
-         planned.id, planned.prepared->throw_number, scenario::in_degrees(trough.vibration_angle),
-         scenario::in_degrees(trough.inclination), name_of(outcome), message.empty() ? "" : ": ",
-         core::harmless(message));
+    tell("case {}{}: {}{}{}\n", planned.id, planned.label.empty() ? "" : fmt::format(" ({})", planned.label),
+         core::name_of(outcome), message.empty() ? "" : ": ", core::harmless(message));
 }
 
 void ProgressPrinter::stopping() {

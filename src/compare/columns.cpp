@@ -1,5 +1,7 @@
 #include "compare/columns.hpp"
 
+#include "compare/machine_columns.hpp"
+
 #include <cmath>
 #include <vector>
 
@@ -17,11 +19,26 @@ std::optional<double> difference(Row const& row) {
     return *row.efficiency_dem - *row.efficiency_theory;
 }
 
+/// The mean of a member of Row that is an interval.
+template <auto member>
+constexpr auto mean = +[](Row const& row) -> std::optional<double> {
+    if (!(row.*member)) return {};
+    return (row.*member)->mean;
+};
+
+/// The half-width of a member of Row that is an interval.
+template <auto member>
+constexpr auto half_width = +[](Row const& row) -> std::optional<double> {
+    if (!(row.*member)) return {};
+    return (row.*member)->half_width;
+};
+
 std::string three_digits(std::optional<double> const& value) {
     return value ? fmt::format("{:.3f}", *value) : "-";
 }
 
 std::string efficiency_cell(Row const& row) {
+    if (!row.efficiency_dem || !row.efficiency_dem_half_width) return three_digits(row.efficiency_dem);
     return three_digits(row.efficiency_dem) + " +- " + three_digits(row.efficiency_dem_half_width);
 }
 
@@ -45,66 +62,6 @@ std::string outcome_colour(Row const& row) {
     return is_fine ? "" : "\x1b[31m";
 }
 
-std::vector<Column> drive_columns() {
-    return {
-        {.name = "case",
-         .unit = "1",
-         .value = field<&Row::id>,
-         .meaning = "Case id: a hash of the scenario, the deck and the engine's version",
-         .position = 10,
-         .terminal = TerminalView{.heading = "case", .priority = always_shown, .flush_left = true},
-         .report = ReportView{.heading = "case"}},
-        {.name = "throw_number",
-         .unit = "1",
-         .value = field<&Row::throw_number>,
-         .meaning = "Throw number \u0393 = \u03c9\u00b2 r sin \u03b2 / (g cos \u03b1)",
-         .format = "{:.3f}",
-         .position = 20,
-         .terminal = TerminalView{.heading = "Gamma", .priority = 8},
-         .report = ReportView{.heading = "throw number \u0393", .once_when_same = true}},
-        {.name = "machine_number",
-         .unit = "1",
-         .value = field<&Row::machine_number>,
-         .meaning = "Machine number K = \u03c9\u00b2 r / g"},
-        {.name = "vibration_angle_deg",
-         .unit = "degree",
-         .value = field<&Row::vibration_angle_deg>,
-         .meaning = "Vibration angle \u03b2 between the direction of vibration and the trough",
-         .format = "{:.2f}",
-         .position = 30,
-         .terminal = TerminalView{.heading = "beta", .subheading = "deg", .priority = 5},
-         .report = ReportView{.heading = "\u03b2", .once_when_same = true}},
-        {.name = "inclination_deg",
-         .unit = "degree",
-         .value = field<&Row::inclination_deg>,
-         .meaning = "Inclination \u03b1 of the trough, positive when it conveys uphill",
-         .format = "{:.2f}",
-         .position = 40,
-         .terminal = TerminalView{.heading = "alpha", .subheading = "deg", .priority = 3},
-         .report = ReportView{.heading = "\u03b1", .once_when_same = true}},
-        {.name = "friction",
-         .unit = "1",
-         .value = field<&Row::friction>,
-         .meaning = "Friction coefficient \u03bc of a grain on the trough",
-         .format = "{:.3g}",
-         .position = 50,
-         .terminal = TerminalView{.heading = "mu", .priority = 4},
-         .report = ReportView{.heading = "\u03bc", .once_when_same = true}},
-        {.name = "amplitude_m",
-         .unit = "m",
-         .value = field<&Row::amplitude_m>,
-         .meaning = "Amplitude r in the direction of vibration, half the stroke"},
-        {.name = "frequency_hz",
-         .unit = "Hz",
-         .value = field<&Row::frequency_hz>,
-         .meaning = "Frequency of the vibration",
-         .format = "{:.2f}",
-         .position = 60,
-         .terminal = TerminalView{.heading = "f", .subheading = "Hz", .priority = 1},
-         .report = ReportView{.heading = "frequency", .once_when_same = true}},
-    };
-}
-
 std::vector<Column> efficiency_columns() {
     return {
         {.name = "efficiency_dem",
@@ -125,12 +82,18 @@ std::vector<Column> efficiency_columns() {
          .report = ReportView{.heading = "\u00b1 statistical"}},
         {.name = "speed_dem_m_per_s",
          .unit = "m/s",
-         .value = field<&Row::speed_dem_m_per_s>,
+         .value = mean<&Row::speed_dem>,
          .meaning = "Conveying speed of the simulated layer: efficiency_dem times \u03c9 r cos \u03b2",
          .format = "{:.3f}",
          .position = 160,
          .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 4},
          .report = ReportView{.heading = "speed"}},
+        {.name = "speed_dem_half_width_m_per_s",
+         .unit = "m/s",
+         .value = half_width<&Row::speed_dem>,
+         .meaning = "Half-width of the confidence interval of speed_dem_m_per_s",
+         .format = "{:.3f}",
+         .position = 161},
         {.name = "efficiency_theory",
          .unit = "1",
          .value = field<&Row::efficiency_theory>,
@@ -299,6 +262,7 @@ std::vector<Column> numerics_columns() {
 }
 
 std::string budget_cell(Row const& row) {
+    if (!row.numerical_error) return efficiency_cell(row);
     return efficiency_cell(row) + " +- " + three_digits(row.numerical_error) + (is_borrowed(row) ? "*" : "");
 }
 
@@ -308,8 +272,8 @@ std::string larger_error_colour(Row const& row) {
 
 }  // namespace
 
-std::vector<Column> budget_columns() {
-    std::vector<Column> columns(all_columns().begin(), all_columns().end());
+std::vector<Column> budget_columns(std::span<Column const> all) {
+    std::vector<Column> columns(all.begin(), all.end());
     for (Column& column : columns) {
         if (column.name == "efficiency_dem") {
             column.terminal->subheading = "+- stat. +- num.";
@@ -323,6 +287,10 @@ std::vector<Column> budget_columns() {
 }
 
 std::optional<Value> Column::of(Row const& row) const {
+    if (swept >= 0) {
+        auto const place = static_cast<std::size_t>(swept);
+        return place < row.swept.size() ? row.swept[place] : std::nullopt;
+    }
     return std::visit(
         [&row](auto const function) -> std::optional<Value> {
             if (auto known = function(row)) return Value(*std::move(known));
@@ -334,14 +302,16 @@ std::optional<Value> Column::of(Row const& row) const {
 std::string Column::shown(Row const& row) const {
     auto const known = of(row);
     if (!known) return "-";
+    if (auto const* const number = std::get_if<double>(&*known))
+        return fmt::format(fmt::runtime(format), factor * *number);
     return std::visit([this](auto const& one) { return fmt::format(fmt::runtime(format), one); }, *known);
 }
 
 std::span<Column const> all_columns() {
     static std::vector<Column> const columns = [] {
         std::vector<Column> all;
-        for (auto const& part :
-             {drive_columns(), efficiency_columns(), friction_columns(), run_columns(), numerics_columns()})
+        for (auto const& part : {drive_columns(), efficiency_columns(), machine_columns(), friction_columns(),
+                                 run_columns(), numerics_columns()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/comparison.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <optional>
 #include <span>
@@ -14,9 +15,6 @@
 /// the report and the list in README.md all follow from it.
 
 namespace vibrotrough::compare {
-
-/// A known value of a column.
-using Value = std::variant<double, int, std::string>;
 
 /// The type of a column's values, in the order of the variant Value.
 enum class ColumnType {
@@ -53,7 +51,7 @@ struct Column {
     /// A function that gives the value of a row, none where it is not known. Its type is the column's type.
     using Function = std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
                                   std::optional<std::string> (*)(Row const&)>;
-    Function value;            ///< gives the value of a row
+    Function value;            ///< gives the value of a row; of a column of Row::swept only the type counts
     std::string_view meaning;  ///< one sentence for people, in the README and the report
     std::string_view format =
         "{}";             ///< of a value in tables for people, as both fmt and Python understand it
@@ -61,6 +59,10 @@ struct Column {
     bool in_data = true;  ///< whether JSON, CSV and the VTK table have it
     std::optional<TerminalView> terminal = {};  ///< none: not in the terminal's table
     std::optional<ReportView> report = {};      ///< none: not in the report's table
+    std::string_view key = "";  ///< of the campaign file, another name for --filter and --sort; may be empty
+    int swept = -1;             ///< place in Row::swept; negative for other columns
+    double factor = 1;          ///< tables for people show the number times this, in the unit `shown_unit`
+    std::string_view shown_unit = "";  ///< empty: `unit`
 
     /// The type of the values.
     ColumnType type() const { return static_cast<ColumnType>(value.index()); }
@@ -73,8 +75,18 @@ struct Column {
 /// All columns, in the order of JSON and CSV.
 std::span<Column const> all_columns();
 
+/// All columns and one for each swept key that has none, named like the key. The columns of swept keys come
+/// right behind the case in tables for people, and are left out last.
+std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept);
+
+/// Whether a column shows one of these keys.
+bool is_swept(Column const& column, scenario::SweptKeys const& swept);
+
+/// The value of a swept key for its column: as scenario::key_value, but angles in degrees.
+std::optional<Value> swept_value(scenario::Scenario const& scenario, scenario::Key const& key);
+
 /// The same columns for the terminal's table of `compare --budget`: efficiency_dem with its statistical and
 /// its numerical error, a star behind one that is borrowed, and which of the two is larger.
-std::vector<Column> budget_columns();
+std::vector<Column> budget_columns(std::span<Column const> columns = all_columns());
 
 }  // namespace vibrotrough::compare

@@ -14,13 +14,16 @@ namespace vibrotrough::compare {
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity) {
     auto const tests = campaign::read_friction(plan.folder);
     auto const numerics = campaign::read_case_numerics(plan);
-    ComparedCases found{.cases = campaign::survey(plan, activity), .rows = {}};
+    ComparedCases found{
+        .cases = campaign::survey(plan, activity), .rows = {}, .columns = columns_with_swept(plan.swept)};
     for (campaign::CaseOverview const& one : found.cases) {
         std::optional<MeasuredFriction> friction;
         if (auto const test = tests.find(layer_key(one.planned->scenario())); test != tests.end())
             friction = {*test->second.friction, *test->second.low, *test->second.high};
         found.rows.push_back(
             compare(one.planned->id, *one.planned->prepared, one.record, std::string(one.label()), friction));
+        for (scenario::Key const* const key : plan.swept)
+            found.rows.back().swept.push_back(swept_value(one.planned->scenario(), *key));
         if (auto const known = numerics.find(one.planned->id); known != numerics.end()) {
             found.rows.back().numerical_error = known->second.error;
             found.rows.back().numerical_error_case = known->second.case_id;
@@ -29,10 +32,18 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
     return found;
 }
 
-nlohmann::ordered_json case_list(ComparedCases const& compared, std::span<Column const> columns) {
+Row planned_row(campaign::Plan const& plan, campaign::CaseOverview const& one) {
+    Row row = drive_row(one.planned->id, *one.planned->prepared);
+    for (scenario::Key const* const key : plan.swept)
+        row.swept.push_back(swept_value(one.planned->scenario(), *key));
+    return row;
+}
+
+nlohmann::ordered_json case_list(ComparedCases const& compared) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < compared.rows.size(); ++i) {
-        nlohmann::ordered_json object = to_object(compared.rows[i], columns);
+        nlohmann::ordered_json object = to_object(compared.rows[i], compared.columns);
+        object["label"] = compared.cases[i].planned->label;
         object["message"] = compared.cases[i].message;
         object["packings_done"] = compared.cases[i].packings_done;
         object["packings_wanted"] = compared.cases[i].planned->scenario().measure.packings;

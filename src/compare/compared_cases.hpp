@@ -14,6 +14,7 @@ namespace vibrotrough::compare {
 struct ComparedCases {
     std::vector<campaign::CaseOverview> cases;  ///< in the order of the plan
     std::vector<Row> rows;                      ///< of the same cases in the same order
+    std::vector<Column> columns;                ///< of the rows, with those of the swept keys
 };
 
 /// Compares all cases of a campaign with the theory. The friction of a layer is used where a friction test
@@ -21,9 +22,11 @@ struct ComparedCases {
 /// @param activity  what the executors know of the campaign, for cases without a result
 ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity);
 
-/// The rows with all columns as a JSON array. Each object also has the members message, packings_done and
-/// packings_wanted from the state of the case.
-nlohmann::ordered_json case_list(ComparedCases const& compared,
-                                 std::span<Column const> columns = all_columns());
+/// The row of a case of a plan without result and theory: its drive and its swept keys.
+Row planned_row(campaign::Plan const& plan, campaign::CaseOverview const& one);
+
+/// The rows with all columns as a JSON array. Each object also has the members label (what distinguishes the
+/// case), message, packings_done and packings_wanted from the state of the case.
+nlohmann::ordered_json case_list(ComparedCases const& compared);
 
 }  // namespace vibrotrough::compare

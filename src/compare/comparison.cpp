@@ -72,7 +72,27 @@ std::optional<double> mean_of(store::CaseRecord const& record,
     return sum / count;
 }
 
-void add_measurement(Row& row, store::CaseRecord const& record, double velocity_scale) {
+Interval scaled(Interval const& interval, double factor) {
+    if (!interval.half_width) return {factor * interval.mean, {}};
+    return {factor * interval.mean, factor * *interval.half_width};
+}
+
+/// What the layer carries and does to its machine. The record's scenario gives the size of the layer.
+void add_machine(Row& row, store::CaseRecord const& record, scenario::Scenario const& s) {
+    double const area = s.layer.length * s.layer.width, mass = mass_per_area(s) * area;
+    row.mass_flow_per_width = scaled(*row.speed_dem, mass_per_area(s));
+    if (auto const width = trough_width(s)) row.mass_flow = scaled(*row.mass_flow_per_width, *width);
+    if (auto const power = mean_of(record, &measure::LayerMotion::trough_power))
+        row.power_per_area = *power / area;
+    if (auto const damping = mean_of(record, &measure::LayerMotion::damping))
+        row.damping_per_area = *damping / area;
+    if (auto const added = mean_of(record, &measure::LayerMotion::added_mass)) {
+        row.added_mass_per_area = *added / area;
+        row.added_mass_fraction = *added / mass;
+    }
+}
+
+void add_measurement(Row& row, store::CaseRecord const& record, prepare::PreparedCase const& prepared) {
     row.packings = record.estimate.packings;
     if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
     row.cycles_measured = row.cycles_discarded = 0;
@@ -85,7 +105,10 @@ void add_measurement(Row& row, store::CaseRecord const& record, double velocity_
     if (!has_mean(record.outcome)) return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     row.efficiency_dem_half_width = record.estimate.half_width;
-    if (record.estimate.mean) row.speed_dem_m_per_s = *record.estimate.mean * velocity_scale;
+    if (record.estimate.mean) {
+        row.speed_dem = scaled({*record.estimate.mean, record.estimate.half_width}, prepared.velocity_scale);
+        add_machine(row, record, prepared.scenario);
+    }
     row.efficiency_by_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
     row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
 }
@@ -141,9 +164,7 @@ std::optional<std::string> larger_error(Row const& row) {
     return *row.numerical_error > *row.efficiency_dem_half_width ? "numerical" : "statistical";
 }
 
-Row compare(std::string const& id, prepare::PreparedCase const& prepared,
-            std::optional<store::CaseRecord> const& record, std::string const& outcome,
-            std::optional<MeasuredFriction> const& friction) {
+Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
     scenario::Trough const& trough = prepared.scenario.trough;
     Row row{};
     row.id = id;
@@ -154,11 +175,18 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
     row.friction = trough.friction;
     row.amplitude_m = trough.amplitude;
     row.frequency_hz = trough.frequency;
+    return row;
+}
+
+Row compare(std::string const& id, prepare::PreparedCase const& prepared,
+            std::optional<store::CaseRecord> const& record, std::string const& outcome,
+            std::optional<MeasuredFriction> const& friction) {
+    Row row = drive_row(id, prepared);
     row.outcome = record ? std::string(name_of(record->outcome)) : outcome;
     add_theory(row, prepared.point_mass);
     add_rolling_layer(row, prepared);
     if (friction) add_layer_theory(row, prepared.point_mass, *friction);
-    if (record) add_measurement(row, *record, prepared.velocity_scale);
+    if (record) add_measurement(row, *record, prepared);
     return row;
 }
 

@@ -5,9 +5,20 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace vibrotrough::compare {
+
+/// A known value of a column.
+using Value = std::variant<double, int, std::string>;
+
+/// A mean and the half-width of its confidence interval; the latter is not known when the interval is
+/// unbounded.
+struct Interval {
+    double mean;                       ///< estimate
+    std::optional<double> half_width;  ///< at the campaign's confidence
+};
 
 /// One case: what was measured beside what the point-mass theory predicts. Members without a value are not
 /// known. The table of columns, columns.cpp, explains the members.
@@ -22,7 +33,13 @@ struct Row {
     double frequency_hz;                              ///< Hz
     std::optional<double> efficiency_dem;             ///< none when the layer never became steady
     std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
-    std::optional<double> speed_dem_m_per_s;          ///< efficiency_dem * omega r cos(beta), m/s
+    std::optional<Interval> speed_dem;                ///< efficiency_dem * omega r cos(beta), m/s
+    std::optional<Interval> mass_flow_per_width;      ///< speed_dem times the mass per area, kg/(s m)
+    std::optional<Interval> mass_flow;                ///< of the whole width of the trough, kg/s
+    std::optional<double> power_per_area;             ///< W/m^2, of the trough on the layer
+    std::optional<double> added_mass_per_area;        ///< kg/m^2, by which the layer loads the machine
+    std::optional<double> added_mass_fraction;        ///< added mass over the mass of the layer
+    std::optional<double> damping_per_area;           ///< kg/(s m^2), by which the layer damps the machine
     std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
     std::optional<double> efficiency_rolling_layer;   ///< none outside the tested range of that law
     std::optional<std::string> mode_theory;           ///< phases of that point mass in order
@@ -41,6 +58,8 @@ struct Row {
     std::string outcome;                            ///< how the case ended, or what it waits for
     std::optional<double> numerical_error;          ///< of efficiency_dem, when a study has measured it
     std::optional<std::string> numerical_error_case;  ///< id of the case that was studied for it
+    /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
+    std::vector<std::optional<Value>> swept = {};
 };
 
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.
@@ -56,6 +75,9 @@ struct MeasuredFriction {
     double low;       ///< lower end of its confidence interval
     double high;      ///< upper end of its confidence interval
 };
+
+/// The row of a case with its drive only, without theory and measurement.
+Row drive_row(std::string const& id, prepare::PreparedCase const& prepared);
 
 /// Compares one case with the theory.
 /// @param id        of the case

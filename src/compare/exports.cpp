@@ -55,6 +55,14 @@ Json to_object(Row const& row, std::span<Column const> columns) {
     return object;
 }
 
+Json swept_object(Row const& row, std::span<Column const> columns) {
+    Json object = Json::object();
+    for (Column const& column : columns) {
+        if (column.swept >= 0) object.push_back({std::string(column.name), json_of(column.of(row))});
+    }
+    return object;
+}
+
 std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns) {
     Json array = Json::array();
     for (Row const& row : rows) {
@@ -86,15 +94,14 @@ std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns
 Json column_descriptions(std::span<Column const> columns) {
     Json list = Json::array();
     for (Column const& column : columns) {
-        Json one{{"name", column.name},
-                 {"unit", column.unit},
-                 {"type", name_of(column.type())},
-                 {"meaning", column.meaning},
-                 {"report", nullptr}};
+        Json one{{"name", column.name},       {"unit", column.unit}, {"type", name_of(column.type())},
+                 {"meaning", column.meaning}, {"key", column.key},   {"report", nullptr}};
         if (column.report) {
             one["report"] = {{"heading", column.report->heading},
                              {"format", column.format},
                              {"position", column.position},
+                             {"factor", column.factor},
+                             {"shown_unit", column.shown_unit.empty() ? column.unit : column.shown_unit},
                              {"once_when_same", column.report->once_when_same}};
         }
         list.push_back(std::move(one));

@@ -20,6 +20,10 @@ std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns
 /// One row as a JSON object with all columns, including those that to_json() leaves out.
 nlohmann::ordered_json to_object(Row const& row, std::span<Column const> columns = all_columns());
 
+/// The members of a JSON object for the columns of Row::swept, that is, of the swept keys that have no other
+/// column.
+nlohmann::ordered_json swept_object(Row const& row, std::span<Column const> columns);
+
 /// What the report needs to show a table of rows: the name, unit, type and meaning of each column and, for
 /// the columns of the report, heading, format, position and whether a sentence replaces a column of equal
 /// values.

@@ -24,13 +24,28 @@ std::string period_csv(prepare::PreparedCase const& prepared) {
     return point_mass ? point_mass_csv(*point_mass) : "";
 }
 
+/// The swept keys with their columns. `path` is the dataset of campaign.h5 below swept/.
+Json swept_list(campaign::Plan const& plan) {
+    Json list = Json::array();
+    auto const columns = columns_with_swept(plan.swept);
+    for (scenario::Key const* const key : plan.swept) {
+        auto const column = std::ranges::find(columns, key->path, &Column::key);
+        list.push_back({{"key", key->path},
+                        {"name", scenario::short_name(*key)},
+                        {"column", column->name},
+                        {"unit", scenario::shown_unit(*key).name},
+                        {"meaning", key->meaning}});
+    }
+    return list;
+}
+
 }  // namespace
 
 int write_report_data(campaign::Plan const& plan, campaign::Activity const& activity,
                       fs::path const& folder) {
     if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
     ComparedCases const compared = compared_cases(plan, activity);
-    auto const& [cases, rows] = compared;
+    auto const& cases = compared.cases;
     core::make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
         core::write_file_atomically(folder / "point_mass" / (one.planned->id + ".csv"),
@@ -42,11 +57,12 @@ int write_report_data(campaign::Plan const& plan, campaign::Activity const& acti
                     {"engine_version", plan.engine_version},
                     {"written", core::utc_now()},
                     {"input", core::read_file(plan.folder / "campaign.toml", core::largest_note)},
-                    {"columns", column_descriptions()},
+                    {"columns", column_descriptions(compared.columns)},
+                    {"swept", swept_list(plan)},
                     {"cases", case_list(compared)}};
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
-    core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(rows));
+    core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));
     return static_cast<int>(
         std::ranges::count_if(cases, [](auto const& one) { return one.record.has_value(); }));
 }

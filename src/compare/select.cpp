@@ -21,6 +21,13 @@ constexpr std::size_t longest_shown = 60;
 Column const& find_column(std::span<Column const> columns, std::string_view option, std::string_view name) {
     auto const found = std::ranges::find(columns, name, &Column::name);
     if (found != columns.end()) return *found;
+    // A swept key may be written in full (trough.friction), or without its section where that is unique.
+    auto const by_key = std::ranges::find(columns, name, &Column::key);
+    if (by_key != columns.end() && !name.empty()) return *by_key;
+    auto const is_short = [&](Column const& column) {
+        return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
+    };
+    if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
     std::string names;
     for (Column const& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
     throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,

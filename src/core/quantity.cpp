@@ -57,7 +57,28 @@ void check_unit_text(std::string_view text) {
     }
 }
 
-/// Whether the unit contains an angle, like "deg" and "rpm".
+/// A ton is 1000 kg in most countries, 907 kg in the United States and in udunits2, and 1016 kg in Britain.
+void check_ton(std::string_view text) {
+    static std::regex const ton(R"((^|[^A-Za-z_])tons?($|[^A-Za-z_]))", std::regex::icase);
+    if (!std::regex_search(std::string(text), ton)) return;
+    throw QuantityError(
+        fmt::format("'{}' can mean three masses; write t for metric tonnes (1000 kg), short_ton (907 kg) or "
+                    "long_ton (1016 kg)",
+                    text));
+}
+
+/// A frequency counts cycles, and a turn of the shaft is one cycle of the drive: "rpm" becomes "1/minute" and
+/// "turns / s" becomes "1 / s". In udunits2 a turn is an angle, 2 pi.
+std::string turns_as_cycles(std::string const& text) {
+    static std::regex const rpm("rpm|RPM|revolutions?_per_minute");
+    static std::regex const turn("(turns?|revolutions?|rotations?|cycles?|rev|r)( ?/.*| per .*)");
+    if (std::regex_match(text, rpm)) return "1/minute";
+    std::smatch parts;
+    if (std::regex_match(text, parts, turn)) return "1" + parts[2].str();
+    return text;
+}
+
+/// Whether the unit contains an angle, like "deg" and "rad/s".
 bool is_angular(ut_unit const* unit) {
     std::array<char, 256> definition{};
     int const size = ut_format(unit, definition.data(), definition.size(), UT_ASCII | UT_DEFINITION);
@@ -84,21 +105,23 @@ double parse_quantity(std::string_view text, std::string const& unit) {
     auto const rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
     check_unit_text(rest);
-    Unit const from = parse_unit((rest.front() == '/' ? "1" : "") + std::string(rest));  // "340 / minute"
+    check_ton(rest);
+    std::string written = (rest.front() == '/' ? "1" : "") + std::string(rest);  // "340 / minute"
+    if (unit == "Hz") written = turns_as_cycles(written);
+    Unit const from = parse_unit(written);
     if (!from) throw QuantityError(fmt::format("'{}' is not a known unit (of udunits2)", rest));
     Unit const to = parse_unit(unit);
     if (!to || ut_are_convertible(from.get(), to.get()) == 0) {
         throw QuantityError(fmt::format("'{}' cannot be converted to {}", rest, unit));
     }
-    // In udunits2 a radian is the number 1. Without this check "rpm" would become a frequency that is wrong
+    // In udunits2 a radian is the number 1. Without this check "rad/s" would become a frequency that is wrong
     // by 2 pi, and "5 %" would become an angle.
     if (is_angular(from.get()) != is_angular(to.get())) {
         throw QuantityError(
             is_angular(to.get())
                 ? fmt::format("'{}' is not a unit of angle", rest)
-                : fmt::format(
-                      "'{}' contains an angle, {} does not; write 340 turns per minute as 340 / minute", rest,
-                      unit));
+                : fmt::format("'{}' contains an angle, {} does not; write 340 turns per minute as 340 rpm",
+                              rest, unit));
     }
     std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
     double const result = cv_convert_double(converter.get(), number);

@@ -15,11 +15,13 @@ class QuantityError : public std::runtime_error {
 
 /// Reads a number with a unit, such as "6 mm", and converts it to `unit` with udunits2.
 ///
+/// Where `unit` is "Hz", a turn is a cycle: "1500 rpm", "1500 1/min" and "25 turns / s" are all 25 Hz. Angles
+/// ("157 rad/s") are refused there. "ton" and "tons" are refused because they mean different masses.
+///
 /// @param text  a finite decimal number, an optional space, and a unit that is in the udunits2 database
 /// @param unit  the SI unit of the result, e.g. "m", "radian", "Hz", "kg/m3", "Pa"
-/// @throws QuantityError when the number or the unit is missing, the unit is unknown or has another
-/// dimension,
-///   or the result is not finite
+/// @throws QuantityError when the number or the unit is missing, the unit is unknown, ambiguous or of another
+///   dimension, or the result is not finite
 double parse_quantity(std::string_view text, std::string const& unit);
 
 }  // namespace vibrotrough::core

@@ -1,6 +1,7 @@
 #include "measure/layer_motion.hpp"
 
 #include "measure/layer_mode.hpp"
+#include "measure/reaction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -319,6 +320,7 @@ LayerMotion layer_motion(PhaseSeries const& series, LayerFacts const& facts) {
     motion.restitution = analysis.restitution();
     motion.dissipation = analysis.dissipation();
     motion.floor_slip = mean_slip(motion.curves);
+    add_reaction(motion, facts.frequency);
     motion.friction_ratio = analysis.friction_ratio(motion.curves, phases);
     motion.largest_overlap = largest_in(*window, series.overlap);
     Values floor_overlap;

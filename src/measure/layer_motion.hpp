@@ -69,7 +69,11 @@ struct LayerMotion {
                                                        ///< normal force of the layer
     std::optional<double> largest_overlap;             ///< m, of two grains
     std::optional<double> largest_floor_overlap;       ///< m
-    PhaseCurves curves;                                ///< mean curves over one period
+    /// What the layer does to the machine, see reaction.hpp. No value without curves.
+    std::optional<double> added_mass;    ///< kg
+    std::optional<double> damping;       ///< kg/s
+    std::optional<double> trough_power;  ///< W, of the trough on the layer
+    PhaseCurves curves;                  ///< mean curves over one period
 };
 
 /// Cycles after which the height above the trough repeats: the first of 2 ... 8 whose squared differences are

@@ -48,10 +48,26 @@ std::optional<double> relative_dissipation(Packing packing, scenario::Trough con
     return *packing.motion.dissipation / (packing.mass * speed * speed);
 }
 
+std::optional<double> per_area(Case record, std::optional<double> const& value) {
+    if (!value) return {};
+    return *value / (record.scenario.layer.length * record.scenario.layer.width);
+}
+
 }  // namespace
 
 std::vector<CaseValue> layer_case_values() {
     return {
+        {{"added_mass", "kg",
+          "Mass that the layer adds to the trough, from the first harmonic of its force in phase with the "
+          "acceleration; may be negative; mean over the packings"},
+         Real([](Case c) { return mean(c, [](Packing p) { return p.motion.added_mass; }); })},
+        {{"damping", "kg/s",
+          "Damping that the layer adds to the trough, from the first harmonic of its force in phase with the "
+          "velocity; mean over the packings"},
+         Real([](Case c) { return mean(c, [](Packing p) { return p.motion.damping; }); })},
+        {{"power_per_area", "W/m2",
+          "Mean power of the trough on the layer over the area of trough; mean over the packings"},
+         Real([](Case c) { return per_area(c, mean(c, [](Packing p) { return p.motion.trough_power; })); })},
         {{"period_cycles", "1",
           "Cycles after which the layer's motion repeats, 1 to 8, the most of any packing"},
          Integer(longest_period)},
@@ -113,6 +129,19 @@ std::vector<CaseValue> layer_case_values() {
 
 std::vector<PackingValue> layer_packing_values() {
     return {
+        {{"added_mass", "kg",
+          "Mass that the layer adds to the trough, from the first harmonic of its force in phase with the "
+          "acceleration; may be negative"},
+         packing_field([](auto& p) -> auto& { return p.motion.added_mass; }),
+         true},
+        {{"damping", "kg/s",
+          "Damping that the layer adds to the trough, from the first harmonic of its force in phase with the "
+          "velocity"},
+         packing_field([](auto& p) -> auto& { return p.motion.damping; }),
+         true},
+        {{"trough_power", "W", "Mean power of the trough on the layer"},
+         packing_field([](auto& p) -> auto& { return p.motion.trough_power; }),
+         true},
         {{"layer_mode", "1", "The bulk's mode in the theory's letters, read from the mean curves in phases"},
          packing_field([](auto& p) -> auto& { return p.motion.mode; })},
         {{"period_cycles", "1", "Cycles after which the layer's motion repeats, 1 to 8"},

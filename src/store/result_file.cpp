@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
 #include "store/schema.hpp"
@@ -180,6 +181,10 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         source.files.push_back({name, content.get<std::string>()});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
+    for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
+        if (!packing.motion.added_mass)
+            measure::add_reaction(packing.motion, record.scenario.trough.frequency);
+    }
     return record;
 }
 
@@ -220,17 +225,42 @@ std::string result_bytes(CaseRecord const& record) {
     return file.bytes();
 }
 
+std::string names_of(scenario::SweptKeys const& swept) {
+    std::string names;
+    for (scenario::Key const* const key : swept)
+        names += fmt::format("{}{}", names.empty() ? "" : " ", key->path);
+    return names;
+}
+
+/// The values of a swept key, NaN or an empty text where a case has none.
+Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases) {
+    auto const value_of = [&](CaseRecord const& one) { return key_value(one.scenario, key.path); };
+    bool const is_text = key.kind == scenario::KeyKind::choice || key.kind == scenario::KeyKind::file;
+    if (is_text) {
+        return stored_values(cases, [&](CaseRecord const& one) {
+            auto const value = value_of(one);
+            return value ? std::get<std::string>(*value) : std::string();
+        });
+    }
+    return stored_values(cases, [&](CaseRecord const& one) -> std::optional<double> {
+        auto const value = value_of(one);
+        return value ? std::optional(std::get<double>(*value)) : std::nullopt;
+    });
+}
+
 /// The bytes of campaign.h5.
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           std::map<std::string, CaseNumerics> const& numerics) {
+                           std::map<std::string, CaseNumerics> const& numerics,
+                           scenario::SweptKeys const& swept) {
     Hdf5MemoryFileWriter file;
     file.attribute("format", campaign_format);
     file.attribute("schema_version", campaign_schema_version);
     file.attribute("campaign", campaign);
     file.attribute("program_version", std::string(core::program_version()));
     file.attribute("git_commit", std::string(core::program_commit()));
-    auto const put = [&file](Entry const& entry, Values const& values) {
-        file.dataset(std::string(entry.name), values, Rank::array, entry.units, entry.meaning);
+    file.attribute("swept_keys", names_of(swept));
+    auto const put = [&file](Entry const& entry, Values const& values, std::string const& group = "") {
+        file.dataset(group + std::string(entry.name), values, Rank::array, entry.units, entry.meaning);
     };
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
@@ -243,6 +273,7 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
             auto const known = numerics.find(one.id);
             return known == numerics.end() ? std::string() : known->second.case_id;
         }));
+    for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     return file.bytes();
 }
 
@@ -269,9 +300,21 @@ CaseRecord read_result(std::filesystem::path const& path) {
 }
 
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases,
-                    std::map<std::string, CaseNumerics> const& numerics) {
-    core::write_file_atomically(path, campaign_bytes(campaign, cases, numerics));
+                    std::vector<CaseRecord> const& cases, std::map<std::string, CaseNumerics> const& numerics,
+                    scenario::SweptKeys const& swept) {
+    core::write_file_atomically(path, campaign_bytes(campaign, cases, numerics, swept));
+}
+
+bool is_campaign_of(std::filesystem::path const& path, scenario::SweptKeys const& swept) {
+    try {
+        Hdf5MemoryFileReader const file(core::read_file(path));
+        return file.has_attribute("swept_keys") && file.text_attribute("swept_keys") == names_of(swept) &&
+               file.text_attribute("git_commit") == core::program_commit();
+    } catch (core::Error const&) {
+        return false;
+    } catch (Hdf5Error const&) {
+        return false;
+    }
 }
 
 }  // namespace vibrotrough::store

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/reader/swept_keys.hpp"
 #include "store/case_record.hpp"
 
 #include <filesystem>
@@ -30,10 +31,16 @@ struct CaseNumerics {
 };
 
 /// Writes campaign.h5 atomically: one dataset per column, with one value for each case in the order given.
+/// @param swept     keys that differ between the cases, each of which becomes a dataset swept/<key>
 /// @param numerics  by case id; cases without one have an unknown numerical error
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
                     std::vector<CaseRecord> const& cases,
-                    std::map<std::string, CaseNumerics> const& numerics = {});
+                    std::map<std::string, CaseNumerics> const& numerics = {},
+                    scenario::SweptKeys const& swept = {});
+
+/// Whether a campaign.h5 was written by this version of the program for these swept keys. Also false when it
+/// cannot be read.
+bool is_campaign_of(std::filesystem::path const& path, scenario::SweptKeys const& swept);
 
 }  // namespace vibrotrough::store

@@ -81,6 +81,13 @@ std::optional<double> speed(Case record, std::optional<double> const& efficiency
     return *efficiency * velocity_scale(record.scenario.trough);
 }
 
+/// Of a metre of width, from the velocity efficiency.
+std::optional<double> mass_flow(Case record, std::optional<double> const& efficiency) {
+    auto const known = speed(record, efficiency);
+    if (!known) return {};
+    return *known * mass_per_area(record.scenario);
+}
+
 std::vector<CaseValue> drive_and_result_values() {
     return {
         {{"throw_number", "1", "Throw number Gamma = omega^2 r sin(beta) / (g cos(alpha))"},
@@ -118,6 +125,16 @@ std::vector<CaseValue> drive_and_result_values() {
          real([](Case c) { return speed(c, c.estimate.mean); })},
         {{"speed_half_width", "m/s", "Half-width of the confidence interval of speed"},
          real([](Case c) { return speed(c, half_width(c)); })},
+        {{"mass_per_area", "kg/m2", "Mass of the layer per area of trough"},
+         real([](Case c) { return mass_per_area(c.scenario); })},
+        {{"mass_flow_per_width", "kg s-1 m-1", "Mass flow per width of trough: speed times mass_per_area"},
+         real([](Case c) { return mass_flow(c, c.estimate.mean); })},
+        {{"mass_flow_per_width_half_width", "kg s-1 m-1",
+          "Half-width of the confidence interval of mass_flow_per_width"},
+         real([](Case c) { return mass_flow(c, half_width(c)); })},
+        {{"trough_width", "m",
+          "Width of the real trough, as given or between the side walls; NaN when it is not known"},
+         real([](Case c) { return trough_width(c.scenario); })},
         {{"packings", "1", "Number of independent packings in the mean"},
          Integer([](Case c) { return c.estimate.packings; })},
         {{"cycles_measured", "1", "Cycles kept for the means, sum over the packings"},
@@ -317,6 +334,11 @@ Entry numerical_error_case_entry() {
         "empty when it is not known"};
 }
 
+Entry swept_entry(scenario::Key const& key) {
+    std::string_view const unit = key.unit.empty() ? "1" : key.unit == "radian" ? "rad" : key.unit;
+    return {key.path, unit, key.meaning};
+}
+
 Entry certificate_entry() {
     return {"engine_certificate", "1",
             "Certificate of the engine binary (JSON): what its probes showed; empty when it was not probed"};
@@ -324,76 +346,6 @@ Entry certificate_entry() {
 
 Entry scenario_files_entry() {
     return {"scenario_files", "1", "The files that the scenario names: a JSON object of names and contents"};
-}
-
-std::string verdict_name(measure::Verdict verdict) {
-    switch (verdict) {
-        case measure::Verdict::precise:
-            return "precise";
-        case measure::Verdict::not_precise:
-            return "not-precise";
-        case measure::Verdict::not_steady:
-            return "not-steady";
-    }
-    throw Hdf5Error("cannot name a verdict of unknown kind");
-}
-
-measure::Verdict verdict_of(std::string const& name) {
-    for (auto const verdict :
-         {measure::Verdict::precise, measure::Verdict::not_precise, measure::Verdict::not_steady}) {
-        if (verdict_name(verdict) == name) return verdict;
-    }
-    throw Hdf5Error("use the verdict '" + name + "', it is unknown");
-}
-
-int to_stored(int value) {
-    return value;
-}
-
-double to_stored(double value) {
-    return value;
-}
-
-double to_stored(std::optional<double> const& value) {
-    return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-std::string to_stored(std::string const& value) {
-    return value;
-}
-
-std::string to_stored(measure::Verdict value) {
-    return verdict_name(value);
-}
-
-void from_stored(int stored, int& value) {
-    value = stored;
-}
-
-void from_stored(double stored, double& value) {
-    value = stored;
-}
-
-void from_stored(double stored, std::optional<double>& value) {
-    value = std::isfinite(stored) ? std::optional(stored) : std::nullopt;
-}
-
-void from_stored(std::string const& stored, std::string& value) {
-    value = stored;
-}
-
-std::string to_stored(core::Outcome value) {
-    return std::string(name_of(value));
-}
-
-void from_stored(std::string const& stored, core::Outcome& value) {
-    auto const outcome = core::outcome_named(stored);
-    if (!outcome || !has_result(*outcome)) throw Hdf5Error("find an outcome with the name '" + stored + "'");
-    value = *outcome;
-}
-
-void from_stored(std::string const& stored, measure::Verdict& value) {
-    value = verdict_of(stored);
 }
 
 }  // namespace vibrotrough::store

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/reader/keys.hpp"
 #include "store/case_record.hpp"
 
 #include <concepts>
@@ -138,6 +139,9 @@ Entry numerical_error_entry();
 
 /// The case that the numerical error was measured at, a column of campaign.h5.
 Entry numerical_error_case_entry();
+
+/// The values of a swept key, a dataset `swept/<key>` of campaign.h5. Angles are in rad.
+Entry swept_entry(scenario::Key const& key);
 
 /// "precise", "not-precise" or "not-steady".
 std::string verdict_name(measure::Verdict verdict);

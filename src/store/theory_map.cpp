@@ -70,7 +70,11 @@ void write_boundaries(Hdf5MemoryFileWriter& file, theory::Map const& map, ModeIn
 }  // namespace
 
 std::string units_of(theory::Input input) {
-    return std::string(theory::name_of(input)).ends_with("_deg") ? "degree" : "1";
+    std::string_view const name = theory::name_of(input);
+    if (name.ends_with("_deg")) return "degree";
+    if (name.ends_with("_hz")) return "Hz";
+    if (name.ends_with("_mm")) return "mm";
+    return name.ends_with("_m") ? "m" : "1";
 }
 
 void write_theory_map(std::filesystem::path const& path, theory::Map const& map,

@@ -3,8 +3,10 @@
 #include "core/csv.hpp"
 #include "store/theory_map.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,17 +46,44 @@ constexpr std::array<AnswerColumn, 5> answer_columns{{
      [](Point const& a) { return is_converged(a) ? 1.0 : 0.0; }},
 }};
 
-std::vector<theory::Input> inputs_of(core::CsvReader const& table, std::string const& path) {
-    std::vector<theory::Input> columns;
-    for (std::string const& name : table.columns()) {
-        auto const input = theory::input_named(name);
-        if (!input) {
-            throw core::CsvError(path, table.header_line(), fmt::format("column '{}' is not an input", name),
-                                 "write names such as throw_number, tan_vibration_angle, friction");
+/// An input of the theory and what a number of its column is multiplied with.
+struct InputColumn {
+    theory::Input input;
+    double factor;
+};
+
+InputColumn column_named(std::string const& name, core::CsvReader const& table, std::string const& path) {
+    if (name == "rpm") return {theory::Input::frequency_hz, 1.0 / 60};
+    if (name == "amplitude_mm") return {theory::Input::amplitude_m, 1e-3};
+    auto const input = theory::input_named(name);
+    if (input) return {*input, 1};
+    throw core::CsvError(path, table.header_line(), fmt::format("column '{}' is not an input", name),
+                         "write names such as throw_number, tan_vibration_angle, friction");
+}
+
+/// Columns of one input in different units, such as frequency_hz and rpm, would overwrite each other.
+void check_columns(std::vector<InputColumn> const& columns, core::CsvReader const& table,
+                   std::string const& path) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        for (std::size_t other = 0; other < c; ++other) {
+            if (columns[c].input != columns[other].input) continue;
+            throw core::CsvError(path, table.header_line(),
+                                 fmt::format("the columns '{}' and '{}' are the same input",
+                                             table.columns()[other], table.columns()[c]),
+                                 "keep one of the two");
         }
-        columns.push_back(*input);
     }
-    return columns;
+}
+
+/// m/s; nothing when a point has no amplitude.
+std::optional<double> speed(theory::Inputs const& point, theory::MapPoint const& answer) {
+    auto const scale = point.velocity_scale();
+    if (!scale) return {};
+    return answer.velocity_efficiency * *scale;
+}
+
+bool has_speeds(TheoryPoints const& table) {
+    return std::ranges::any_of(table.points, [](auto const& point) { return point.amplitude().has_value(); });
 }
 
 }  // namespace
@@ -75,12 +104,17 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
     std::string const path = file.path.string();
     core::CsvReader table(file.content, path, {.comments = true, .blanks = true});
     TheoryPoints result;
-    result.columns = inputs_of(table, path);
+    std::vector<InputColumn> columns;
+    for (std::string const& name : table.columns()) columns.push_back(column_named(name, table, path));
+    check_columns(columns, table, path);
+    for (InputColumn const& column : columns) result.columns.push_back(column.input);
+    result.names = table.columns();
     while (table.next()) {
         theory::Inputs inputs;
         std::vector<std::string>& cells = result.cells.emplace_back();
         for (std::size_t c = 0; c < result.columns.size(); ++c) {
-            if (auto const value = table.number_if_given(c)) inputs.set(result.columns[c], *value);
+            if (auto const value = table.number_if_given(c))
+                inputs.set(columns[c].input, *value * columns[c].factor);
             cells.push_back(core::with_decimal_point(table.cells()[c], table.separator()));
         }
         if (auto const problem = inputs.incomplete())
@@ -92,15 +126,20 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
 
 std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers) {
     std::string text;
-    for (theory::Input const input : table.columns) text += std::string(theory::name_of(input)) + ",";
+    for (std::string const& name : table.names) text += name + ",";
     for (AnswerColumn const& column : answer_columns)
         text += fmt::format("{}{}", &column == &answer_columns.front() ? "" : ",", column.name);
-    text += '\n';
+    bool const with_speed = has_speeds(table);
+    text += with_speed ? ",conveying_speed_m_per_s\n" : "\n";
     for (std::size_t r = 0; r < answers.size(); ++r) {
         for (std::string const& cell : table.cells[r]) text += core::csv_cell(cell) + ",";
         for (AnswerColumn const& column : answer_columns) {
             if (&column != &answer_columns.front()) text += ',';
             text += core::csv_cell(column.text(answers[r]));
+        }
+        if (with_speed) {
+            auto const known = speed(table.points[r], answers[r]);
+            text += known ? fmt::format(",{}", *known) : ",";
         }
         text += '\n';
     }
@@ -125,6 +164,12 @@ void write_theory_answers(std::filesystem::path const& path, TheoryPoints const&
                 column.numbers.push_back(answer.number(point));
             }
         }
+        columns.push_back(std::move(column));
+    }
+    if (has_speeds(table)) {
+        TheoryColumn column{"conveying_speed", "m/s", "Conveying speed: eta omega r cos(beta)", {}, {}};
+        for (std::size_t r = 0; r < answers.size(); ++r)
+            column.numbers.push_back(speed(table.points[r], answers[r]).value_or(std::nan("")));
         columns.push_back(std::move(column));
     }
     write_theory_table(path, columns);

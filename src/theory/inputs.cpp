@@ -9,12 +9,27 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double zero_vibration_tangent = 1e-12;
+constexpr double gravity = 9.81;  // m/s^2, as Machine::gravity
 
-constexpr std::array<std::string_view, input_count> names{
-    "throw_number",    "machine_number",  "vibration_angle_deg", "tan_vibration_angle", "inclination_deg",
-    "tan_inclination", "friction",        "static_friction",     "restitution",         "air_drag",
-    "along_ratio",     "along_phase_deg", "wall_friction",       "wall_pressure_ratio", "height_over_width",
-    "landing_friction"};
+constexpr std::array<std::string_view, input_count> names{"throw_number",
+                                                          "machine_number",
+                                                          "vibration_angle_deg",
+                                                          "tan_vibration_angle",
+                                                          "inclination_deg",
+                                                          "tan_inclination",
+                                                          "friction",
+                                                          "frequency_hz",
+                                                          "amplitude_m",
+                                                          "stroke_mm",
+                                                          "static_friction",
+                                                          "restitution",
+                                                          "air_drag",
+                                                          "along_ratio",
+                                                          "along_phase_deg",
+                                                          "wall_friction",
+                                                          "wall_pressure_ratio",
+                                                          "height_over_width",
+                                                          "landing_friction"};
 
 }  // namespace
 
@@ -34,10 +49,15 @@ std::optional<std::string> Inputs::incomplete() const {
     auto const pair = [](Input a, Input b) {
         return std::string(name_of(a)) + " and " + std::string(name_of(b));
     };
-    int const drive = count(Input::throw_number, Input::machine_number);
+    int const drive = count(Input::throw_number, Input::machine_number) + (get(Input::frequency_hz) ? 1 : 0);
+    int const amplitudes = count(Input::amplitude_m, Input::stroke_mm);
     int const angle = count(Input::vibration_angle_deg, Input::tan_vibration_angle);
     int const slope = count(Input::inclination_deg, Input::tan_inclination);
-    if (drive != 1) return "give exactly one of " + pair(Input::throw_number, Input::machine_number);
+    if (drive != 1) return "give exactly one of throw_number, machine_number and frequency_hz";
+    if (amplitudes > 1) return "give at most one of " + pair(Input::amplitude_m, Input::stroke_mm);
+    if (get(Input::frequency_hz) && amplitudes == 0)
+        return "frequency_hz also needs " + std::string(name_of(Input::amplitude_m)) + " or " +
+               std::string(name_of(Input::stroke_mm));
     if (angle != 1)
         return "give exactly one of " + pair(Input::vibration_angle_deg, Input::tan_vibration_angle);
     if (slope > 1) return "give at most one of " + pair(Input::inclination_deg, Input::tan_inclination);
@@ -52,8 +72,23 @@ bool Inputs::plastic() const {
     return true;
 }
 
+std::optional<double> Inputs::amplitude() const {
+    if (auto const stroke = get(Input::stroke_mm)) return 1e-3 * *stroke / 2;
+    return get(Input::amplitude_m);
+}
+
+std::optional<double> Inputs::velocity_scale() const {
+    auto const r = amplitude();
+    if (!r) return std::nullopt;
+    PointMass const p = point();
+    double const omega = std::sqrt(machine_number(p) * gravity / *r);
+    return omega * *r / std::hypot(1, p.tan_vibration_angle);
+}
+
 PointMass Inputs::point() const {
     if (auto const problem = incomplete()) throw std::invalid_argument(*problem);
+    if (auto const r = amplitude(); r && !(*r > 0))
+        throw std::invalid_argument("the amplitude is not above 0");
     PointMass p{};
     p.friction = *get(Input::friction);
     if (auto const tan_alpha = get(Input::tan_inclination)) p.tan_inclination = *tan_alpha;
@@ -63,9 +98,12 @@ PointMass Inputs::point() const {
     if (auto const gamma = get(Input::throw_number)) {
         p.throw_number = *gamma;
     } else {
+        double const omega = 2 * std::numbers::pi * get(Input::frequency_hz).value_or(0);
+        double const k =
+            get(Input::machine_number).value_or(omega * omega * amplitude().value_or(0) / gravity);
         if (p.tan_vibration_angle == 0) p.tan_vibration_angle = zero_vibration_tangent;
         double const a = p.tan_inclination, b = p.tan_vibration_angle;
-        p.throw_number = *get(Input::machine_number) * b / std::sqrt(1 + b * b) * std::sqrt(1 + a * a);
+        p.throw_number = k * b / std::sqrt(1 + b * b) * std::sqrt(1 + a * a);
     }
     return p;
 }

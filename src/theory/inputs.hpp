@@ -19,6 +19,9 @@ enum class Input : std::size_t {
     inclination_deg,
     tan_inclination,
     friction,
+    frequency_hz,
+    amplitude_m,
+    stroke_mm,
     static_friction,
     restitution,
     air_drag,
@@ -29,7 +32,7 @@ enum class Input : std::size_t {
     height_over_width,
     landing_friction,
 };
-inline constexpr std::size_t input_count = 16;  ///< Number of inputs.
+inline constexpr std::size_t input_count = 19;  ///< Number of inputs.
 
 /// The name of an input in text, equal to the enumerator.
 std::string_view name_of(Input input);
@@ -38,9 +41,12 @@ std::optional<Input> input_named(std::string_view name);
 
 /// The inputs given for a motion; inputs that are not given have their default values.
 ///
-/// Required are: exactly one of throw_number and machine_number, exactly one of the two vibration angles, at
-/// most one of the two inclinations, and friction. A vibration angle of zero is possible only with a machine
-/// number; it is replaced by tan(beta) = 1e-12, which limits the accuracy of eta to about that value.
+/// Required are: exactly one of throw_number, machine_number and frequency_hz, exactly one of the two
+/// vibration angles, at most one of the two inclinations, and friction. The frequency needs the amplitude,
+/// which is half of the stroke, and is converted with g = 9.81 m/s^2: K = omega^2 r / g. Beside a throw
+/// number or a machine number the amplitude does not change the motion, but gives it a speed in m/s. A
+/// vibration angle of zero is possible only without a throw number; it is replaced by tan(beta) = 1e-12,
+/// which limits the accuracy of eta to about that value.
 class Inputs {
   public:
     /// Gives an input its value, in the unit of the input.
@@ -54,6 +60,11 @@ class Inputs {
     std::optional<std::string> incomplete() const;
     /// Whether the inputs describe Sloot & Kruyt's plastic point mass, so that the fast solver can be used.
     bool plastic() const;
+    /// The amplitude r in m, from amplitude_m or stroke_mm; nothing when neither is given.
+    std::optional<double> amplitude() const;
+    /// omega r cos(beta) in m/s, the conveying speed at a velocity efficiency of 1; nothing without an
+    /// amplitude. @throws std::invalid_argument when the set is incomplete
+    std::optional<double> velocity_scale() const;
     /// @throws std::invalid_argument when the set is incomplete
     PointMass point() const;
     /// @throws std::invalid_argument when the set is not complete

@@ -207,7 +207,10 @@ EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine con
     double const speed = q.angular_frequency * machine.amplitude;  // omega r
     double const vx = speed * std::sqrt(along), vy = speed * std::sqrt(normal);
     q.conveying_speed = motion.motion.velocity_efficiency * vx;
-    q.mass_flow = machine.bulk_density * machine.layer_height * machine.layer_width * q.conveying_speed;
+    q.stroke = 2 * machine.amplitude;
+    double const mass_per_area = machine.bulk_density * machine.layer_height;
+    if (mass_per_area > 0 && machine.layer_width > 0)
+        q.mass_flow = mass_per_area * machine.layer_width * q.conveying_speed;
     for (Impact const& impact : motion.impacts) {
         double const down = impact.approach * vy;
         q.normal_impact_speed = std::max(q.normal_impact_speed, down);
@@ -220,6 +223,7 @@ EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine con
     q.impact_energy = energy.impact_loss * speed * speed;
     q.trough_work = energy.trough_work * speed * speed;
     q.mean_power = q.trough_work * q.frequency;
+    if (mass_per_area > 0) q.power_per_area = q.mean_power * mass_per_area;
     int const samples = 2000;
     for (TraceSample const& s : trace(motion, samples)) {
         q.largest_normal_force = std::max(q.largest_normal_force, s.normal_force * q.angular_frequency * vy);
@@ -266,19 +270,27 @@ std::vector<TraceSample> in_si_units(std::vector<TraceSample> samples, PointMass
 }
 
 std::vector<NamedQuantity> listed(EngineerQuantities const& q) {
-    return {{"frequency", "Hz", q.frequency},
-            {"conveying_speed", "m/s", q.conveying_speed},
-            {"mass_flow", "kg/s", q.mass_flow},
-            {"impact_speed", "m/s", q.impact_speed},
-            {"normal_impact_speed", "m/s", q.normal_impact_speed},
-            {"impacts_per_cycle", "1", q.impacts_per_cycle},
-            {"friction_energy", "J/kg per cycle", q.friction_energy},
-            {"impact_energy", "J/kg per cycle", q.impact_energy},
-            {"trough_work", "J/kg per cycle", q.trough_work},
-            {"mean_power", "W/kg", q.mean_power},
-            {"largest_normal_force", "N/kg", q.largest_normal_force},
-            {"largest_tangential_force", "N/kg", q.largest_tangential_force},
-            {"largest_impulse", "N s/kg", q.largest_impulse}};
+    std::vector<NamedQuantity> list{{"frequency", "Hz", q.frequency},
+                                    {"turns_per_minute", "1/min", 60 * q.frequency},
+                                    {"stroke", "mm", 1e3 * q.stroke},
+                                    {"conveying_speed", "m/s", q.conveying_speed}};
+    if (q.mass_flow) {
+        list.push_back({"mass_flow", "kg/s", *q.mass_flow});
+        list.push_back({"mass_flow_per_hour", "t/h", 3.6 * *q.mass_flow});
+    }
+    std::vector<NamedQuantity> const rest{{"impact_speed", "m/s", q.impact_speed},
+                                          {"normal_impact_speed", "m/s", q.normal_impact_speed},
+                                          {"impacts_per_cycle", "1", q.impacts_per_cycle},
+                                          {"friction_energy", "J/kg per cycle", q.friction_energy},
+                                          {"impact_energy", "J/kg per cycle", q.impact_energy},
+                                          {"trough_work", "J/kg per cycle", q.trough_work},
+                                          {"mean_power", "W/kg", q.mean_power}};
+    list.insert(list.end(), rest.begin(), rest.end());
+    if (q.power_per_area) list.push_back({"power_per_area", "W/m2", *q.power_per_area});
+    list.push_back({"largest_normal_force", "N/kg", q.largest_normal_force});
+    list.push_back({"largest_tangential_force", "N/kg", q.largest_tangential_force});
+    list.push_back({"largest_impulse", "N s/kg", q.largest_impulse});
+    return list;
 }
 
 }  // namespace vibrotrough::theory

@@ -2,6 +2,7 @@
 
 #include "theory/conveyor.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace vibrotrough::theory {
@@ -71,7 +72,11 @@ struct EngineerQuantities {
     double frequency;          ///< Hz
     double angular_frequency;  ///< rad/s
     double conveying_speed;    ///< m/s, eta omega r cos(beta)
-    double mass_flow;          ///< kg/s, bulk density * height * width * speed; 0 without a layer
+    double stroke;             ///< m, 2 r
+    /// kg/s, bulk density * height * width * speed; none unless all three of the layer are known.
+    std::optional<double> mass_flow;
+    /// W/m^2 of trough, mean_power * bulk density * height; none unless both of the layer are known.
+    std::optional<double> power_per_area;
     /// m/s, largest speed of the mass relative to the trough at an impact (grain damage).
     double impact_speed;
     double normal_impact_speed;                             ///< m/s, largest normal component of that speed
@@ -98,7 +103,8 @@ struct NamedQuantity {
     double value;      ///< in that unit
 };
 
-/// The quantities in the order of a table; the angular frequency, which is the frequency again, is left out.
+/// The quantities in the order of a table. Some are there twice in different units (Hz and turns per minute,
+/// kg/s and t/h). Left out are the angular frequency and what is not known.
 std::vector<NamedQuantity> listed(EngineerQuantities const& quantities);
 
 /// @throws std::invalid_argument when the motion has no pieces (it runs away) or the machine has no sense

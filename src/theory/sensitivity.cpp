@@ -34,7 +34,8 @@ std::vector<Sensitivity> sensitivities(Inputs const& inputs, std::optional<Rolli
     for (std::size_t i = 0; i < input_count; ++i) {
         auto const input = static_cast<Input>(i);
         auto const value = inputs.get(input);
-        if (!value) continue;
+        bool const is_scale = input == Input::amplitude_m || input == Input::stroke_mm;
+        if (!value || (is_scale && !inputs.get(Input::frequency_hz))) continue;
         double const step = *value == 0 ? relative_step : std::abs(*value) * relative_step;
         double const low = at_lower_limit(input, *value) ? *value : *value - step, high = *value + step;
         Inputs changed = inputs;

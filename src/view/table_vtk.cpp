@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <variant>
 
 #include <vtkDoubleArray.h>
@@ -21,28 +20,27 @@ using compare::Row;
 constexpr double unknown_number = std::numeric_limits<double>::quiet_NaN();
 
 /// VTK's tables have no word for what is not known.
-double vtk_value(std::optional<double> const& value) {
-    return value.value_or(unknown_number);
-}
-double vtk_value(std::optional<int> const& value) {
-    return value ? *value : unknown_number;
-}
-std::string vtk_value(std::optional<std::string> const& value) {
-    return value.value_or("");
+double number_of(std::optional<compare::Value> const& value) {
+    if (!value) return unknown_number;
+    auto const* const integer = std::get_if<int>(&*value);
+    return integer != nullptr ? *integer : std::get<double>(*value);
 }
 
 vtkSmartPointer<vtkAbstractArray> array_of(compare::Column const& column, std::vector<Row> const& rows) {
-    return std::visit(
-        [&](auto const value_of) -> vtkSmartPointer<vtkAbstractArray> {
-            using Value = decltype(vtk_value(value_of(rows.front())));
-            using Array =
-                std::conditional_t<std::is_same_v<Value, std::string>, vtkStringArray, vtkDoubleArray>;
-            auto array = vtkSmartPointer<Array>::New();
-            array->SetName(std::string(column.name).c_str());
-            for (Row const& row : rows) array->InsertNextValue(vtk_value(value_of(row)));
-            return array;
-        },
-        column.value);
+    std::string const name(column.name);
+    if (column.type() == compare::ColumnType::text) {
+        auto array = vtkSmartPointer<vtkStringArray>::New();
+        array->SetName(name.c_str());
+        for (Row const& row : rows) {
+            auto const value = column.of(row);
+            array->InsertNextValue(value ? std::get<std::string>(*value) : "");
+        }
+        return array;
+    }
+    auto array = vtkSmartPointer<vtkDoubleArray>::New();
+    array->SetName(name.c_str());
+    for (Row const& row : rows) array->InsertNextValue(number_of(column.of(row)));
+    return array;
 }
 
 }  // namespace

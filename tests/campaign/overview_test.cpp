@@ -71,5 +71,19 @@ TEST_F(Overview, CampaignFileHoldsWhatThereIs) {
     EXPECT_EQ(core::read_file(folder / "campaign.h5"), one) << "the same cases give the same bytes";
 }
 
+// Figures need the swept keys of today: a file that was written for others is written again.
+TEST_F(Overview, CampaignFileOfOtherSweptKeysIsOutdated) {
+    fs::create_directories(planned.folder);
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    write_campaign_file(plan);
+    EXPECT_FALSE(is_campaign_file_outdated(plan));
+    plan.swept = {scenario::find_key("grains.friction")};
+    EXPECT_TRUE(is_campaign_file_outdated(plan));
+    write_campaign_file(plan);
+    EXPECT_FALSE(is_campaign_file_outdated(plan));
+    core::write_file_atomically(folder / "campaign.h5", "damaged");
+    EXPECT_TRUE(is_campaign_file_outdated(plan));
+}
+
 }  // namespace
 }  // namespace vibrotrough::campaign

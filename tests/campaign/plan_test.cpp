@@ -102,6 +102,20 @@ TEST(MakePlan, PutsEachCaseBelowTheFolder) {
     EXPECT_EQ(planned.certificate_file(), fs::path("runs/x/certificate.json"));
 }
 
+// A case is named by what distinguishes it from the others, and a campaign of one case by nothing.
+TEST(MakePlan, NamesCasesByTheirSweptKeys) {
+    auto const labels = [](std::string const& sections) {
+        std::vector<std::string> names;
+        Plan const plan = make_plan(scenario::parse_campaign(example_campaign + sections, "campaign.toml"),
+                                    "runs/x", "LIGGGHTS 3.8.0");
+        for (PlannedCase const& planned : plan.cases) names.push_back(planned.label);
+        return names;
+    };
+    EXPECT_EQ(labels(""), std::vector<std::string>{""});
+    EXPECT_EQ(labels("[sweep]\n\"layer.height\" = [\"9 mm\", \"12 mm\"]\n"),
+              (std::vector<std::string>{"layer.height 9 mm", "layer.height 12 mm"}));
+}
+
 class OpenPlan : public CampaignFolder {
   protected:
     OpenPlan() {

@@ -4,6 +4,8 @@
 #include "compare/select.hpp"
 #include "compare/table.hpp"
 #include "core/atomic_file.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
 #include "store/sample_record.hpp"
 #include "view/table_vtk.hpp"
 
@@ -31,8 +33,8 @@ std::vector<Column> with_another_column() {
     columns.push_back({.name = "speed_number",
                        .unit = "1",
                        .value = [](Row const& row) -> std::optional<double> {
-                           if (!row.speed_dem_m_per_s) return {};
-                           return 100 * *row.speed_dem_m_per_s;
+                           if (!row.speed_dem) return {};
+                           return 100 * row.speed_dem->mean;
                        },
                        .meaning = "A hundred times the speed, for the test",
                        .format = "{:.1f}",
@@ -45,7 +47,7 @@ std::vector<Column> with_another_column() {
 Row row_of(std::string const& id, std::optional<double> speed) {
     Row row{};
     row.id = id;
-    row.speed_dem_m_per_s = speed;
+    if (speed) row.speed_dem = Interval{*speed, {}};
     return row;
 }
 
@@ -97,6 +99,63 @@ TEST(AnotherColumn, IsInTheReportAndInTheReadme) {
     EXPECT_EQ(to_object(rows[0], columns).at("speed_number"), 25.0);
     EXPECT_THAT(column_reference(columns), HasSubstr("| `speed_number` | 1 | number | data, terminal, report "
                                                      "| A hundred times the speed, for the test |\n"));
+}
+
+/// The columns of a campaign with these sections and the rows of its cases.
+struct SweptTable {
+    explicit SweptTable(std::string const& sections)
+        : campaign(scenario::parse_campaign(example_campaign + sections, "c.toml")),
+          columns(columns_with_swept(campaign.swept)) {
+        for (scenario::Scenario const& one : campaign.cases) {
+            rows.push_back(compare("case", prepare::prepare_case(one), {}, "open"));
+            for (scenario::Key const* const key : campaign.swept)
+                rows.back().swept.push_back(swept_value(one, *key));
+        }
+    }
+    scenario::Campaign campaign;
+    std::vector<Column> columns;
+    std::vector<Row> rows;
+};
+
+// Whatever key is swept has a column in every view, and a name for --filter and --sort.
+TEST(SweptColumns, AreInEveryView) {
+    SweptTable const table(
+        "[sweep]\n\"grains.friction\" = [0.3, 0.5]\n\"layer.height\" = [\"9 mm\", \"12 mm\"]\n"
+        "\"trough.along_phase\" = [\"0 deg\", \"30 deg\"]\n\"grains.rotation\" = [\"free\", \"blocked\"]\n");
+    ASSERT_EQ(table.rows.size(), 16u);
+    auto const json = nlohmann::json::parse(to_json(table.rows, table.columns));
+    EXPECT_EQ(json.at(15).at("grains.friction"), 0.5);
+    EXPECT_EQ(json.at(15).at("layer.height"), 0.012) << "data are in SI units";
+    EXPECT_EQ(json.at(15).at("trough.along_phase"), 30.0) << "but angles in degrees, as elsewhere";
+    EXPECT_EQ(json.at(15).at("grains.rotation"), "blocked");
+    EXPECT_THAT(
+        to_csv(table.rows, table.columns),
+        HasSubstr("case,grains.friction,layer.height,trough.along_phase,grains.rotation,throw_number,"));
+    std::string const text = to_table(table.rows, {}, table.columns);
+    EXPECT_THAT(text, HasSubstr("friction  height  along_phase   rotation  Gamma"));
+    EXPECT_THAT(text, HasSubstr("of grains      mm          deg"));
+    EXPECT_THAT(text, HasSubstr(" 0.5      12           30    blocked"));
+    EXPECT_EQ(filtered(table.rows, "grains.friction>0.4", table.columns).size(), 8u);
+    EXPECT_EQ(filtered(table.rows, "height<0.01", table.columns).size(), 8u) << "without its section";
+    EXPECT_EQ(filtered(table.rows, "rotation=free", table.columns).size(), 8u);
+    EXPECT_EQ(filtered(table.rows, "friction>0.4", table.columns).size(), 0u) << "the trough's comes first";
+    EXPECT_EQ(filtered(table.rows, "trough.friction<0.4", table.columns).size(), 16u);
+    auto const order = sorted(table.rows, "layer.height:desc", table.columns);
+    EXPECT_EQ(std::get<double>(*order.front().swept[1]), 0.012);
+    auto const described = column_descriptions(table.columns);
+    EXPECT_EQ(described.at(2).at("name"), "layer.height");
+    EXPECT_EQ(described.at(2).at("report").at("factor"), 1e3);
+    EXPECT_EQ(described.at(2).at("report").at("shown_unit"), "mm");
+}
+
+// A key that always has a column gets no second one; the column comes first and is left out last.
+TEST(SweptColumns, OfTheDriveAreTheUsualOnes) {
+    SweptTable const table(
+        "[sweep]\n\"trough.stroke\" = [\"8 mm\", \"12 mm\"]\n\"trough.friction\" = [0.2, 0.3]\n");
+    EXPECT_EQ(table.columns.size(), all_columns().size());
+    std::string const text = to_table(table.rows, {.width = 60}, table.columns);
+    EXPECT_THAT(text, HasSubstr("case  stroke   mu"));
+    EXPECT_THAT(text, HasSubstr("open"));
 }
 
 // The list in the README is the program's own table: a second copy that drifts fails here.

@@ -94,13 +94,47 @@ TEST(Compare, ShowsTheMeasurement) {
     EXPECT_EQ(row.efficiency_dem, 0.82);
     EXPECT_EQ(row.efficiency_dem_half_width, 0.127);
     // speed = eta omega r cos(beta), multiplied in another order: some roundings.
-    EXPECT_NEAR(row.speed_dem_m_per_s.value(), 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5),
+    EXPECT_NEAR(row.speed_dem.value().mean, 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5),
                 1e-15);
     EXPECT_EQ(row.mode_layer, "FP'N");
     EXPECT_EQ(row.packings, 2);
     EXPECT_EQ(row.cycles_measured, 1 + 1);
     EXPECT_EQ(row.cycles_discarded, 2 + 0);
     EXPECT_EQ(row.wall_s, 12.5 + 11.25);
+}
+
+// m' = v m / (L W) times the width of the trough; the interval scales with it. The sample has added masses of
+// 0.002 and 0.003 kg, dampings of 0.5 and 0.7 kg/s and powers of 0.04 and 0.06 W. Tolerance: rounding.
+TEST(Compare, KnowsMassFlowPowerAndReaction) {
+    store::CaseRecord loaded = record;
+    for (std::size_t i = 0; i < 2; ++i) {
+        loaded.packings[i].motion.added_mass = i == 0 ? 0.002 : 0.003;
+        loaded.packings[i].motion.damping = i == 0 ? 0.5 : 0.7;
+        loaded.packings[i].motion.trough_power = i == 0 ? 0.04 : 0.06;
+    }
+    auto const prepared = prepare::prepare_case(record.scenario);
+    Row const row = compare("", prepared, loaded, "");
+    double const area = 0.036 * 0.018, speed = 0.82 * 2 * std::numbers::pi * 13.5 * 0.006 * std::cos(0.5);
+    double const mass = mass_per_area(record.scenario) * area;
+    EXPECT_NEAR(mass, prepared.mass, 0.005 * mass) << "the sizes of 500 grains are rounded to whole numbers";
+    EXPECT_NEAR(row.mass_flow_per_width.value().mean, speed * mass / area, 1e-12);
+    EXPECT_NEAR(row.mass_flow_per_width->half_width.value() / row.mass_flow_per_width->mean, 0.127 / 0.82,
+                1e-12);
+    EXPECT_FALSE(row.mass_flow) << "a layer that is periodic across is a piece of a trough of any width";
+    EXPECT_NEAR(row.power_per_area.value(), 0.05 / area, 1e-9);
+    EXPECT_NEAR(row.added_mass_per_area.value(), 0.0025 / area, 1e-12);
+    EXPECT_NEAR(row.added_mass_fraction.value(), 0.0025 / mass, 1e-12);
+    EXPECT_NEAR(row.damping_per_area.value(), 0.6 / area, 1e-9);
+
+    scenario::Scenario wide = record.scenario;
+    wide.trough.width = 0.3;
+    Row const whole = compare("", prepare::prepare_case(wide), loaded, "");
+    EXPECT_NEAR(whole.mass_flow.value().mean, 0.3 * row.mass_flow_per_width->mean, 1e-12);
+    wide.trough.width.reset();
+    wide.trough.side_wall_friction = 0.2;
+    EXPECT_NEAR(compare("", prepare::prepare_case(wide), loaded, "").mass_flow.value().mean,
+                0.018 * row.mass_flow_per_width->mean, 1e-12)
+        << "between side walls the width is known";
 }
 
 // Theory at the friction that was measured, beside theory at the grain's.
@@ -127,7 +161,7 @@ TEST(Compare, MakesNoNumberOfWhatWasNotSteady) {
     EXPECT_EQ(row.outcome, "not-steady");
     EXPECT_FALSE(row.efficiency_dem);
     EXPECT_FALSE(row.efficiency_dem_half_width);
-    EXPECT_FALSE(row.speed_dem_m_per_s);
+    EXPECT_FALSE(row.speed_dem);
     EXPECT_EQ(row.packings, 2) << "the packings are counted nevertheless";
     EXPECT_EQ(row.cycles_measured, 2);
     EXPECT_TRUE(row.efficiency_theory);
@@ -165,7 +199,7 @@ TEST(Compare, HasNoMeasurementWithoutARecord) {
         EXPECT_EQ(row.outcome, outcome);
         EXPECT_FALSE(row.efficiency_dem);
         EXPECT_FALSE(row.efficiency_dem_half_width);
-        EXPECT_FALSE(row.speed_dem_m_per_s);
+        EXPECT_FALSE(row.speed_dem);
         EXPECT_FALSE(row.mode_layer);
         EXPECT_FALSE(row.packings);
         EXPECT_FALSE(row.cycles_measured);

@@ -35,11 +35,13 @@ PROBE = """<script>
     document.querySelector(`th[data-column=${name}] button`).click();
     seen.push(order());
   }
+  const width = document.querySelector("figure svg").getBoundingClientRect().width;
+  document.documentElement.style.width = "400px";  // a telephone: headless windows are at least 500 wide
   const probe = document.createElement("output");
   probe.id = "probe";
   probe.textContent = JSON.stringify({seen, title: document.title, drawn: document.querySelectorAll("figure svg path").length,
-    width: document.querySelector("figure svg").getBoundingClientRect().width,
-    sorted: document.querySelector("th[data-column=outcome]").getAttribute("aria-sort")});
+    width, narrow: document.querySelector("figure svg").getBoundingClientRect().width,
+    sorted: document.querySelector("th[data-column=outcome]").getAttribute("aria-sort"), page: document.body.scrollWidth});
   document.body.append(probe);
 </script>"""
 
@@ -58,13 +60,15 @@ def make_campaign(sample, columns, work):
            "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency_dem": 0.82, "efficiency_dem_half_width": 0.127,
            "speed_dem_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
            "wall_s": 23.75, "difference": 0.27, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
-    cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory)
+    row |= {"stroke_mm": 12.0, "turns_per_minute": 810.0, "speed_dem_half_width_m_per_s": 0.057, "mass_flow_t_per_h": 4.25,
+            "mass_flow_half_width_t_per_h": 0.66, "label": ""}
+    cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory, label=f"throw_number {2.1 + number}")
              for number, (case, theory) in enumerate(CASES.items())]
     failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency_dem=None,
                   efficiency_dem_half_width=None, efficiency_theory=0.1)
     (data / "campaign.json").write_text(json.dumps({
         "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
-        "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "cases": [*cases, failed]}), encoding="utf-8")
+        "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "swept": [], "cases": [*cases, failed]}), encoding="utf-8")
     (data / "theory_curves.csv").write_text(
         "throw_number,vibration_angle_deg,velocity_efficiency\n2.0,28.6479,0.5\n3.5,28.6479,0.7\n", encoding="utf-8")
     (folder / "certificate.json").write_text(json.dumps({"engine": HOSTILE, "passed": True, "checks": [
@@ -105,6 +109,16 @@ def check_page(page):
     assert "\u03b7, theory" in words.text and "+0.270" in words.text and "friction_layer" not in page, "columns of the table"
     assert 'title="Velocity efficiency' in page, "a heading says what it means"
     assert "\u03b1 = -2.86\u00b0" in words.text, "what is the same in all cases is said once"
+    assert "amplitude r =" not in words.text and "stroke = 12 mm" in words.text and "turns = 810 1/min" in words.text
+    assert "flight: nothing touches the trough" in words.text, "letters of modes are explained"
+    for name in ("efficiency", "residuals", "cycles"):
+        assert f"vibrotrough plot DIR --only {name}" in words.text, f"provenance of {name}"
+    # What a reader wants first comes first, and the engine's probes come last.
+    order = ["0 of 3 cases are finished; the others are: 2 not-precise, 1 lost-grains.", "Results", "In all cases:", "Figures",
+             "What failed, and why", "Input, and how to reproduce", "Single cases", "The engine's probes"]
+    places = [words.text.index(one) for one in order]
+    assert places == sorted(places), dict(zip(order, places))
+    assert "0.370 \u00b1 0.057 m/s (4.25 \u00b1 0.66 t/h)" in words.text, "the conclusion has the user's units"
     names = re.findall(r'\bid="(figure\d+-[^"]+)"', page)
     assert len(names) > 50 and not re.search(r'url\(#(?!figure\d)', page)
 
@@ -130,6 +144,50 @@ def check_budget(scripts, folder):
     (folder / "numerics.json").write_bytes(kept)
 
 
+def check_words(scripts):
+    """Sentences of the conclusion, of cases that are easy to judge."""
+    sys.path.insert(0, str(scripts))
+    from report_words import conclusion
+
+    case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency_dem": 0.5, "efficiency_dem_half_width": 0.02,
+            "efficiency_theory": 0.51, "speed_dem_m_per_s": 0.25, "speed_dem_half_width_m_per_s": 0.01}
+    other = dict(case, case="b", label="friction 0.3", efficiency_dem=0.8, speed_dem_m_per_s=0.4, mass_flow_per_width_t_per_h_m=14.1,
+                 mass_flow_per_width_half_width_t_per_h_m=0.35)
+    said = conclusion([case, other])
+    assert said[0] == ("The layer is conveyed at 0.250 to 0.400 m/s. It is fastest, with 0.400 \u00b1 0.010 m/s "
+                       "(14.1 \u00b1 0.35 t/h per metre of width), at friction 0.3."), said
+    assert said[1].startswith("The point-mass theory agrees with the layer to within the interval in 1 of 2 cases. The difference is "
+                              "largest at friction 0.3, where the layer reaches \u03b7 = 0.80 and the theory 0.51"), said
+    assert said[2].startswith("All 2 cases are finished"), said
+    assert conclusion([case])[1].endswith("agrees with the layer to within the interval."), conclusion([case])
+    assert conclusion([])[0] == "No speed is known yet." and "no cases" in conclusion([])[-1]
+    unknown = dict(case, outcome="not-steady", efficiency_dem=None, speed_dem_m_per_s=None)
+    assert conclusion([unknown]) == ["No speed is known yet.", "0 of 1 cases are finished; the others are: 1 not-steady."]
+
+
+def check_swept(scripts, folder, work):
+    """A campaign that sweeps something unusual: it has colours, a legend and a scale of its own. With the throw number the same in
+    all cases, the swept number is the scale.
+    """
+    import h5py
+
+    other = work / "swept"
+    shutil.rmtree(other, ignore_errors=True)
+    shutil.copytree(folder, other)
+    for keys, wanted, unwanted in (("grains.rolling_friction", "grain rolling friction = 0.05", "\u03b2 ="),
+                                   ("grains.rolling_friction same", "grain rolling friction  [-]", "throw number")):
+        with h5py.File(other / "campaign.h5", "a") as file:
+            file.attrs["swept_keys"] = "grains.rolling_friction"
+            if "swept/grains.rolling_friction" not in file:
+                file["swept/grains.rolling_friction"] = [0.05, 0.2]
+                file["swept/grains.rolling_friction"].attrs["units"] = "1"
+                file["swept/grains.rolling_friction"].attrs["description"] = ""
+            if "same" in keys:
+                file["throw_number"][...] = 2.1
+        run_script(scripts, "figures.py", other, "--only", "efficiency", "--only", "residuals")
+        text = (other / "report" / "efficiency.svg").read_text(encoding="utf-8")
+        assert wanted in text and unwanted not in text, f"{wanted} is not in the figure, or {unwanted} is"
+        assert "grain rolling friction" in (other / "report" / "residuals.svg").read_text(encoding="utf-8")
 def figures_in(scripts, folder):
     (report,) = run_script(scripts, "report.py", folder)
     return re.findall(r"<figcaption>Figure \d+\. ([^<]*)<", report.read_text(encoding="utf-8"))
@@ -190,6 +248,8 @@ def check_in_browser(browser, report, work):
     assert seen["seen"] == [f"{a} {b} {c}", f"{c} {a} {b}", f"{b} {a} {c}", f"{c} {a} {b}", f"{a} {c} {b}", f"{c} {a} {b}"], seen
     assert seen["title"] == "sample \u00b7 Vibrotrough" and seen["drawn"] > 100 and seen["width"] > 300, seen
     assert seen["sorted"] == "ascending", seen
+    # The page itself fits into 400 pixels; tables and figures stay readable and scroll within it.
+    assert seen["page"] <= 400 and seen["narrow"] > 500, seen
     said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     assert len(said) == 1 and "Content Security Policy" in said[0], said
     picture = work / "report.png"
@@ -211,6 +271,8 @@ def main(scripts, sample, columns, work):
             text = path.read_text(encoding="utf-8")
             assert "sample  \u00b7  Vibrotrough" in text, f"{path} does not name campaign and program"
     check_budget(scripts, folder)
+    check_words(scripts)
+    check_swept(scripts, folder, work)
     only = run_script(scripts, "figures.py", folder, "--only", "cycles", "--case", "0123456789abcdef")
     assert [path.name for path in only] == ["cycles-0123456789abcdef.svg", "cycles-0123456789abcdef.png"], only
     (report,) = run_script(scripts, "report.py", folder)

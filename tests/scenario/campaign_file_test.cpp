@@ -59,6 +59,34 @@ TEST(CampaignFile, SweepsQuantitiesAndWholeNumbers) {
         1u);
 }
 
+// r = stroke / 2, f = turns per minute / 60, density = bulk density / 0.58. The case is the same, however it
+// is written. Tolerance: rounding of the divisions.
+TEST(CampaignFile, TakesAnEngineersUnits) {
+    auto const plain =
+        scenario::parse_campaign(with("throw_number = 2.0", "frequency = \"13 Hz\""), "c").cases;
+    std::string text = with("throw_number = 2.0", "frequency = \"780 rpm\"");
+    text = with("amplitude = \"6 mm\"", "stroke = \"12 mm\"", text);
+    text = with("density = \"1400 kg/m3\"", "bulk_density = \"812 kg/m3\"", text);
+    auto const written = scenario::parse_campaign(text, "c").cases;
+    EXPECT_EQ(written[0].trough.amplitude, plain[0].trough.amplitude);
+    EXPECT_NEAR(written[0].trough.frequency, plain[0].trough.frequency, 1e-13);
+    EXPECT_NEAR(written[0].grains.density, plain[0].grains.density, 1e-10);
+    EXPECT_NEAR(bulk_density(plain[0].grains), 812, 1e-10);
+    auto const strokes =
+        scenario::parse_campaign(sweep("\"trough.stroke\" = [\"8 mm\", \"12 mm\"]\n[[exclude]]\n"
+                                       "\"trough.amplitude\" = { above = \"5 mm\" }\n"),
+                                 "c")
+            .cases;
+    ASSERT_EQ(strokes.size(), 1u);
+    EXPECT_EQ(strokes[0].trough.amplitude, 0.004);
+    EXPECT_EQ(
+        error_of(with("amplitude = \"6 mm\"", "amplitude = \"6 mm\"\nstroke = \"12 mm\"")),
+        "c.toml:8:1: trough.stroke: trough.amplitude is also given, on line 7, and both set the amplitude; "
+        "keep one of the two");
+    EXPECT_NE(error_of(with("density = \"1400 kg/m3\"", "density = \"1.4 tons/m3\"")).find("metric tonnes"),
+              std::string::npos);
+}
+
 TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
     std::string const text = example_campaign.substr(0, example_campaign.find("[measure]"));
     scenario::Scenario const s = scenario::parse_campaign(text, "c").cases.front();
@@ -75,7 +103,8 @@ TEST(CampaignFile, ErrorsNamePositionProblemAndCure) {
     EXPECT_EQ(error_of(with("amplitude", "amplitud")),
               "c.toml:7:1: trough.amplitud: unknown key; did you mean trough.amplitude?");
     EXPECT_EQ(error_of(with("amplitude = \"6 mm\"\n", "")),
-              "c.toml:4:2: trough.amplitude: is missing; write amplitude = \"6 mm\" under [trough]");
+              "c.toml:4:2: trough.amplitude: is missing (exactly one of amplitude, stroke is needed); write "
+              "amplitude = \"6 mm\" under [trough]");
     EXPECT_EQ(error_of(with("throw_number = 2.0\n", "")),
               "c.toml:4:2: trough.throw_number: is missing (exactly one of throw_number, machine_number, "
               "frequency is "

@@ -63,6 +63,11 @@ def check_file(path, heading, readme):
             shapes = dict(SHAPES[heading])
             series = re.fullmatch(r"(series|cycle_ends|phases|profiles|surface)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
+            if name.startswith("swept/"):
+                row_name = "swept/<key>"
+                seen.add(row_name)
+                assert row_name in table and data[1] == shapes["cases"], name
+                continue
             if series:
                 shapes |= {"cycles": (CYCLES[series[2]],), "cycles + 1": (CYCLES[series[2]] + 1,)}
             assert row_name in table, f"{path}: {name} is not documented"
@@ -88,6 +93,13 @@ def check_result_values(file):
     }
     for name, value in wanted.items():
         assert math.isclose(case[name], value, rel_tol=1e-14), f"{name}: {case[name]}, wanted {value}"
+    # The mass of 500 grains in three sizes 0.9, 1 and 1.1 d, per area; speed times that; powers per area.
+    mass = 500 * 1400 * math.pi / 6 * 0.003**3 * (0.9**3 + 1 + 1.1**3) / 3 / (0.036 * 0.018)
+    assert math.isclose(case["mass_per_area"], mass, rel_tol=1e-13)
+    assert math.isclose(case["mass_flow_per_width"], wanted["speed"] * mass, rel_tol=1e-13)
+    assert math.isclose(case["mass_flow_per_width_half_width"], wanted["speed_half_width"] * mass, rel_tol=1e-13)
+    assert math.isclose(case["power_per_area"], 0.75 / (0.036 * 0.018), rel_tol=1e-13) and case["damping"] == 0.5
+    assert math.isnan(case["trough_width"])
     # Stored as given: exact.
     assert case["efficiency"] == 0.82 and case["efficiency_half_width"] == 0.127 and case["confidence"] == 0.95
     assert case["cycles_measured"] == 2 and case["cycles_discarded"] == 2 and case["wall_time"] == 23.75
@@ -121,6 +133,10 @@ def check_campaign_values(file):
     # The first case has borrowed its numerical error, that of the second is not known.
     assert file["efficiency_numerical_error"][0] == 0.034 and math.isnan(file["efficiency_numerical_error"][1])
     assert list(file["numerical_error_case"].asstr()) == ["fedcba9876543210", ""]
+    # The swept keys, by their names in the campaign file.
+    assert file.attrs["swept_keys"] == "trough.frequency grains.rotation"
+    assert list(file["swept/trough.frequency"]) == [13.5, 27.0] and file["swept/trough.frequency"].attrs["units"] == "Hz"
+    assert list(file["swept/grains.rotation"].asstr()) == ["free", "free"]
     assert list(file["layer_mode"].asstr()) == ["FP'N"] * 2 and list(file["flight_number"]) == [0.625] * 2
 
 

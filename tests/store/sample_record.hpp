@@ -17,6 +17,9 @@ inline void fill_layer(PackingRecord& packing, double first) {
     packing.motion.floor_slip = 0.03;
     packing.motion.largest_overlap = 3e-5 * (1 + first);
     packing.motion.largest_floor_overlap = 2e-5;
+    packing.motion.added_mass = 0.002 + first / 64;
+    packing.motion.damping = 0.25 + first;
+    packing.motion.trough_power = 0.5 + first;
     packing.profiles.velocity_gradient = -0.01;
     packing.surface.wiggle_amplitude = 0.0008;
     double value = first;

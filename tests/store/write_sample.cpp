@@ -18,7 +18,9 @@ int main(int argc, char** argv) {
         write_result(folder / "result.h5", sample_record());
         write_campaign(folder / "campaign.h5", "sample",
                        {sample_record(), sample_record("fedcba9876543210", 27.0)},
-                       {{"0123456789abcdef", {0.034, "fedcba9876543210"}}});
+                       {{"0123456789abcdef", {0.034, "fedcba9876543210"}}},
+                       {vibrotrough::scenario::find_key("trough.frequency"),
+                        vibrotrough::scenario::find_key("grains.rotation")});
         return 0;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -108,7 +108,9 @@ TEST(Quantities, AreInSiUnits) {
     EXPECT_NEAR(q.frequency, omega / (2 * pi), 1e-12);
     double const speed = motion.motion.velocity_efficiency * omega * 0.006 * std::cos(pi / 6);
     EXPECT_NEAR(q.conveying_speed, speed, 1e-12);
-    EXPECT_NEAR(q.mass_flow, 800 * 0.012 * 0.2 * speed, 1e-10);
+    EXPECT_NEAR(q.mass_flow.value(), 800 * 0.012 * 0.2 * speed, 1e-10);
+    EXPECT_NEAR(q.power_per_area.value(), 800 * 0.012 * q.mean_power, 1e-10);
+    EXPECT_NEAR(q.stroke, 0.012, 1e-15);
     EXPECT_NEAR(q.mean_power, q.trough_work * q.frequency, 1e-12);
     EXPECT_NEAR(q.impacts_per_cycle, 1, 1e-9);
     EXPECT_NEAR(q.trough_work, q.friction_energy + q.impact_energy,
@@ -121,6 +123,49 @@ TEST(Quantities, AreInSiUnits) {
     }
     EXPECT_NEAR(impulse / (2 * pi), 1 / 2.0, 1e-3);  // in omega^2 r sin(beta): 1/Gamma
     EXPECT_GT(q.impact_speed, q.normal_impact_speed * 0.999);
+}
+
+// Without a layer there is no mass flow, which is not the same as a mass flow of zero.
+TEST(Quantities, WithoutALayerThereIsNoMassFlow) {
+    Conveyor conveyor{};
+    conveyor.point = {2, std::tan(pi / 6), 0, 0.3};
+    ConveyorMotion const motion = solve(conveyor);
+    EngineerQuantities const q = engineer_quantities(motion, {.amplitude = 0.006, .bulk_density = 800});
+    EXPECT_FALSE(q.mass_flow);
+    EXPECT_FALSE(q.power_per_area);
+    for (NamedQuantity const& one : listed(q))
+        EXPECT_EQ(std::string(one.name).find("mass_flow"), std::string::npos);
+}
+
+// K = omega^2 r / g with omega = 2 pi f and r = stroke / 2. Tolerance: rounding.
+TEST(Inputs, TakeFrequencyAndStroke) {
+    auto const inputs = [](Input length, double value) {
+        Inputs in;
+        in.set(Input::frequency_hz, 15);
+        in.set(Input::tan_vibration_angle, 0.5);
+        in.set(Input::friction, 0.3);
+        in.set(length, value);
+        return in;
+    };
+    double const omega = 2 * pi * 15, k = omega * omega * 0.006 / 9.81;
+    for (Inputs const& in : {inputs(Input::amplitude_m, 0.006), inputs(Input::stroke_mm, 12)}) {
+        EXPECT_FALSE(in.incomplete()) << *in.incomplete();
+        EXPECT_TRUE(in.plastic());
+        EXPECT_NEAR(machine_number(in.point()), k, 1e-13 * k);
+        EXPECT_NEAR(in.velocity_scale().value(), omega * 0.006 / std::hypot(1, 0.5), 1e-14);
+    }
+    Inputs wrong = inputs(Input::amplitude_m, 0.006);
+    wrong.set(Input::stroke_mm, 12);
+    EXPECT_TRUE(wrong.incomplete()) << "two amplitudes";
+    wrong = inputs(Input::amplitude_m, 0.006);
+    wrong.set(Input::throw_number, 2);
+    EXPECT_TRUE(wrong.incomplete()) << "three numbers of the drive";
+    wrong.clear(Input::frequency_hz);
+    EXPECT_FALSE(wrong.incomplete()) << "the amplitude only gives the speed";
+    wrong = inputs(Input::amplitude_m, 0.006);
+    wrong.clear(Input::amplitude_m);
+    EXPECT_TRUE(wrong.incomplete()) << "a frequency without an amplitude";
+    EXPECT_THROW(inputs(Input::stroke_mm, 0).point(), std::invalid_argument);
 }
 
 // d eta / d input against a difference quotient of the solver itself with another step. Tolerance: its

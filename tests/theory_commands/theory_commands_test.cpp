@@ -192,6 +192,37 @@ TEST(TheoryPoint, PrintsAnEngineersQuantities) {
                    "has no unit");
 }
 
+// Any two of throw number, frequency and amplitude are a drive: Gamma = (2 pi f)^2 r sin(beta) / g.
+// Tolerance: the digits of the frequency in this test.
+TEST(TheoryPoint, TakesFrequencyAndStroke) {
+    std::string const rest = " --vibration-angle '30 deg' --friction 0.3";
+    double const f = std::sqrt(2 * 9.81 / (0.006 * 0.5)) / (2 * std::acos(-1.0));  // 12.871 Hz
+    std::string const hertz = std::to_string(f), turns = std::to_string(60 * f);
+    auto const reference = ask("point --throw-number 2 --amplitude '6 mm'" + rest);
+    double const eta = reference.at("velocity_efficiency"),
+                 speed = reference.at("quantities").at("conveying_speed").at("value");
+    EXPECT_FALSE(reference.at("quantities").contains("mass_flow")) << "nothing is known of the layer";
+    EXPECT_NEAR(reference.at("quantities").at("stroke").at("value"), 12, 1e-12);
+    EXPECT_NEAR(reference.at("quantities").at("turns_per_minute").at("value"), 60 * f, 1e-9);
+    for (std::string const& drive : {std::string("--throw-number 2 --stroke '12 mm'"),
+                                     "--frequency '" + hertz + " Hz' --amplitude '6 mm'",
+                                     "--frequency '" + turns + " rpm' --stroke '12 mm'",
+                                     "--frequency '" + turns + " 1/min' --stroke '12 mm'",
+                                     "--throw-number 2 --frequency '" + hertz + " Hz'"}) {
+        auto const answer = ask("point " + drive + rest);
+        EXPECT_NEAR(answer.at("velocity_efficiency"), eta, 1e-6) << drive;
+        EXPECT_NEAR(answer.at("quantities").at("conveying_speed").at("value"), speed, 1e-6) << drive;
+    }
+    // K = omega^2 r / g: a sixth of gravity is six times the machine number.
+    auto const moon = ask("point --frequency '5 Hz' --stroke '12 mm' --gravity '1.635 m/s2'" + rest);
+    EXPECT_NEAR(moon.at("machine_number"), std::pow(2 * std::acos(-1.0) * 5, 2) * 0.006 / 1.635, 1e-12);
+    expect_refused("point --throw-number 2 --frequency '12 Hz' --stroke '12 mm'" + rest, "leave one");
+    expect_refused("point --frequency '12 Hz'" + rest, "--amplitude is missing");
+    expect_refused("point --frequency '75 rad/s' --stroke '12 mm'" + rest, "340 rpm");
+    expect_refused("point --throw-number 2 --stroke '12 mm' --amplitude '6 mm'" + rest, "only one");
+    expect_refused("point --throw-number 2 --bulk-density '800 kg/m3'" + rest, "--amplitude");
+}
+
 TEST(TheorySensitivity, PrintsDerivatives) {
     auto const answer =
         ask("sensitivity --throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0 --friction 0.3");
@@ -209,6 +240,18 @@ TEST(TheoryDesign, NamesTheActiveLimit) {
     EXPECT_NE(answer.at("active_limits").dump().find("machine_number <= 4"), std::string::npos);
     EXPECT_LE(answer.at("machine_number"), 4.0001);
     EXPECT_TRUE(answer.contains("sensitivity"));
+    auto const strokes = ask(base + "--machine-number 4 --stroke '2 mm to 16 mm'");
+    EXPECT_EQ(strokes.at("amplitude_m"), answer.at("amplitude_m"));
+    EXPECT_EQ(strokes.at("stroke_mm").get<double>(), 2e3 * answer.at("amplitude_m").get<double>());
+    EXPECT_TRUE(strokes.at("mass_flow_t_per_h").is_null()) << "nothing is known of the layer";
+    auto const turns =
+        ask("design --friction 0.3 --frequency '300 rpm to 3000 rpm' --vibration-angle '10 deg to 45 deg' "
+            "--machine-number 4 --amplitude '1 mm to 8 mm' --mass-flow '5 t/h' --bulk-density '800 kg/m3' "
+            "--layer-height '20 mm' --layer-width '200 mm'");
+    EXPECT_EQ(turns.at("frequency_hz"), answer.at("frequency_hz"));
+    EXPECT_NEAR(turns.at("mass_flow_t_per_h"),
+                3.6 * 800 * 0.02 * 0.2 * turns.at("conveying_speed_m_per_s").get<double>(), 1e-9);
+    expect_refused("design --friction 0.3 --mass-flow '12 tons/h'", "metric tonnes");
     auto const steep =
         ask("design --friction 0.1 --inclination '-10 deg to 0 deg'");  // the slope, not beyond mu
     EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));
@@ -238,6 +281,32 @@ TEST_F(TheoryFiles, BatchRepeatsItsColumnsAndAddsTheAnswers) {
     EXPECT_EQ(rows[3].back(), "false");
     EXPECT_EQ(run_program("theory batch " + path("in.csv") + " --output " + path("out.h5")).exit_code, 0);
     EXPECT_TRUE(fs::exists(path("out.h5")));
+}
+
+// An engineer's columns: f = n / 60, r = stroke / 2, v = eta omega r cos(beta). Tolerance: rounding.
+TEST_F(TheoryFiles, BatchTakesTurnsAndStrokes) {
+    auto const answer_to = [&](std::string const& text) {
+        std::ofstream(path("in.csv")) << text;
+        Answer const answer = run_program("theory batch " + path("in.csv") + " --output " + path("out.csv"));
+        EXPECT_EQ(answer.exit_code, 0) << answer.text;
+        return read_csv(path("out.csv"));
+    };
+    auto const turns = answer_to("stroke_mm;rpm;vibration_angle_deg;friction\n12;780;30;0,3\n");
+    EXPECT_EQ(turns[0], (std::vector<std::string>{"stroke_mm", "rpm", "vibration_angle_deg", "friction",
+                                                  "velocity_efficiency", "half_width", "mode",
+                                                  "period_cycles", "converged", "conveying_speed_m_per_s"}));
+    double const eta = std::stod(turns[1][4]);
+    EXPECT_NEAR(std::stod(turns[1][9]), eta * 2 * std::acos(-1.0) * 13 * 0.006 * std::sqrt(3) / 2, 1e-9);
+    for (char const* const same : {"amplitude_m,frequency_hz,vibration_angle_deg,friction\n0.006,13,30,0.3\n",
+                                   "amplitude_mm,frequency_hz,vibration_angle_deg,friction\n6,13,30,0.3\n"}) {
+        EXPECT_NEAR(std::stod(answer_to(same)[1][4]), eta, 1e-9) << same;
+    }
+    std::string const command = "batch " + path("in.csv") + " --output " + path("out.csv");
+    std::ofstream(path("in.csv"))
+        << "rpm,frequency_hz,stroke_mm,vibration_angle_deg,friction\n780,13,12,30,0.3\n";
+    expect_refused(command, "the columns 'rpm' and 'frequency_hz' are the same input");
+    std::ofstream(path("in.csv")) << "rpm,vibration_angle_deg,friction\n780,30,0.3\n";
+    expect_refused(command, "frequency_hz also needs amplitude_m or stroke_mm");
 }
 
 // A spreadsheet's file: quotes, also with a comma within, and ; with decimal commas.

@@ -6,6 +6,7 @@
 #include "deck/estimates.hpp"
 #include "engine/certificate_cache.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -67,8 +68,11 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     scenario::MeasurementPlan const& plan = prepared.scenario.measure;
     double const work = deck::expected_packings(plan) * deck::expected_work(prepared);
+    scenario::Grains const& grains = prepared.scenario.grains;
     return {{"case", number},
             {"throw_number", prepared.throw_number},
+            {"grain_density_kg_per_m3", grains.density},
+            {"bulk_density_kg_per_m3", bulk_density(grains)},
             {"findings", findings},
             {"expected_packings", deck::expected_packings(plan)},
             {"expected_cycles_per_packing", deck::expected_cycles(plan)},
@@ -96,7 +100,26 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
     fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
 }
 
-void print_text(deck::CampaignCheck const& found, Speed const& speed) {
+/// "600 kg/m3", or "500 to 600 kg/m3" when the cases differ.
+std::string densities(scenario::Campaign const& campaign, double (*of)(scenario::Grains const&)) {
+    double least = of(campaign.cases.front().grains), most = least;
+    for (scenario::Scenario const& one : campaign.cases) {
+        least = std::min(least, of(one.grains));
+        most = std::max(most, of(one.grains));
+    }
+    if (most - least <= 1e-9 * most) return fmt::format("{:.4g} kg/m3", least);
+    return fmt::format("{:.4g} to {:.4g} kg/m3", least, most);
+}
+
+/// One of the two was given; the user sees whether the other is as expected.
+void print_densities(scenario::Campaign const& campaign) {
+    fmt::print("bulk density of the settled layer: {}, with grains of {} and a solid fraction of {}\n",
+               densities(campaign, scenario::bulk_density),
+               densities(campaign, [](scenario::Grains const& grains) { return grains.density; }),
+               scenario::settled_solid_fraction);
+}
+
+void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
     for (deck::CheckedItem const& item : found.items) {
         fmt::print("{:<8} {:<56} {:>10.3g}   {} {:.3g}{}\n", to_string(item.worst.severity), item.worst.item,
@@ -107,6 +130,7 @@ void print_text(deck::CampaignCheck const& found, Speed const& speed) {
         if (item.worst.severity != deck::Severity::fine)
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
+    print_densities(campaign);
     fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
                found.cases, found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
@@ -120,7 +144,7 @@ int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     deck::CampaignCheck const found = deck::check_campaign(campaign);
     Speed const speed = engine_speed(options.engine);
-    options.json ? print_json(campaign, found, speed) : print_text(found, speed);
+    options.json ? print_json(campaign, found, speed) : print_text(campaign, found, speed);
     return found.errors() > 0 ? wrong_input : all_well;
 }
 
@@ -143,7 +167,8 @@ void add_check(CLI::App& program, int& exit_code) {
 overlaps at rest and at impact, the duration of contacts against that of flights, the periodic box, the neighbour lists,
 the disk space and the memory of the engine. Prints a table with the worst case of each item, what to change, and the expected cost in
 core-hours: of as many packings as the interval that measure.half_width asks for will probably need. 'vibrotrough plan'
-uses the same rule, learns from the cases that have a result, and prints a range.
+uses the same rule, learns from the cases that have a result, and prints a range. The density of the grains and the
+bulk density of the layer are printed both, whichever the campaign file gives.
 
 'vibrotrough run' checks too: it shows warnings, and it refuses a campaign with errors unless --accept-findings is
 given.

@@ -47,7 +47,8 @@ compare::TableStyle style_for(std::string const& colour) {
 }
 
 /// The table with both errors. @throws core::InputError when no numerical error is known
-void print_budget(std::vector<compare::Row> const& rows, Options const& options) {
+void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
+                  Options const& options) {
     bool const any =
         std::ranges::any_of(rows, [](auto const& row) { return row.numerical_error.has_value(); });
     if (!any && !rows.empty()) {
@@ -55,26 +56,26 @@ void print_budget(std::vector<compare::Row> const& rows, Options const& options)
             "the numerical error of no case in {} is known; measure it with 'vibrotrough convergence {}'",
             options.folder, core::shell_word(options.folder)));
     }
-    fmt::print("{}", compare::to_table(rows, style_for(options.colour), compare::budget_columns()));
+    fmt::print("{}", compare::to_table(rows, style_for(options.colour), compare::budget_columns(columns)));
     if (std::ranges::any_of(rows, compare::is_borrowed))
         fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
 }
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    std::vector<compare::Row> rows = compare::compared_cases(plan, campaign::activity_in(plan.folder)).rows;
-    for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition);
-    if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort);
+    auto [cases, rows, columns] = compare::compared_cases(plan, campaign::activity_in(plan.folder));
+    for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
+    if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
     if (options.json) {
-        fmt::print("{}", compare::to_json(rows));
+        fmt::print("{}", compare::to_json(rows, columns));
     } else if (options.curves) {
         fmt::print("{}", compare::theory_curves_csv(rows));
     } else if (options.csv) {
-        fmt::print("{}", compare::to_csv(rows));
+        fmt::print("{}", compare::to_csv(rows, columns));
     } else if (options.budget) {
-        print_budget(rows, options);
+        print_budget(rows, columns, options);
     } else {
-        fmt::print("{}", compare::to_table(rows, style_for(options.colour)));
+        fmt::print("{}", compare::to_table(rows, style_for(options.colour), columns));
     }
     return all_well;
 }
@@ -118,7 +119,10 @@ void add_compare(CLI::App& program, int& exit_code) {
                      "Colour the table: auto means on a terminal where NO_COLOR is not set")
         ->check(CLI::IsMember({"auto", "always", "never"}))
         ->capture_default_str();
-    command->footer(std::string(R"(The columns of the table:
+    command->footer(
+        std::string(
+            R"(The columns of the table. After the case comes a column for every key that the campaign sweeps, under
+the name that it has in the campaign file; --sort and --filter take these names, too:
 
   eta DEM     velocity efficiency of the simulated layer: its mean velocity relative to the trough
               over omega r cos(beta), +- the half-width of its confidence interval
@@ -130,6 +134,8 @@ void add_compare(CLI::App& program, int& exit_code) {
               is how the grains pass friction on. Both hold to about 0.05.
   difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
               theory, cyan where it is slower, bold from 0.1 on, plain within the interval
+  mass flow   of the simulated layer, +- the half-width of its interval: of the whole trough when
+              its width is known (trough.width, or side walls), else per metre of width
   mode        how the theory's point mass and the layer move within a period
 
 With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
@@ -137,7 +143,8 @@ interval, and how far Young's modulus, time step and box are from their limits. 
 measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
 cycles do not help where it is the numerical one.
 
-)") + mode_letters + R"(
+)") + mode_letters +
+        R"(
 
 Exit codes:
     0  all well
@@ -145,7 +152,8 @@ Exit codes:
 
 Examples:
   vibrotrough compare runs/demo --csv > demo.csv
-  vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc)");
+  vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
+  vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1')");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

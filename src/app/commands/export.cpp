@@ -37,7 +37,8 @@ struct Options {
 fs::path export_table(campaign::Plan const& plan) {
     fs::path const path = plan.folder / "view" / "campaign.vtt";
     core::make_folder(path.parent_path());
-    view::write_table(path, compare::compared_cases(plan, campaign::activity_in(plan.folder)).rows);
+    auto const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
+    view::write_table(path, compared.rows, compared.columns);
     return fs::absolute(path).lexically_normal();
 }
 

@@ -8,8 +8,12 @@
 #include "campaign/schedule/forecast.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
+#include "compare/compared_cases.hpp"
+#include "compare/exports.hpp"
 #include "core/error.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -70,20 +74,24 @@ struct PlanView {
 
 void print_json(PlanView const& view) {
     Json list = Json::array();
+    auto const columns = compare::columns_with_swept(view.plan.swept);
     for (std::size_t i = 0; i < view.cases.size(); ++i) {
         campaign::CaseOverview const& one = view.cases[i];
         scenario::Trough const& trough = one.planned->scenario().trough;
-        list.push_back({{"case", one.planned->id},
-                        {"throw_number", one.planned->prepared->throw_number},
-                        {"machine_number", one.planned->prepared->machine_number},
-                        {"vibration_angle_deg", scenario::in_degrees(trough.vibration_angle)},
-                        {"inclination_deg", scenario::in_degrees(trough.inclination)},
-                        {"friction", trough.friction},
-                        {"grains", one.planned->scenario().layer.grains},
-                        {"packings", view.cost.packings[i]},
-                        {"packings_done", one.packings_done},
-                        {"outcome", one.label()},
-                        {"core_time_s", view.cost.cases[i]}});
+        Json object{{"case", one.planned->id},
+                    {"label", one.planned->label},
+                    {"throw_number", one.planned->prepared->throw_number},
+                    {"machine_number", one.planned->prepared->machine_number},
+                    {"vibration_angle_deg", scenario::in_degrees(trough.vibration_angle)},
+                    {"inclination_deg", scenario::in_degrees(trough.inclination)},
+                    {"friction", trough.friction},
+                    {"grains", one.planned->scenario().layer.grains},
+                    {"packings", view.cost.packings[i]},
+                    {"packings_done", one.packings_done},
+                    {"outcome", one.label()},
+                    {"core_time_s", view.cost.cases[i]}};
+        object.update(compare::swept_object(compare::planned_row(view.plan, one), columns));
+        list.push_back(std::move(object));
     }
     Json const json{{"campaign", view.plan.name},
                     {"cases_total", view.cases.size()},
@@ -98,20 +106,58 @@ void print_json(PlanView const& view) {
     fmt::print("{}\n", json.dump(2));
 }
 
-void print_text(PlanView const& view) {
-    fmt::print(
-        "case          Gamma       K   beta  alpha    mu   grains  packings  outcome       core time\n");
+/// The columns of the table: the case, the swept keys, and the drive.
+std::vector<compare::Column> case_columns(campaign::Plan const& plan) {
+    auto columns = compare::columns_with_swept(plan.swept);
+    std::erase_if(columns, [&](compare::Column const& column) {
+        constexpr std::array<std::string_view, 6> always{
+            "case", "throw_number", "machine_number", "friction", "inclination_deg", "vibration_angle_deg"};
+        return std::ranges::find(always, column.name) == always.end() &&
+               !compare::is_swept(column, plan.swept);
+    });
+    std::ranges::stable_sort(columns, {}, &compare::Column::position);
+    return columns;
+}
+
+/// Prints lines of cells below each other, the first column flush left.
+void print_aligned(std::vector<std::vector<std::string>> const& lines) {
+    std::vector<std::size_t> widths(lines.front().size(), 0);
+    for (auto const& line : lines) {
+        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+    }
+    for (auto const& line : lines) {
+        std::string text = fmt::format("{:<{}}", line[0], widths[0]);
+        for (std::size_t i = 1; i < line.size(); ++i) text += fmt::format("  {:>{}}", line[i], widths[i]);
+        fmt::print("{}\n", text);
+    }
+}
+
+void print_cases(PlanView const& view) {
+    auto const columns = case_columns(view.plan);
+    std::vector<std::vector<std::string>> lines(2);
+    for (compare::Column const& column : columns) {
+        bool const is_k = column.name == "machine_number" && !column.terminal;
+        lines[0].emplace_back(is_k ? "K" : column.terminal->heading);
+        lines[1].emplace_back(is_k ? "" : column.terminal->subheading);
+    }
+    for (char const* const heading : {"grains", "packings", "outcome", "core time"})
+        lines[0].emplace_back(heading);
+    lines[1].resize(lines[0].size());
     for (std::size_t i = 0; i < view.cases.size(); ++i) {
         campaign::CaseOverview const& one = view.cases[i];
-        scenario::Scenario const& scenario = one.planned->scenario();
-        fmt::print("{}  {:5.3f}  {:6.3f}  {:5.2f}  {:5.2f}  {:4.2f}  {:7}  {:>4}/{:<3}  {:<12}  {:>9}\n",
-                   one.planned->id, one.planned->prepared->throw_number,
-                   one.planned->prepared->machine_number,
-                   scenario::in_degrees(scenario.trough.vibration_angle),
-                   scenario::in_degrees(scenario.trough.inclination), scenario.trough.friction,
-                   scenario.layer.grains, one.packings_done, view.cost.packings[i], one.label(),
-                   clock_time(view.cost.cases[i]));
+        compare::Row const row = compare::planned_row(view.plan, one);
+        auto& line = lines.emplace_back();
+        for (compare::Column const& column : columns) line.push_back(column.shown(row));
+        line.push_back(std::to_string(one.planned->scenario().layer.grains));
+        line.push_back(fmt::format("{}/{}", one.packings_done, view.cost.packings[i]));
+        line.emplace_back(one.label());
+        line.push_back(clock_time(view.cost.cases[i]));
     }
+    print_aligned(lines);
+}
+
+void print_text(PlanView const& view) {
+    print_cases(view);
     fmt::print("campaign {}: {} cases, {} with a result", view.plan.name, view.cases.size(), view.known);
     if (view.campaign.excluded > 0) fmt::print(", {} left out by [[exclude]]", view.campaign.excluded);
     if (std::size_t const unused = campaign::count_left_aside(view.plan); unused > 0)
@@ -150,8 +196,8 @@ void add_plan(CLI::App& program, int& exit_code) {
     add_engine(*command, options->engine);
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
-        R"(Prints one line per case: its id, throw number Gamma, machine number K, vibration angle beta and
-inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended and will probably be
+        R"(Prints one line per case: its id, the values of all swept keys, throw number Gamma, machine number K,
+vibration angle beta and inclination alpha in degrees, friction coefficient mu, number of grains, packings that have ended and will probably be
 needed for the interval that measure.half_width asks for, outcome, and the core time that it still needs. Below, the
 cost of the whole campaign is estimated, with the range in which it probably lies. The estimate learns from the cases
 that have a result.

@@ -2,8 +2,12 @@
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/execute/executors.hpp"
+#include "campaign/schedule/forecast.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
+#include "campaign/state/pace.hpp"
+#include "compare/compared_cases.hpp"
+#include "compare/exports.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -49,42 +53,102 @@ Counts count(std::vector<campaign::CaseOverview> const& cases) {
     return counts;
 }
 
-void print_json(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
-    Counts const counts = count(cases);
+/// What is known of a campaign: its cases and what they will still cost.
+struct StatusView {
+    campaign::Plan const& plan;
+    std::vector<campaign::CaseOverview> const& cases;
+    campaign::Forecast const& cost;
+};
+
+Json describe(campaign::PackingPace const& pace) {
+    return {{"packing", pace.packing},
+            {"cycles", pace.cycles},
+            {"seconds_per_cycle", pace.seconds_per_cycle ? Json(*pace.seconds_per_cycle) : Json()}};
+}
+
+/// The packings that are being simulated; none of a case that nobody works on.
+std::vector<campaign::PackingPace> paces_of(campaign::CaseOverview const& one) {
+    if (one.status != campaign::CaseStatus::running) return {};
+    return campaign::packings_under_way(*one.planned);
+}
+
+void print_json(StatusView const& view) {
+    Counts const counts = count(view.cases);
+    auto const columns = compare::columns_with_swept(view.plan.swept);
     Json list = Json::array();
-    for (campaign::CaseOverview const& one : cases) {
-        list.push_back({{"case", one.planned->id},
-                        {"outcome", one.label()},
-                        {"message", one.message},
-                        {"packings_done", one.packings_done},
-                        {"packings", one.planned->scenario().measure.packings}});
+    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+        campaign::CaseOverview const& one = view.cases[i];
+        Json running = Json::array();
+        for (campaign::PackingPace const& pace : paces_of(one)) running.push_back(describe(pace));
+        Json object{{"case", one.planned->id},
+                    {"label", one.planned->label},
+                    {"outcome", one.label()},
+                    {"message", one.message},
+                    {"packings_done", one.packings_done},
+                    {"packings", one.planned->scenario().measure.packings},
+                    {"running", running},
+                    {"core_time_to_go_s", view.cost.cases[i]}};
+        object.update(compare::swept_object(compare::planned_row(view.plan, one), columns));
+        list.push_back(std::move(object));
     }
-    Json const json{
-        {"campaign", plan.name},       {"engine", plan.engine_version}, {"cases_total", cases.size()},
-        {"finished", counts.finished}, {"unsure", counts.unsure},       {"failed", counts.failed},
-        {"running", counts.running},   {"left", counts.left},           {"cases", list}};
+    Json const json{{"campaign", view.plan.name},
+                    {"engine", view.plan.engine_version},
+                    {"cases_total", view.cases.size()},
+                    {"finished", counts.finished},
+                    {"unsure", counts.unsure},
+                    {"failed", counts.failed},
+                    {"running", counts.running},
+                    {"left", counts.left},
+                    {"core_time_to_go_s", view.cost.core_time},
+                    {"core_time_uncertainty_factor", view.cost.uncertainty},
+                    {"cases", list}};
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-void print_text(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
-    Counts const counts = count(cases);
-    for (campaign::CaseOverview const& one : cases) {
+/// "; packing 2: 21 cycles, 0.44 s per cycle; about 0.02 core-hours to go"
+std::string describe_progress(campaign::CaseOverview const& one, double core_time) {
+    std::string text;
+    for (campaign::PackingPace const& pace : paces_of(one)) {
+        text += fmt::format("; packing {}: {} cycles", pace.packing, pace.cycles);
+        if (pace.seconds_per_cycle) text += fmt::format(", {:.2g} s per cycle", *pace.seconds_per_cycle);
+    }
+    bool const goes_on =
+        one.status != campaign::CaseStatus::ended && one.status != campaign::CaseStatus::failed;
+    if (goes_on && core_time > 0) text += fmt::format("; about {:.2g} core-hours to go", core_time / 3600);
+    return text;
+}
+
+void print_text(StatusView const& view) {
+    Counts const counts = count(view.cases);
+    std::size_t widest = 0;
+    for (campaign::CaseOverview const& one : view.cases) widest = std::max(widest, one.planned->label.size());
+    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+        campaign::CaseOverview const& one = view.cases[i];
         if (one.status == campaign::CaseStatus::open) continue;
         bool const has_ended = one.status == campaign::CaseStatus::ended;
         std::string const least =
             has_ended ? "" : fmt::format(" of at least {}", one.planned->scenario().measure.packings);
-        fmt::print("{}  {:<16} packings {}{}{}{}\n", one.planned->id, one.label(), one.packings_done, least,
+        std::string const label = widest == 0 ? "" : fmt::format("  {:<{}}", one.planned->label, widest);
+        fmt::print("{}{}  {:<16} packings {}{}{}{}{}\n", one.planned->id, label, one.label(),
+                   one.packings_done, least, describe_progress(one, view.cost.cases[i]),
                    one.message.empty() ? "" : "  ", core::harmless(one.message));
     }
     fmt::print(
         "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
-        plan.name, cases.size(), counts.finished, counts.unsure, counts.failed, counts.running, counts.left);
+        view.plan.name, view.cases.size(), counts.finished, counts.unsure, counts.failed, counts.running,
+        counts.left);
+    if (counts.running + counts.left == 0 || view.cost.core_time <= 0) return;
+    fmt::print("about {:.3g} core-hours to go (probably {:.2g} to {:.2g})\n", view.cost.core_time / 3600,
+               view.cost.core_time / view.cost.uncertainty / 3600,
+               view.cost.core_time * view.cost.uncertainty / 3600);
 }
 
 int run(Options const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
-    options.json ? print_json(plan, cases) : print_text(plan, cases);
+    campaign::Forecast const cost = campaign::forecast(plan, cases);
+    StatusView const view{plan, cases, cost};
+    options.json ? print_json(view) : print_text(view);
     return all_well;
 }
 
@@ -97,8 +161,9 @@ void add_status(CLI::App& program, int& exit_code) {
     add_campaign_folder(*command, options->folder);
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
-        R"(Prints one line for each case that has started: its id, its state, how many of its packings have
-ended, and why it failed or waits. Of a case that is not precise it says how many packings and core-hours it would still
+        R"(Prints one line for each case that has started: its id, the values of the swept keys, its state, how
+many of its packings have ended, how far the running ones are and how long a cycle takes them, the core time that the
+case still needs as it is estimated from the finished ones, and why it failed or waits. Of a case that is not precise it says how many packings and core-hours it would still
 need, and of one that is bistable or slow the velocity efficiency of both branches. The last line counts the cases. The
 command works while the campaign runs, and it changes nothing.
 

@@ -127,11 +127,12 @@ bool is_campaign_file_outdated(Plan const& plan) {
     std::error_code none;
     fs::file_time_type const written = fs::last_write_time(plan.folder / "campaign.h5", none);
     bool const is_there = !none;
+    bool const is_current = is_there && store::is_campaign_of(plan.folder / "campaign.h5", plan.swept);
     fs::file_time_type const studied = fs::last_write_time(numerics_file(plan.folder), none);
     if (!none && is_there && studied > written) return true;
     return std::ranges::any_of(plan.cases, [&](PlannedCase const& planned) {
         fs::file_time_type const finished = fs::last_write_time(planned.result_file(), none);
-        return !none && (!is_there || finished > written);
+        return !none && (!is_current || finished > written);
     });
 }
 
@@ -143,7 +144,8 @@ void write_campaign_file(Plan const& plan) {
         if (found->is_from_result) write_summary(planned, found->record);
         records.push_back(std::move(found->record));
     }
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, records, read_case_numerics(plan));
+    store::write_campaign(plan.folder / "campaign.h5", plan.name, records, read_case_numerics(plan),
+                          plan.swept);
 }
 
 }  // namespace vibrotrough::campaign

@@ -60,7 +60,8 @@ struct CaseOverview {
 /// What the files and the executors say of every case of a plan. Writes nothing.
 std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity);
 
-/// Whether campaign.h5 is missing or lacks a result or a numerical error that is newer.
+/// Whether campaign.h5 is missing, lacks a result or a numerical error that is newer, or was written by
+/// another version of the program or for other swept keys.
 bool is_campaign_file_outdated(Plan const& plan);
 
 /// Writes campaign.h5 from the results that are there. It can be made again at any time.

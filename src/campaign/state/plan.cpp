@@ -55,7 +55,10 @@ Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
     Planner planner;
     for (scenario::Scenario const& scenario : campaign.cases) planner.add(scenario, engine_version);
     for (scenario::Scenario const& scenario : read_added_cases(folder)) planner.add(scenario, engine_version);
-    return {campaign.name, folder, engine_version, planner.place(folder, engine_version), campaign.files};
+    Plan plan{campaign.name,  folder,        engine_version, planner.place(folder, engine_version),
+              campaign.files, campaign.swept};
+    for (PlannedCase& planned : plan.cases) planned.label = swept_label(planned.scenario(), plan.swept);
+    return plan;
 }
 
 PlannedCase plan_case(scenario::Scenario const& scenario, fs::path const& folder,

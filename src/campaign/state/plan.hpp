@@ -23,6 +23,9 @@ struct PlannedCase {
     /// The id that the case would have in a new folder. It differs from `id` only for cases that an older
     /// version of the program began (older_cases.hpp).
     std::string current_id;
+    /// What distinguishes it from the other cases, such as "throw_number 2, layer.height 12 mm"; empty when
+    /// nothing is swept.
+    std::string label = {};
 
     /// The scenario of the case.
     scenario::Scenario const& scenario() const { return prepared->scenario; }
@@ -55,6 +58,7 @@ struct Plan {
     std::string engine_version;                     ///< of the engine that runs it; part of the ids
     std::deque<PlannedCase> cases;                  ///< in the order of the campaign file, added ones last
     std::vector<std::filesystem::path> files = {};  ///< that the campaign file reads
+    scenario::SweptKeys swept = {};                 ///< keys that differ between the cases
     /// Keeps what is written and removed within the folder; none for a plan that only looks.
     std::shared_ptr<core::OwnFolder const> own = {};
 };

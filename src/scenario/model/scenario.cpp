@@ -31,6 +31,7 @@ std::string trough_toml(Trough const& t) {
                     angle_toml("vibration_angle", t.vibration_angle, t.given.tan_vibration_angle),
                     t.amplitude, frequency_toml(t), t.friction, t.restitution);
     if (t.side_wall_friction) text += fmt::format("side_wall_friction = {}\n", *t.side_wall_friction);
+    if (t.width) text += fmt::format("width = \"{} m\"\n", *t.width);
     if (t.along_phase != 0) text += fmt::format("along_phase = \"{} radian\"\n", t.along_phase);
     if (!t.harmonics.empty()) {
         std::vector<std::string> list;
@@ -118,6 +119,20 @@ double in_degrees(double radian) {
 
 double velocity_scale(Trough const& trough) {
     return angular_frequency(trough) * trough.amplitude * std::cos(trough.vibration_angle);
+}
+
+double bulk_density(Grains const& grains) {
+    return settled_solid_fraction * grains.density;
+}
+
+double mass_per_area(Scenario const& s) {
+    return s.layer.grains * s.grains.density * mean_grain_volume(s.grains) / (s.layer.length * s.layer.width);
+}
+
+std::optional<double> trough_width(Scenario const& s) {
+    if (s.trough.width) return s.trough.width;
+    if (s.trough.side_wall_friction) return s.layer.width;
+    return {};
 }
 
 double layer_height(Scenario const& s) {

@@ -42,6 +42,7 @@ struct Trough {
     std::vector<DriveHarmonic> harmonics = {};           ///< in addition to the fundamental
     std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion instead of the sinusoid
     GivenDrive given = {};                               ///< numbers as the user gave them
+    std::optional<double> width = {};                    ///< m, of the real trough; see trough_width()
 };
 
 /// A single rigid body that replaces the layer and represents the point mass of the theory.
@@ -108,6 +109,16 @@ double in_degrees(double radian);
 
 /// omega r cos(beta), m/s: the conveying speed at a velocity efficiency of 1.
 double velocity_scale(Trough const& trough);
+
+/// Density of the settled layer with its voids, kg/m^3: that of the grains times settled_solid_fraction.
+double bulk_density(Grains const& grains);
+
+/// Mass of the layer per area of trough, kg/m^2, from the number of grains and their mean volume.
+double mass_per_area(Scenario const& scenario);
+
+/// Width of the trough for its mass flow, m: as given, or between the side walls. None for a layer that is
+/// periodic across, which is a piece out of a trough of any width.
+std::optional<double> trough_width(Scenario const& scenario);
 
 /// Height of the layer at rest, m: as given, otherwise from the number of grains and settled_solid_fraction.
 double layer_height(Scenario const& scenario);

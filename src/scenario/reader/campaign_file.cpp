@@ -41,6 +41,16 @@ CaseValues pick(CampaignText const& text, std::size_t index) {
     return values;
 }
 
+/// The keys of the sweep and of the lists, in the order in which they are combined.
+std::vector<Key const*> varied_keys(CampaignText const& text) {
+    std::vector<Key const*> keys;
+    for (Axis const& axis : text.sweep) keys.push_back(find_key(axis.key));
+    for (PointList const& list : text.lists) {
+        for (std::string const& key : list.keys) keys.push_back(find_key(key));
+    }
+    return keys;
+}
+
 }  // namespace
 
 Campaign parse_campaign(std::string_view text, std::string const& name, FileSource const& source) {
@@ -60,6 +70,7 @@ Campaign parse_campaign(std::string_view text, std::string const& name, FileSour
         throw_at({name, parsed.exclusions.front().front().where}, "exclude", "all cases are left out",
                  "exclude fewer");
     }
+    campaign.swept = swept_keys(varied_keys(parsed), campaign.cases);
     return campaign;
 }
 

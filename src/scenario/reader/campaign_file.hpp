@@ -3,6 +3,7 @@
 #include "scenario/model/run_settings.hpp"
 #include "scenario/model/scenario.hpp"
 #include "scenario/reader/case_values.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <filesystem>
 #include <string>
@@ -18,6 +19,7 @@ struct Campaign {
     RunSettings run;              ///< how to run them
     std::vector<std::filesystem::path> files;  ///< CSV files of points that the campaign file names
     std::size_t excluded = 0;                  ///< number of cases that the exclusions left out
+    SweptKeys swept = {};  ///< keys of the sweep and the lists that differ between the cases
 };
 
 /// Reads and checks a campaign file.

@@ -1,6 +1,6 @@
 #include "scenario/reader/design.hpp"
 
-#include "scenario/reader/keys.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,20 +83,7 @@ void set_value(CaseValues& values, std::string const& key, Value const& value) {
 
 std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {
     if (auto const found = given.find(key); found != given.end()) return found->second.content;
-    Trough const& trough = scenario.trough;
-    if (key == "trough.throw_number") return throw_number(trough);
-    if (key == "trough.machine_number") return machine_number(trough);
-    if (key == "trough.frequency") return trough.frequency;
-    if (key == "trough.inclination") return trough.inclination;
-    if (key == "trough.tan_inclination") return std::tan(trough.inclination);
-    if (key == "trough.vibration_angle") return trough.vibration_angle;
-    if (key == "trough.tan_vibration_angle") return std::tan(trough.vibration_angle);
-    if (key == "layer.grains") return static_cast<double>(scenario.layer.grains);
-    Key const& known = *find_key(key);
-    if (known.kind == KeyKind::choice || known.kind == KeyKind::file)
-        return std::string(choices(known).front());
-    if (auto const* value = std::get_if<double>(&known.if_missing)) return *value;
-    return {};
+    return key_value(scenario, key);
 }
 
 bool is_excluded(Scenario const& scenario, CaseValues const& given,

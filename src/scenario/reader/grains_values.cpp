@@ -1,3 +1,4 @@
+#include "scenario/model/scenario.hpp"
 #include "scenario/reader/given_values.hpp"
 
 #include <stdexcept>
@@ -15,7 +16,7 @@ class GrainsReader {
     Grains grains() const {
         Grains grains{.diameter = 0,
                       .diameter_spread = given_.number("grains.diameter_spread"),
-                      .density = given_.number("grains.density"),
+                      .density = density(),
                       .youngs_modulus = given_.number("grains.youngs_modulus"),
                       .poisson_ratio = given_.number("grains.poisson_ratio"),
                       .friction = given_.number("grains.friction"),
@@ -35,6 +36,12 @@ class GrainsReader {
     }
 
   private:
+    double density() const {
+        if (Value const* bulk = given_.find("grains.bulk_density"))
+            return bulk->number() / settled_solid_fraction;
+        return given_.number("grains.density");
+    }
+
     void set_rotation(Grains& grains) const {
         std::string const rotation = given_.word("grains.rotation");
         double const rolling_friction = given_.number("grains.rolling_friction");

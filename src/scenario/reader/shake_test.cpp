@@ -50,6 +50,7 @@ std::string layer_key(Scenario const& scenario) {
     same.trough.harmonics.clear();
     same.trough.waveform.reset();
     same.trough.given = {};
+    same.trough.width = {};
     same.measure = {};
     same.output = {};
     std::string all = to_toml(same);

@@ -21,7 +21,7 @@ class TroughReader {
     Trough trough() const {
         Trough trough{.inclination = angle("trough.inclination", "trough.tan_inclination"),
                       .vibration_angle = angle("trough.vibration_angle", "trough.tan_vibration_angle"),
-                      .amplitude = given_.number("trough.amplitude"),
+                      .amplitude = amplitude(),
                       .frequency = 0,
                       .friction = given_.number("trough.friction"),
                       .restitution = given_.number("trough.restitution"),
@@ -29,7 +29,8 @@ class TroughReader {
                       .along_phase = given_.number("trough.along_phase"),
                       .harmonics = harmonics(),
                       .waveform = nullptr,
-                      .given = given_drive()};
+                      .given = given_drive(),
+                      .width = width()};
         if (Value const* value = given_.find("trough.side_wall_friction"))
             trough.side_wall_friction = value->number();
         trough.frequency = frequency(trough);
@@ -43,6 +44,22 @@ class TroughReader {
     double angle(std::string_view angle_key, std::string_view tangent_key) const {
         if (Value const* value = given_.find(angle_key)) return value->number();
         return std::atan(given_.number(tangent_key));
+    }
+
+    std::optional<double> width() const {
+        Value const* const value = given_.find("trough.width");
+        if (value == nullptr) return {};
+        if (given_.find("trough.side_wall_friction") != nullptr) {
+            given_.fail("trough.width",
+                        "is given together with side walls, between which the width is layer.width",
+                        "remove one of width and side_wall_friction");
+        }
+        return value->number();
+    }
+
+    double amplitude() const {
+        if (Value const* stroke = given_.find("trough.stroke")) return stroke->number() / 2;
+        return given_.number("trough.amplitude");
     }
 
     double frequency(Trough const& trough) const {
@@ -64,7 +81,7 @@ class TroughReader {
         Key const& key = *find_key("trough.frequency");
         if (result < key.least || result > key.most) {
             given_.fail(
-                "trough.amplitude",
+                given_.find("trough.stroke") != nullptr ? "trough.stroke" : "trough.amplitude",
                 fmt::format("the drive would run at {:.4g} Hz, outside the range {}", result, key.range),
                 "change the amplitude or the throw number");
         }

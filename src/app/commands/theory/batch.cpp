@@ -59,12 +59,14 @@ void add_theory_batch(CLI::App& theory, int& exit_code) {
     command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     command->footer(
         std::string(
-            R"(The first line of the CSV file names the inputs: throw_number or machine_number; tan_vibration_angle
-or vibration_angle_deg; tan_inclination or inclination_deg; friction; restitution; and so on ('vibrotrough theory map
---help' lists all names). Each further line is one motion. An empty cell means that this motion does not have that input.
+            R"(The first line of the CSV file names the inputs: throw_number, machine_number, frequency_hz or rpm;
+amplitude_m, amplitude_mm or stroke_mm, which a frequency needs; tan_vibration_angle or vibration_angle_deg;
+tan_inclination or inclination_deg; friction; restitution; and so on ('vibrotrough theory map --help' lists all names).
+Each further line is one motion. An empty cell means that this motion does not have that input.
 
 The output repeats the inputs and adds the columns velocity_efficiency, half_width (of its 95 % confidence interval when
-the motion has no period, else 0), mode, period_cycles and converged.
+the motion has no period, else 0), mode, period_cycles, converged and, when a motion has an amplitude,
+conveying_speed_m_per_s.
 
 )") + mode_letters +
         R"(

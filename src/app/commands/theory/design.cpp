@@ -20,7 +20,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 struct Options {
-    Text friction, frequency, amplitude, vibration_angle, inclination, machine_number, throw_number;
+    Text friction, frequency, amplitude, stroke, vibration_angle, inclination, machine_number, throw_number;
     Text mass_flow, bulk_density, layer_height, layer_width, gravity;
     RollingOption rolling;
     bool json = false;
@@ -55,6 +55,17 @@ theory::DesignLimits read(Options const& o) {
         char const* const example = "5 Hz to 50 Hz";
         l.frequency =
             read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
+    }
+    if (o.stroke && o.amplitude) {
+        throw core::InputError(
+            fmt::format("--stroke {} and --amplitude {} are both given; write only one of them", *o.stroke,
+                        *o.amplitude));
+    }
+    if (o.stroke) {
+        char const* const example = "2 mm to 16 mm";
+        l.amplitude = read_range("--stroke", *o.stroke, example, quantity("--stroke", "m", example));
+        l.amplitude.low /= 2;
+        l.amplitude.high /= 2;
     }
     if (o.amplitude) {
         char const* const example = "1 mm to 8 mm";
@@ -95,9 +106,12 @@ theory::DesignLimits read(Options const& o) {
 nlohmann::ordered_json as_json(theory::Design const& d) {
     return {{"feasible", d.feasible},
             {"conveying_speed_m_per_s", d.conveying_speed},
-            {"mass_flow_kg_per_s", d.mass_flow},
+            {"mass_flow_kg_per_s", d.mass_flow > 0 ? nlohmann::ordered_json(d.mass_flow) : nullptr},
+            {"mass_flow_t_per_h", d.mass_flow > 0 ? nlohmann::ordered_json(3.6 * d.mass_flow) : nullptr},
             {"frequency_hz", d.frequency},
+            {"turns_per_minute", 60 * d.frequency},
             {"amplitude_m", d.amplitude},
+            {"stroke_mm", 2e3 * d.amplitude},
             {"vibration_angle_deg", d.vibration_angle / degree},
             {"inclination_deg", d.inclination / degree},
             {"throw_number", d.throw_number},
@@ -130,9 +144,10 @@ void run(Options const& options) {
     }
     if (!d.feasible) fmt::print("no machine reaches the requested mass flow; this is the fastest one\n");
     fmt::print("conveying speed      {:.6g} m/s\n", d.conveying_speed);
-    if (d.mass_flow > 0) fmt::print("mass flow            {:.6g} kg/s\n", d.mass_flow);
-    fmt::print("frequency            {:.6g} Hz\namplitude            {:.6g} mm\n", d.frequency,
-               1e3 * d.amplitude);
+    if (d.mass_flow > 0)
+        fmt::print("mass flow            {:.6g} kg/s = {:.6g} t/h\n", d.mass_flow, 3.6 * d.mass_flow);
+    fmt::print("frequency            {:.6g} Hz = {:.6g} 1/min\n", d.frequency, 60 * d.frequency);
+    fmt::print("amplitude            {:.6g} mm (stroke {:.6g} mm)\n", 1e3 * d.amplitude, 2e3 * d.amplitude);
     fmt::print("vibration angle      {:.6g} deg\ninclination          {:.6g} deg\n",
                d.vibration_angle / degree, d.inclination / degree);
     fmt::print("throw number         {:.6g}\nmachine number       {:.6g}\n", d.throw_number,
@@ -154,15 +169,17 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
         command->add_option(name, text, help);
     };
     add("--friction", options->friction, "mu, friction coefficient of the material on the trough");
-    add("--frequency", options->frequency, "Range; default: \"5 Hz to 60 Hz\"");
+    add("--frequency", options->frequency,
+        "Range; default: \"5 Hz to 60 Hz\"; turns of the drive may be written as \"300 rpm to 3600 rpm\"");
     add("--amplitude", options->amplitude, "Range of r, half the stroke; default: \"0.5 mm to 15 mm\"");
+    add("--stroke", options->stroke, "Range of 2 r, instead of --amplitude, for example \"2 mm to 16 mm\"");
     add("--vibration-angle", options->vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", options->inclination, "Range of alpha, uphill positive; default: level");
     add("--machine-number", options->machine_number,
         "Largest machine number K that the structure bears; default: 5");
     add("--throw-number", options->throw_number,
         "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
-    add("--mass-flow", options->mass_flow, "Least mass flow, for example \"2 kg/s\"");
+    add("--mass-flow", options->mass_flow, "Least mass flow, for example \"12 t/h\" or \"2 kg/s\"");
     add("--bulk-density", options->bulk_density, "Of the layer, for example \"800 kg/m3\"");
     add("--layer-height", options->layer_height, "For example \"20 mm\"");
     add("--layer-width", options->layer_width, "For example \"200 mm\"");

@@ -61,7 +61,20 @@ void TheoryOptions::add_to(CLI::App& command) {
                        "alpha, uphill positive, for example \"-3 deg\"; default: level");
     command.add_option("--tan-inclination", tan_inclination_, "tan(alpha), instead of --inclination");
     command.add_option("--friction", friction_, "mu, friction coefficient of the mass on the trough");
+    add_machine(command);
     add_extensions(command);
+}
+
+void TheoryOptions::add_machine(CLI::App& command) {
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command.add_option(name, text, help)->group("The machine");
+    };
+    add("--frequency", frequency_,
+        "Cycles per time, for example \"25 Hz\" or \"1500 rpm\"; with the amplitude it replaces "
+        "--throw-number, and beside --throw-number it replaces the amplitude");
+    add("--amplitude", amplitude_, "r in the direction of vibration, half the stroke, for example \"6 mm\"");
+    add("--stroke", stroke_, "2 r, instead of --amplitude, for example \"12 mm\"");
+    add("--gravity", gravity_, "Default: \"9.81 m/s2\"");
 }
 
 void TheoryOptions::add_extensions(CLI::App& command) {
@@ -103,16 +116,66 @@ void TheoryOptions::add_extensions(CLI::App& command) {
         ->group(group);
 }
 
+std::optional<double> TheoryOptions::amplitude() const {
+    refuse_both("--amplitude", amplitude_, "--stroke", stroke_);
+    if (stroke_) return read_positive_quantity("--stroke", *stroke_, "m", "12 mm") / 2;
+    if (amplitude_) return read_positive_quantity("--amplitude", *amplitude_, "m", "6 mm");
+    return {};
+}
+
+double TheoryOptions::gravity() const {
+    return gravity_ ? read_positive_quantity("--gravity", *gravity_, "m/s2", "9.81 m/s2")
+                    : theory::Machine{}.gravity;
+}
+
+/// Throw number, machine number, frequency and amplitude: two of them are a drive.
+void TheoryOptions::set_drive(theory::Inputs& inputs) const {
+    auto const r = amplitude();
+    if (throw_number_) inputs.set(Input::throw_number, read_throw("--throw-number", *throw_number_));
+    if (machine_number_) inputs.set(Input::machine_number, read_throw("--machine-number", *machine_number_));
+    bool const has_number = throw_number_ || machine_number_;
+    if (r) inputs.set(Input::amplitude_m, *r);
+    if (!frequency_) return;
+    double const frequency = read_positive_quantity("--frequency", *frequency_, "Hz", "25 Hz");
+    if (has_number && r) {
+        throw core::InputError(
+            fmt::format("--frequency {}: follows from {} and the amplitude, which are also given; leave one "
+                        "of the three out",
+                        *frequency_, throw_number_ ? "--throw-number" : "--machine-number"));
+    }
+    if (has_number) return;
+    if (r && gravity_) {
+        double const omega = 2 * std::numbers::pi * frequency;
+        inputs.set(Input::machine_number, omega * omega * *r / gravity());
+    } else {
+        inputs.set(Input::frequency_hz, frequency);
+    }
+}
+
+std::optional<theory::Machine> TheoryOptions::machine() const {
+    theory::Machine machine{};
+    machine.gravity = gravity();
+    if (auto const r = amplitude()) {
+        machine.amplitude = *r;
+        return machine;
+    }
+    if (!frequency_) return {};
+    double const omega =
+        2 * std::numbers::pi * read_positive_quantity("--frequency", *frequency_, "Hz", "25 Hz");
+    machine.amplitude = theory::machine_number(conveyor().point) * machine.gravity / (omega * omega);
+    return machine;
+}
+
 theory::Inputs TheoryOptions::given() const {
     refuse_both("--throw-number", throw_number_, "--machine-number", machine_number_);
     refuse_both("--vibration-angle", vibration_angle_, "--tan-vibration-angle", tan_vibration_angle_);
     refuse_both("--inclination", inclination_, "--tan-inclination", tan_inclination_);
     theory::Inputs inputs;
-    if (throw_number_) inputs.set(Input::throw_number, read_throw("--throw-number", *throw_number_));
-    if (machine_number_) inputs.set(Input::machine_number, read_throw("--machine-number", *machine_number_));
+    set_drive(inputs);
+    bool const may_be_level = machine_number_ || (frequency_ && !throw_number_);
     if (vibration_angle_) {
         double const beta =
-            read_angle("--vibration-angle", *vibration_angle_, "30 deg", machine_number_ ? -1e-12 : 0, 90);
+            read_angle("--vibration-angle", *vibration_angle_, "30 deg", may_be_level ? -1e-12 : 0, 90);
         inputs.set(Input::tan_vibration_angle, std::tan(beta));
     }
     if (inclination_) {
@@ -128,7 +191,7 @@ theory::Inputs TheoryOptions::given() const {
         if (text) inputs.set(input, read_number_within(option, *text, example, low, high));
     };
     set(Input::tan_vibration_angle, "--tan-vibration-angle", tan_vibration_angle_, "0.5",
-        machine_number_ ? 0 : 1e-300, 1e6);
+        may_be_level ? 0 : 1e-300, 1e6);
     set(Input::tan_inclination, "--tan-inclination", tan_inclination_, "-0.05", -1e6, 1e6);
     set(Input::friction, "--friction", friction_, "0.3", 0, 1e6);
     set(Input::static_friction, "--static-friction", static_friction_, "0.4", 0, 1e6);
@@ -153,8 +216,10 @@ void require_complete(theory::Inputs const& inputs) {
         throw core::InputError(
             fmt::format("{} is missing; write for example {} {}", option, option, example));
     };
-    if (!inputs.get(Input::throw_number) && !inputs.get(Input::machine_number))
+    bool const has_frequency = inputs.get(Input::frequency_hz).has_value();
+    if (!inputs.get(Input::throw_number) && !inputs.get(Input::machine_number) && !has_frequency)
         missing("--throw-number", "2");
+    if (has_frequency && !inputs.amplitude()) missing("--amplitude", "\"6 mm\"");
     if (!inputs.get(Input::tan_vibration_angle) && !inputs.get(Input::vibration_angle_deg)) {
         missing("--vibration-angle", "\"30 deg\"");
     }

@@ -2,6 +2,7 @@
 
 #include "theory/conveyor.hpp"
 #include "theory/inputs.hpp"
+#include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
 
 #include <optional>
@@ -57,14 +58,23 @@ class TheoryOptions {
     theory::Conveyor conveyor() const;
     /// Whether only the plastic point mass is asked for, without any extension.
     bool plastic() const;
+    /// The machine that gives the motion its units, without a layer: amplitude or stroke as given, or the
+    /// amplitude that follows from the frequency; none when no amplitude is known.
+    /// @throws core::InputError when an option is wrong
+    std::optional<theory::Machine> machine() const;
 
   private:
     void add_extensions(CLI::App& command);
+    void add_machine(CLI::App& command);
+    void set_drive(theory::Inputs& inputs) const;
+    std::optional<double> amplitude() const;
+    double gravity() const;
 
     Text throw_number_, machine_number_;
     Text vibration_angle_, tan_vibration_angle_;
     Text inclination_, tan_inclination_;
     Text friction_;
+    Text frequency_, amplitude_, stroke_, gravity_;
     Text static_friction_, landing_friction_, restitution_, slowest_rebound_, air_drag_;
     Text along_ratio_, along_phase_;
     Text wall_friction_, wall_pressure_ratio_, height_over_width_;

@@ -18,7 +18,7 @@ namespace {
 struct Options {
     TheoryOptions motion;
     RollingOption rolling;
-    Text amplitude, gravity, bulk_density, layer_height, layer_width;
+    Text bulk_density, layer_height, layer_width;
     bool json = false;
 };
 
@@ -81,17 +81,23 @@ void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& ans
     }
 }
 
-theory::Machine read_machine(Options const& o) {
-    theory::Machine machine{.amplitude = read_positive_quantity("--amplitude", *o.amplitude, "m", "6 mm")};
-    if (o.gravity) machine.gravity = read_positive_quantity("--gravity", *o.gravity, "m/s2", "9.81 m/s2");
-    if (o.bulk_density) {
-        machine.bulk_density =
-            read_positive_quantity("--bulk-density", *o.bulk_density, "kg/m3", "800 kg/m3");
-    }
-    if (o.layer_height)
-        machine.layer_height = read_positive_quantity("--layer-height", *o.layer_height, "m", "12 mm");
-    if (o.layer_width)
-        machine.layer_width = read_positive_quantity("--layer-width", *o.layer_width, "m", "200 mm");
+/// The machine with its layer; none without an amplitude, from which all of these quantities follow.
+std::optional<theory::Machine> read_machine(Options const& o) {
+    auto machine = o.motion.machine();
+    auto const read = [&](char const* option, Text const& text, char const* unit, char const* example,
+                          double theory::Machine::*value) {
+        if (!text) return;
+        double const quantity = read_positive_quantity(option, *text, unit, example);
+        if (!machine) {
+            throw core::InputError(fmt::format(
+                "{} {}: needs the amplitude of the machine; write for example --amplitude \"6 mm\"", option,
+                *text));
+        }
+        (*machine).*value = quantity;
+    };
+    read("--bulk-density", o.bulk_density, "kg/m3", "800 kg/m3", &theory::Machine::bulk_density);
+    read("--layer-height", o.layer_height, "m", "12 mm", &theory::Machine::layer_height);
+    read("--layer-width", o.layer_width, "m", "200 mm", &theory::Machine::layer_width);
     return machine;
 }
 
@@ -116,9 +122,15 @@ std::vector<theory::NamedQuantity> rolling_quantities(theory::PointMass const& p
     double const beta = std::atan(point.tan_vibration_angle);
     double const speed = efficiency * omega * machine.amplitude * std::cos(beta);
     double const section = machine.bulk_density * machine.layer_height * machine.layer_width;
-    std::vector<theory::NamedQuantity> list{{"frequency", "Hz", omega / (2 * std::numbers::pi)},
+    double const frequency = omega / (2 * std::numbers::pi);
+    std::vector<theory::NamedQuantity> list{{"frequency", "Hz", frequency},
+                                            {"turns_per_minute", "1/min", 60 * frequency},
+                                            {"stroke", "mm", 2e3 * machine.amplitude},
                                             {"conveying_speed", "m/s", speed}};
-    if (section > 0) list.push_back({"mass_flow", "kg/s", section * speed});
+    if (section > 0) {
+        list.push_back({"mass_flow", "kg/s", section * speed});
+        list.push_back({"mass_flow_per_hour", "t/h", 3.6 * section * speed});
+    }
     return list;
 }
 
@@ -126,8 +138,7 @@ std::vector<theory::NamedQuantity> rolling_quantities(theory::PointMass const& p
 int run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
-    std::optional<theory::Machine> machine;
-    if (options.amplitude) machine = read_machine(options);
+    auto const machine = read_machine(options);
     theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
     theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
                                           : options.motion.plastic() ? theory::solve_plastic(input, detail)
@@ -158,11 +169,8 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     auto const add = [&](char const* name, Text& text, char const* help) {
-        command->add_option(name, text, help)->group("The machine");
+        command->add_option(name, text, help)->group("The layer");
     };
-    add("--amplitude", options->amplitude,
-        "r in the direction of vibration, half the stroke, for example \"6 mm\"");
-    add("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
     add("--bulk-density", options->bulk_density,
         "Of the layer, for the mass flow, for example \"800 kg/m3\"");
     add("--layer-height", options->layer_height, "For the mass flow, for example \"12 mm\"");
@@ -172,9 +180,9 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
     command->footer(
         std::string(
             R"(The theory is that of Sloot & Kruyt (1996) with extensions. Prints the velocity efficiency (the mean
-velocity of the mass relative to the trough over omega r cos(beta)), the mode, and a table of its phases. With
---amplitude it also prints the speed, impacts, energies and forces in SI units, and with the size and bulk density of
-the layer the mass flow.
+velocity of the mass relative to the trough over omega r cos(beta)), the mode, and a table of its phases. When the
+machine's frequency and stroke are known (both, or one of them and --throw-number), it also prints speed, impacts,
+energies and forces, with the size and bulk density of the layer the mass flow in kg/s and t/h, and the power per area.
 
 )") + mode_letters +
         R"(
@@ -188,8 +196,8 @@ Example:
   vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23
 
 Example with a machine:
-  vibrotrough theory point --throw-number 2 --vibration-angle "30 deg" --friction 0.23 \
-      --amplitude "6 mm" --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3"
+  vibrotrough theory point --frequency "800 rpm" --stroke "12 mm" --vibration-angle "30 deg" \
+      --friction 0.23 --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3"
 
 Example of a layer of grains that roll (validation/rolling_layer says what this law predicts and what it does not):
   vibrotrough theory point --throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 --rolling-layer)");

@@ -19,18 +19,8 @@ namespace {
 struct Options {
     TheoryOptions motion;
     RollingOption rolling;
-    Text samples, output, amplitude, gravity;
+    Text samples, output;
 };
-
-/// The machine; none without an amplitude.
-std::optional<theory::Machine> read_machine(Options const& options) {
-    if (!options.amplitude) return {};
-    theory::Machine machine{.amplitude =
-                                read_positive_quantity("--amplitude", *options.amplitude, "m", "6 mm")};
-    if (options.gravity)
-        machine.gravity = read_positive_quantity("--gravity", *options.gravity, "m/s2", "9.81 m/s2");
-    return machine;
-}
 
 /// The trace as CSV with the columns time, phase and then all other numbers.
 std::string as_csv(std::vector<theory::TraceSample> const& samples, bool si) {
@@ -100,7 +90,7 @@ void run(Options const& options) {
     int const samples =
         options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
     theory::Conveyor const input = options.motion.conveyor();
-    auto const machine = read_machine(options);
+    auto const machine = options.motion.machine();
     if (auto const law = options.rolling.law()) {
         write(options, samples, trace_rolling(options, input, *law, samples, machine));
         return;
@@ -124,15 +114,12 @@ void add_theory_trace(CLI::App& theory, int& exit_code) {
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     command->add_option("--samples", options->samples, "Number of lines; default: 721");
-    command->add_option("--amplitude", options->amplitude,
-                        "r, half the stroke, for example \"6 mm\"; all columns are then in SI units");
-    command->add_option("--gravity", options->gravity, "Default: \"9.81 m/s2\"");
     command->add_option("--output", options->output, "CSV file to write; default: standard output");
     command->footer(
         std::string(
-            R"(These are the curves of Fig. 6 of Sloot & Kruyt (1996). Without --amplitude, lengths along the trough
-(x) are in r cos(beta), lengths normal to it (y) are in r sin(beta), and times are in 1/omega. Forces are per mass and
-do not include impacts. The column "phase" has one of the letters of
+            R"(These are the curves of Fig. 6 of Sloot & Kruyt (1996). With the amplitude or stroke of the machine, or
+its frequency, all columns are in SI units. Otherwise lengths along the trough (x) are in r cos(beta), lengths normal to
+it (y) are in r sin(beta), and times are in 1/omega. Forces are per mass and do not include impacts. The column "phase" has one of the letters of
 a mode. With --rolling-layer the columns are the velocity of the layer relative to the trough, the surface velocity of the
 spinning floor grains (spin), their slip, the gap (negative in a soft landing) with its rate, and the two forces.
 

@@ -1,0 +1,112 @@
+#include "compare/columns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vibrotrough::compare {
+namespace {
+
+using scenario::Key;
+using scenario::KeyKind;
+
+constexpr int first_position = 11;  ///< right behind the case
+constexpr int swept_priority = 8;
+
+/// The heading in the terminal of columns that are shown there only when their key is swept.
+struct Heading {
+    std::string_view name, heading, subheading;
+};
+constexpr std::array headings{Heading{"machine_number", "K", ""}, Heading{"amplitude_m", "r", "mm"},
+                              Heading{"stroke_mm", "stroke", "mm"}};
+
+bool is_word(Key const& key) {
+    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
+}
+
+/// A function that stands for the type of a column of Row::swept.
+template <typename Type>
+constexpr auto nothing = +[](Row const&) -> std::optional<Type> { return {}; };
+
+Column::Function type_of(Key const& key) {
+    if (is_word(key)) return nothing<std::string>;
+    if (key.kind == KeyKind::integer) return nothing<int>;
+    return nothing<double>;
+}
+
+std::string_view unit_of(Key const& key) {
+    if (key.unit.empty()) return "1";
+    return key.unit == "radian" ? "degree" : key.unit;
+}
+
+/// What stands below the name of a key: its unit or, without one, to what it belongs.
+std::string_view subheading_of(Key const& key) {
+    if (!key.unit.empty()) return scenario::shown_unit(key).name;
+    if (key.path.starts_with("grains.")) return "of grains";
+    return key.path.starts_with("layer.") ? "of layer" : "";
+}
+
+Column column_of(Key const& key, int place) {
+    scenario::ShownUnit const shown = scenario::shown_unit(key);
+    bool const is_angle = key.unit == "radian";  // Row::swept holds degrees
+    return {.name = key.path,
+            .unit = unit_of(key),
+            .value = type_of(key),
+            .meaning = key.meaning,
+            .format = is_word(key) || key.kind == KeyKind::integer ? "{}" : "{:.6g}",
+            .position = first_position + place,
+            .terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1),
+                                     .subheading = subheading_of(key),
+                                     .priority = swept_priority},
+            .report = ReportView{.heading = scenario::short_name(key)},
+            .key = key.path,
+            .swept = place,
+            .factor = is_angle ? 1 : shown.factor,
+            .shown_unit = is_angle || shown.factor == 1 ? "" : shown.name};
+}
+
+/// Shows a column that is always there as one of a swept key.
+void promote(Column& column, Key const& key, int place) {
+    if (!column.terminal) {
+        auto const found = std::ranges::find(headings, column.name, &Heading::name);
+        column.terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1)};
+        if (found != headings.end())
+            column.terminal = TerminalView{.heading = found->heading, .subheading = found->subheading};
+    }
+    column.terminal->priority = swept_priority;
+    if (!column.report) column.report = ReportView{.heading = scenario::short_name(key)};
+    column.position = first_position + place;
+}
+
+}  // namespace
+
+std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept) {
+    std::vector<Column> columns(all_columns().begin(), all_columns().end());
+    std::ptrdiff_t insert_at = 1;  // behind the case
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+        int const place = static_cast<int>(i);
+        auto const known = std::ranges::find(columns, swept[i]->path, &Column::key);
+        if (known != columns.end()) {
+            promote(*known, *swept[i], place);
+        } else {
+            columns.insert(columns.begin() + insert_at++, column_of(*swept[i], place));
+        }
+    }
+    return columns;
+}
+
+bool is_swept(Column const& column, scenario::SweptKeys const& swept) {
+    return std::ranges::any_of(swept, [&](Key const* key) { return key->path == column.key; });
+}
+
+std::optional<Value> swept_value(scenario::Scenario const& scenario, Key const& key) {
+    auto const value = scenario::key_value(scenario, key.path);
+    if (!value) return {};
+    if (auto const* const word = std::get_if<std::string>(&*value)) return *word;
+    auto const* const number = std::get_if<double>(&*value);
+    if (number == nullptr) return {};
+    if (key.kind == KeyKind::integer) return static_cast<int>(std::lround(*number));
+    return key.unit == "radian" ? scenario::in_degrees(*number) : *number;
+}
+
+}  // namespace vibrotrough::compare

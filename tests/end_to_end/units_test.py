@@ -1,0 +1,106 @@
+"""A user's own units, and the campaign files that `init` writes: from rpm, stroke and bulk density to t/h, with swept keys by
+their names in every view.
+"""
+
+import csv
+import io
+import json
+import math
+import unittest
+
+import h5py
+
+from trough_program import EndToEndTest
+
+KINDS = ("pellets", "paper", "rotation", "design")
+# The same campaign with one case, few grains and a wide interval: seconds instead of minutes.
+SHORTER = {
+    '["750 rpm", "850 rpm", "950 rpm"]': '["850 rpm"]',
+    'length = "24 mm"': 'length = "15 mm"',
+    'height = "12 mm"': 'height = "8 mm"',
+    'youngs_modulus = "5 MPa"': 'youngs_modulus = "1 MPa"',
+    "packings = 4": "packings = 2",
+    "half_width = 0.04": "half_width = 1.0",
+}
+
+
+class Units(EndToEndTest):
+    def test_the_files_of_init_can_be_run(self):
+        for kind in KINDS:
+            with self.subTest(kind):
+                done = self.call("init", kind, cwd=self.folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"vibrotrough check {kind}.toml", done.stdout)
+                checked = self.call("check", self.folder / f"{kind}.toml", "--json")
+                self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+                self.assertEqual(json.loads(checked.stdout)["errors"], 0)
+                self.assert_one_line_error(self.call("init", kind, cwd=self.folder), 2, "is not overwritten")
+        self.assert_one_line_error(self.call("init", "cement", cwd=self.folder), 2, "pellets")
+
+    def test_a_file_of_init_gives_tonnes_per_hour(self):
+        """m' = v m / (L W) times 300 mm; the layer is that of the file in kg, m and s."""
+        self.call("init", "--output", self.folder / "mine.toml")
+        text = (self.folder / "mine.toml").read_text()
+        for old, new in SHORTER.items():
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        (self.folder / "mine.toml").write_text(text)
+        self.run_campaign(self.folder / "mine.toml")
+        (row,) = self.table()
+        self.assertAlmostEqual(row["turns_per_minute"], 850, 9)
+        self.assertAlmostEqual(row["stroke_mm"], 8, 12)
+        self.assertAlmostEqual(row["machine_number"], (2 * math.pi * 850 / 60) ** 2 * 0.004 / 9.81, 9)
+        (result,) = self.results()
+        with h5py.File(result) as file:
+            mass, case = file["packings"]["mass"][0], file["case"]
+            per_area = mass / (0.015 * 0.015)
+            # The stored mass is that of whole numbers of grains of three sizes.
+            self.assertAlmostEqual(case["mass_per_area"] / per_area, 1, 1)
+            # A layer of 8 mm with 600 kg/m3, in whole grains.
+            self.assertAlmostEqual(case["mass_per_area"] / (600 * 0.008), 1, delta=0.5 / case["layer_grains"])
+            flow = 3.6 * case["speed"] * case["mass_per_area"] * 0.3
+            self.assertAlmostEqual(row["mass_flow_t_per_h"], flow, 9)
+            # P = c |V|^2 / 2 per area; on a level trough it is what the layer dissipates, to the two packings' scatter.
+            speed = case["velocity_scale"] / math.cos(math.radians(30))
+            first_harmonic = case["damping"] * speed**2 / 2 / (0.015 * 0.015)
+            self.assertAlmostEqual(row["power_per_area_w_per_m2"] / first_harmonic, 1, 2)
+            dissipated = case["dissipation"] * case["frequency"] / (0.015 * 0.015)
+            self.assertAlmostEqual(row["power_per_area_w_per_m2"] / dissipated, 1, 1)
+            self.assertLess(abs(row["added_mass_fraction"]), 1)
+        self.assertAlmostEqual(row["mass_flow_half_width_t_per_h"] / row["mass_flow_t_per_h"],
+                               row["efficiency_dem_half_width"] / row["efficiency_dem"], 9)
+
+    def test_swept_keys_are_in_every_view(self):
+        sweep = {"grains.rolling_friction": [0.05, 0.2], "layer.width": ["15 mm", "18 mm"]}
+        campaign = self.write_campaign({"grains.rotation": "rolling"}, sweep)
+        plan = self.call("plan", campaign, "--output", self.output, "--liggghts", self.engine)
+        self.assertRegex(plan.stdout.splitlines()[0], r"^case +rolling_friction +width +Gamma")
+        self.assertRegex(plan.stdout.splitlines()[1], r"of grains +mm")
+        self.assertRegex(plan.stdout, r"\n[0-9a-f]{12} +0\.2 +18 ")
+        self.run_campaign(campaign)
+        rows = self.table()
+        # 18 mm in metres is rounded.
+        self.assertEqual([(row["grains.rolling_friction"], round(row["layer.width"], 12)) for row in rows],
+                         [(0.05, 0.015), (0.05, 0.018), (0.2, 0.015), (0.2, 0.018)])
+        filtered = self.call("compare", self.output, "--csv", "--filter", "rolling_friction>0.1", "--sort", "layer.width:desc")
+        values = [round(float(row["layer.width"]), 12) for row in csv.DictReader(io.StringIO(filtered.stdout))]
+        self.assertEqual(values, [0.018, 0.015])
+        status = self.ask_json("status")
+        self.assertEqual(status["cases"][3]["label"], "grains.rolling_friction 0.2, layer.width 18 mm")
+        self.assertAlmostEqual(status["cases"][3]["layer.width"], 0.018, 12)
+        text = self.call("status", self.output).stdout
+        self.assertIn("  grains.rolling_friction 0.05, layer.width 15 mm  finished", text)
+        for impossible in ("inf", "- +- -", "0:00 to go", "nan"):
+            self.assertNotIn(impossible, text)
+        with h5py.File(self.output / "campaign.h5") as file:
+            self.assertEqual(list(file["swept/grains.rolling_friction"]), [0.05, 0.05, 0.2, 0.2])
+            self.assertEqual(file["swept/layer.width"].attrs["units"], "m")
+        drawn = self.call("plot", self.output, "--only", "efficiency", "--only", "residuals")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        figure = (self.output / "report" / "efficiency.svg").read_text()
+        self.assertIn("grain rolling friction", figure)
+        self.assertIn("layer width = 18 mm", figure)
+
+
+if __name__ == "__main__":
+    unittest.main()
