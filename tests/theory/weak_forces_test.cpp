@@ -73,6 +73,20 @@ TEST(WeakForces, GravityAndFrictionKeepTheirRatio) {
     EXPECT_EQ(solve(steep).outcome, Outcome::runs_away);
 }
 
+// A drive almost along the trough: friction is weak beside the vibration normal to it, but not beside that
+// along it. At K = 4 and mu = 0.3 the mass slides, and both solvers agree.
+TEST(WeakForces, AreNotThoseOfAFlatDrive) {
+    for (double const tan_beta : {1e-6, 1e-12, 1e-15}) {
+        PointMass p{.throw_number = 4 * tan_beta,
+                    .tan_vibration_angle = tan_beta,
+                    .tan_inclination = 0.06,
+                    .friction = 0.3};
+        double const efficiency = solve(p).velocity_efficiency;
+        EXPECT_LT(efficiency, -1e-3);
+        EXPECT_NEAR(solve(general(p)).motion.velocity_efficiency, efficiency, 1e-6) << tan_beta;
+    }
+}
+
 // With rebounds the limit is not known in closed form; it is approached linearly.
 TEST(WeakForces, WithRebounds) {
     auto const efficiency = [](double mu) {
