@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
@@ -44,6 +46,23 @@ Unit parse_unit(std::string const& text) {
     return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
 }
 
+/// "5 deg deg" and "3 mm %" are slips, but udunits2 multiplies: by 0.017 and by 0.01.
+void check_pure_factors(std::string const& text) {
+    static std::regex const divided("/| per ");
+    static std::regex const separator("[ .*]+");
+    if (std::regex_search(text, divided)) return;
+    std::vector<std::string> const words(std::sregex_token_iterator(text.begin(), text.end(), separator, -1),
+                                         {});
+    if (words.size() < 2) return;
+    Unit const one(ut_get_dimensionless_unit_one(unit_system()));
+    for (std::string const& word : words) {
+        Unit const unit = parse_unit(word);
+        if (unit && ut_are_convertible(unit.get(), one.get()) != 0)
+            throw QuantityError(
+                fmt::format("'{}' multiplies by '{}', which is a pure number; leave it out", text, word));
+    }
+}
+
 /// udunits2 accepts whole expressions ("mm 3", "mm @ 2", "seconds since 2000"). Only products of powers of
 /// unit names are accepted here, because with an expression a typing error could silently give another
 /// number.
@@ -55,6 +74,7 @@ void check_unit_text(std::string_view text) {
     if (owned.size() > 100 || !std::regex_match(owned, unit) || std::regex_search(owned, word)) {
         throw QuantityError(fmt::format("'{}' is not a plain unit", text));
     }
+    check_pure_factors(owned);
 }
 
 /// A ton is 1000 kg in most countries, 907 kg in the United States and in udunits2, and 1016 kg in Britain.

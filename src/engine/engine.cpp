@@ -91,7 +91,7 @@ std::string ask_version(fs::path const& program) {
             if (version.empty() && line.starts_with("LIGGGHTS") && start != std::string::npos) {
                 version = line.substr(start + 9, line.rfind(')') - start - 9);
             }
-            if (first_line.empty()) first_line = core::printable(line, 200);
+            if (first_line.empty()) first_line = core::printable(line, 300);
         }
         child.wait();
         code = child.exit_code();

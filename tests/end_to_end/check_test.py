@@ -117,7 +117,7 @@ class Check(EndToEndTest):
         for values in ([1.0], [1.0 + 1e-9, 1.0001], [0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0]):
             done = self.call("check", self.write_campaign(SOUND, sweep={"trough.throw_number": values}))
             self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertNotIn("error", done.stdout)
+            self.assertNotRegex(done.stdout, "(?m)^error")
 
     def test_the_table_ends_with_the_cost(self):
         campaign = self.write_campaign(SOUND, sweep={"trough.throw_number": [0.8, 2.0]})

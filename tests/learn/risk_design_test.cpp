@@ -38,10 +38,10 @@ double tried_probability(DesignTask const& task, RiskDesign const& d) {
         double const r = std::sqrt(-2 * std::log(u));
         double const mu =
             std::max(0.01, task.friction + task.friction_sd * r * std::cos(2 * std::numbers::pi * w));
-        double const eta =
-            theory::solve({m.throw_number, std::tan(m.vibration_angle), std::tan(m.inclination), mu})
-                .velocity_efficiency +
-            task.discrepancy * r * std::sin(2 * std::numbers::pi * w);
+        double const eta = theory::solve(theory::PointMass{m.throw_number, std::tan(m.vibration_angle),
+                                                           std::tan(m.inclination), mu})
+                               .velocity_efficiency +
+                           task.discrepancy * r * std::sin(2 * std::numbers::pi * w);
         reached += task.bulk_density * task.width * d.depth * eta * trough >= task.mass_flow ? 1 : 0;
     }
     return static_cast<double>(reached) / tries;

@@ -50,8 +50,8 @@ TEST(WeakForces, FrictionThatVanishesHasALimit) {
     for (double const mu : weak) {
         Motion const motion = solve(level(mu));
         EXPECT_EQ(motion.mode, "FN'") << mu;
-        EXPECT_NEAR(motion.velocity_efficiency, limit, 2 * mu + 1e-9) << mu;
-        EXPECT_NEAR(EfficiencySolver()(level(mu)).velocity_efficiency, limit, 2 * mu + 1e-9) << mu;
+        EXPECT_NEAR(motion.velocity_efficiency, limit, 2 * mu + 1e-7) << mu;
+        EXPECT_NEAR(EfficiencySolver()(level(mu)).velocity_efficiency, limit, 2 * mu + 1e-7) << mu;
         EXPECT_NEAR(solve(general(level(mu))).motion.velocity_efficiency, limit, 2 * mu + 1e-8) << mu;
     }
 }
@@ -71,6 +71,20 @@ TEST(WeakForces, GravityAndFrictionKeepTheirRatio) {
     PointMass steep = level(1e-16);
     steep.tan_inclination = 1e-15;
     EXPECT_EQ(solve(steep).outcome, Outcome::runs_away);
+}
+
+// A drive almost along the trough: friction is weak beside the vibration normal to it, but not beside that
+// along it. At K = 4 and mu = 0.3 the mass slides, and both solvers agree.
+TEST(WeakForces, AreNotThoseOfAFlatDrive) {
+    for (double const tan_beta : {1e-6, 1e-12, 1e-15}) {
+        PointMass p{.throw_number = 4 * tan_beta,
+                    .tan_vibration_angle = tan_beta,
+                    .tan_inclination = 0.06,
+                    .friction = 0.3};
+        double const efficiency = solve(p).velocity_efficiency;
+        EXPECT_LT(efficiency, -1e-3);
+        EXPECT_NEAR(solve(general(p)).motion.velocity_efficiency, efficiency, 1e-6) << tan_beta;
+    }
 }
 
 // With rebounds the limit is not known in closed form; it is approached linearly.

@@ -47,11 +47,17 @@ TEST(TheoryPoint, TakesAnglesWithUnits) {
 }
 
 TEST(TheoryPoint, SaysWhenTheMassRunsAway) {
-    auto const answer =
-        point("--throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0.3 --friction 0.23");
+    std::string const options =
+        "theory point --throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0.3 --friction 0.23";
+    Answer const shown = run_program(options + " --json");
+    EXPECT_EQ(shown.exit_code, 1) << "a script notices that there is no speed";
+    auto const answer = nlohmann::json::parse(shown.text);
     EXPECT_EQ(answer.at("converged"), false);
     EXPECT_TRUE(answer.at("velocity_efficiency").is_null());
     EXPECT_NE(answer.at("outcome").get<std::string>().find("runs away"), std::string::npos);
+    std::string const text = run_program(options).text;
+    EXPECT_NE(text.find("velocity efficiency  none"), std::string::npos) << text;
+    EXPECT_EQ(text.find("inf"), std::string::npos) << text;
 }
 
 TEST(TheoryPoint, RefusesWrongInputInOneLine) {

@@ -129,8 +129,8 @@ void print_calibration(CalibrationOptions const& options, learn::Calibration con
         core::TemporaryFolder const folder("vibrotrough-calibration");
         auto const data = folder.path() / "calibration.json";
         core::write_file_atomically(data, learn::corner_plot_data(calibration, model).dump());
-        run_script("corner.py", {data.string(), "--output", options.plot}, options.python,
-                   {"numpy", "matplotlib"});
+        run_script("corner.py", {data.string(), "--output", std::filesystem::absolute(options.plot).string()},
+                   options.python, {"numpy", "matplotlib"});
     }
     if (options.json) {
         fmt::print("{}\n", learn::calibration_json(calibration, model).dump(2));

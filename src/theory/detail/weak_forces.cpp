@@ -19,7 +19,7 @@ PointMass with_noticeable_forces(PointMass const& input) {
     if (std::abs(p.tan_inclination) > p.friction) return p;
     // In two steps, because 1 / 1e-320 is infinite.
     double const ratio = p.friction > 0 ? p.tan_inclination / p.friction : 0;
-    double const weakest = weakest_of_plastic * std::max(1.0, p.throw_number) / p.tan_vibration_angle;
+    double const weakest = weakest_of_plastic * std::min(1.0, p.throw_number) / p.tan_vibration_angle;
     if (p.friction > 0 && p.friction < weakest && weakest < 1e-6) {
         p.friction = weakest;
         p.tan_inclination = ratio * weakest;
@@ -32,11 +32,13 @@ Conveyor with_noticeable_forces(Conveyor const& input) {
     EffectiveFriction const friction = effective_friction(c);
     double const strongest =
         std::max({friction.kinetic_friction, friction.static_friction, friction.landing_friction});
-    double const by_friction = strongest * c.point.tan_vibration_angle / std::max(1.0, c.point.throw_number);
+    // Of the largest force along the trough: mu N / (m omega^2 r cos(beta)) is mu tan(beta) / Gamma while N =
+    // m g cos(alpha), and about mu tan(beta) in the impacts of a motion with flights.
+    double const unit = c.point.tan_vibration_angle / std::min(1.0, c.point.throw_number);
+    double const by_friction = strongest * unit;
     if (c.air_drag < 1e-18 * by_friction) c.air_drag = 0;
     if (std::abs(c.point.tan_inclination) > strongest && c.air_drag == 0) return c;
-    double const by_gravity =
-        std::abs(c.point.tan_inclination) * c.point.tan_vibration_angle / std::max(1.0, c.point.throw_number);
+    double const by_gravity = std::abs(c.point.tan_inclination) * unit;
     double const factor = needed_factor(std::max({by_friction, c.air_drag, by_gravity}), weakest_of_general);
     if (factor == 1) return c;
     // The inverse of the smallest numbers is infinite: they take two steps.

@@ -134,10 +134,22 @@ std::vector<theory::NamedQuantity> rolling_quantities(theory::PointMass const& p
     return list;
 }
 
+/// Where the trough is 1e9 times as violent as gravity, friction is lost in the rounding of its motion.
+void check_machine_number(theory::Conveyor const& input) {
+    double const number = theory::machine_number(input.point);
+    if (number <= 1e9) return;
+    throw core::InputError(
+        fmt::format("the machine number is {:.3g}; no number of such a motion is known, so write inputs for "
+                    "which it is at most "
+                    "1e9 (real machines are below 100)",
+                    number));
+}
+
 /// A motion that runs away has no speed, which a script must notice.
 int run(Options const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
+    check_machine_number(input);
     auto const machine = read_machine(options);
     theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
     theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
