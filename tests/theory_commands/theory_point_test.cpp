@@ -47,8 +47,11 @@ TEST(TheoryPoint, TakesAnglesWithUnits) {
 }
 
 TEST(TheoryPoint, SaysWhenTheMassRunsAway) {
-    auto const answer =
-        point("--throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0.3 --friction 0.23");
+    Answer const told = run_program(
+        "theory point --throw-number 2 --tan-vibration-angle 0.5 --tan-inclination 0.3 --friction 0.23 "
+        "--json");
+    EXPECT_EQ(told.exit_code, 1);  // a script must notice that there is no speed
+    auto const answer = nlohmann::json::parse(told.text);
     EXPECT_EQ(answer.at("converged"), false);
     EXPECT_TRUE(answer.at("velocity_efficiency").is_null());
     EXPECT_NE(answer.at("outcome").get<std::string>().find("runs away"), std::string::npos);
