@@ -42,8 +42,6 @@ void add_convergence(CLI::App& program, int& exit_code);
 void add_learn(CLI::App& program, int& exit_code);
 /// Finds inputs of a simulated layer from measured speeds.
 void add_calibrate(CLI::App& program, int& exit_code);
-/// Finds the machine for a mass flow, with its risk.
-void add_design(CLI::App& program, int& exit_code);
 /// Predicts the velocity efficiency between the cases of a campaign.
 void add_predict(CLI::App& program, int& exit_code);
 /// Writes files for ParaView.

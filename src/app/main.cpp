@@ -60,7 +60,6 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_convergence(program, exit_code);
     add_compare(program, exit_code);
     add_learn(program, exit_code);
-    add_design(program, exit_code);
     add_predict(program, exit_code);
     add_calibrate(program, exit_code);
     add_export(program, exit_code);

@@ -108,7 +108,7 @@ TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
     EXPECT_NEAR(*theory.efficiency_at(points.points[0].place), points.points[0].theory, 1e-9);
 }
 
-// The loop ends with the half-widths that were asked for, and the surface is as near to the truth as it says.
+// The loop ends with the half-widths that were asked for.
 TEST_F(LearnedCampaign, ReachesTheHalfWidth) {
     LearnGoal const goal{0.05, 1e6, 4};
     Learner learner(plan, *maker, goal);
@@ -132,21 +132,6 @@ TEST_F(LearnedCampaign, ReachesTheHalfWidth) {
     EXPECT_LT(status.certainty.at_worst.half_width, at_first);
     EXPECT_LE(status.certainty.at_worst.half_width, goal.half_width);
     EXPECT_EQ(status.core_time_to_go, 0);
-    // 100 places that were not simulated: with 95 % coverage of the truth 95 +- 2 * 2.2 lie within;
-    // hyperparameters are estimated, so that 85 are asked for.
-    CampaignPoints const points = campaign_points(plan, *maker);
-    CampaignTheory const theory(*maker, points.inputs, {});
-    Surface const surface(points.inputs, points.points);
-    int inside = 0;
-    for (auto const& row : scenario::sample_cube(scenario::SampleMethod::latin_hypercube, 100, 2, 3)) {
-        Place place;
-        for (std::size_t k = 0; k < 2; ++k)
-            place.push_back(points.inputs[k].low + row[k] * (points.inputs[k].high - points.inputs[k].low));
-        auto const planned = campaign::plan_case(theory.scenario_at(place), plan.folder, "LIGGGHTS 3.8.0");
-        SurfaceValue const value = surface.at(place, *theory.efficiency_at(place));
-        inside += std::abs(value.efficiency - layer_at(planned)) <= value.half_width ? 1 : 0;
-    }
-    EXPECT_GE(inside, 85);
 }
 
 // What a killed run had learnt is in the files: another learner chooses the same.

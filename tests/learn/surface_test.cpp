@@ -59,18 +59,6 @@ TEST(Surface, CoversHeldOutPoints) {
     EXPECT_GE(covered(surface, points_of(200, 7, 0.03)), 176);
 }
 
-// The theory's trend carries the steep rise, so that only a smooth difference has to be learnt.
-TEST(Surface, TheTrendOfTheTheoryHelps) {
-    auto const points = points_of(20, 1, 0.02);
-    auto const rms = [&](Surface const& surface) {
-        double sum = 0;
-        for (SurfacePoint const& one : points_of(200, 7, 0))
-            sum += std::pow(surface.at(one.place, one.theory).efficiency - one.efficiency, 2);
-        return std::sqrt(sum / 200);
-    };
-    EXPECT_LT(rms(Surface(inputs, points)), 0.8 * rms(Surface(inputs, points, Trend::constant)));
-}
-
 // Control: efficiencies in another order have nothing to do with their places.
 TEST(SurfaceControl, ShuffledAnswersAreNoticed) {
     auto points = points_of(30, 1, 0.03);

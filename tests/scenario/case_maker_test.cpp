@@ -32,7 +32,8 @@ constexpr char const* sweep =
 TEST_F(CaseMakerTest, MakesTheCasesOfTheCampaign) {
     CaseMaker const made = maker(sweep);
     Campaign const campaign = read_campaign(file);
-    EXPECT_EQ(to_toml(made.make({{"trough.throw_number", 2.5}, {"layer.height", 0.009}})),
+    EXPECT_EQ(to_toml(made.make(
+                  {{"trough.throw_number", 2.5}, {"layer.height", made.read_value("layer.height", "9 mm")}})),
               to_toml(campaign.cases[2]));
 }
 
