@@ -23,7 +23,9 @@ namespace {
 /// The beginning of 'vibrotrough --help': what people come for, with an example each.
 constexpr char const* tasks =
     R"(Measures with LIGGGHTS simulations (DEM) how fast a vibrating trough conveys a granular layer, and compares it with
-the point-mass theory of vibratory conveying. What do you want to do?
+the point-mass theory of vibratory conveying
+
+What do you want to do?
 
   size a trough, by the theory, in a second:
       vibrotrough theory design --friction 0.3 --machine-number 4 --stroke "2 mm to 16 mm"
