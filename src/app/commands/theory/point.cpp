@@ -212,7 +212,8 @@ Example with a machine:
       --friction 0.23 --layer-height "12 mm" --layer-width "0.2 m" --bulk-density "800 kg/m3"
 
 Example of a layer of grains that roll (validation/rolling_layer says what this law predicts and what it does not):
-  vibrotrough theory point --throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 --rolling-layer)");
+  vibrotrough theory point --throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 \
+      --rolling-layer)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
