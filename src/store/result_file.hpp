@@ -31,7 +31,7 @@ struct CaseNumerics {
 };
 
 /// Writes campaign.h5 atomically: one dataset per column, with one value for each case in the order given.
-/// @param swept     keys that differ between the cases, each of which becomes a dataset swept/<key>
+/// @param swept     keys that differ between the cases, each of which becomes a dataset swept/KEY
 /// @param numerics  by case id; cases without one have an unknown numerical error
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
