@@ -73,13 +73,14 @@ void refuse_edited_files(fs::path const& folder, FrozenFiles const& files, Json 
     }
 }
 
-/// Refuses a folder that holds somebody else's files under the names of a campaign's.
+/// Refuses a folder that holds somebody else's files under the names of those that a run writes.
+/// (friction.json and numerics.json may be there before the campaign: friction-test and convergence write
+/// them.)
 void refuse_foreign_folder(fs::path const& folder, Json const& facts, FrozenFiles const& files) {
     bool const is_own =
         !facts.is_null() || content_before(folder / "campaign.toml") == files.at("campaign.toml");
     if (is_own) return;
-    for (char const* name :
-         {"campaign.h5", "certificate.json", "cases", "packings", "friction.json", "numerics.json"}) {
+    for (char const* name : {"campaign.h5", "certificate.json", "cases", "packings"}) {
         std::error_code missing;
         fs::path const path = folder / name;
         if (!fs::exists(fs::symlink_status(path)) || fs::is_empty(path, missing)) continue;
