@@ -133,7 +133,7 @@ class Security(EndToEndTest):
             # What the program itself writes replaces the link; for what only the engine writes the run ends.
             try:
                 code = driver.wait(timeout=2)
-                self.assertEqual(code, 3)
+                self.assertEqual(code, 3, (name, driver.stderr.read()))
                 self.assertIn("link", driver.stderr.read())
             except subprocess.TimeoutExpired:
                 driver.send_signal(signal.SIGKILL)

@@ -76,7 +76,7 @@ class Seeing(EndToEndTest):
         page = Text(report).words
         for row in self.table():
             self.assertIn(row["case"], page)
-        for wanted in ("Campaign small", "exit code 7", "engine-error", "LIGGGHTS", 'name = "small"', "How to reproduce"):
+        for wanted in ("Campaign small", "exit code 7", "engine-error", "LIGGGHTS", 'name = "small"', "how to reproduce"):
             self.assertIn(wanted, page)
         self.assertNotIn("http:", report.read_text().replace("http://www.w3.org", ""))
 
