@@ -149,7 +149,8 @@ class Security(EndToEndTest):
         before = {path.name: path.read_bytes() for path in copy.iterdir() if path.is_file()}
         cycles = count_cycles(packing / "cycles.csv")
         driver = self.start_campaign(campaign)
-        wait_until(lambda: count_cycles(packing / "cycles.csv") > cycles + 8, "the run went on", driver)
+        path = packing / "cycles.csv"  # absent for a moment, while it gets a content of its own
+        wait_until(lambda: path.exists() and count_cycles(path) > cycles + 8, "the run went on", driver)
         driver.send_signal(signal.SIGKILL)
         driver.wait()
         for name, content in before.items():
