@@ -41,7 +41,7 @@ def campaign_text(base: Sections, changes: Mapping[str, Any], sweep: Mapping[str
 
 def run_campaign(program: str, folder: pathlib.Path, text: str, jobs: int) -> list[Row]:
     """Runs or finishes the campaign `text` in `folder` and returns the rows of `vibrotrough compare --csv`."""
-    file = folder.with_suffix(".toml")
+    file = folder.with_name(folder.name + ".toml")  # the name may contain a dot
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text, encoding="utf-8")
     command = [program, "run", str(file), "--output", str(folder), "--jobs", str(jobs)]

@@ -41,7 +41,7 @@ def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.P
 
 
 def measure(run: ValidationCase) -> None:
-    grid(run, "result.csv", ["free", "free_1.5_to_2", "free_near_2.5", "blocked", "cube"])
+    grid(run, "result.csv", ["free_1.25_to_2", "free", "blocked", "cube"])
     grid(run, "noise.csv", ["noise"])
     walls(run)
     surface(run)

@@ -8,7 +8,7 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 from campaign_program import Row  # noqa: E402
-from campaigns import FREE, FRICTION, GRID, MODERATE, NEAR  # noqa: E402
+from campaigns import BETWEEN, FREE, FRICTION, GRID  # noqa: E402
 import draw  # noqa: E402
 import findings  # noqa: E402
 from measure import measure  # noqa: E402
@@ -81,7 +81,7 @@ def size(sweep: dict[str, list[float]]) -> int:
 
 
 def criteria(run: ValidationCase, grid: Table, walls: Table, friction: Table) -> None:
-    for grains, planned in [("blocked", size(GRID)), ("free", sum(map(size, (FREE, MODERATE, NEAR))))]:
+    for grains, planned in [("blocked", size(GRID)), ("free", sum(map(size, (BETWEEN, FREE))))]:
         run.check(f"cases with {grains} rotation", sum(row["grains"] == grains for row in grid), planned, 0)
     run.check("cases that failed", sum(row["outcome"] not in (*STEADY, "not-steady", "bistable-or-slow") for row in grid), 0, 0)
     run.between("largest overlap of grains, in diameters", max(row["overlap"] for row in grid if row["overlap"]), 0, 0.1,
