@@ -15,6 +15,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -44,6 +45,17 @@ void check(RunOptions const& options, scenario::Campaign const& campaign) {
                     options.campaign_file, found.first_error()));
 }
 
+/// The lines of run.slurm.setup can do anything, and a campaign file may come from elsewhere.
+/// @throws InputError unless the user has allowed them
+void check_setup(RunOptions const& options, scenario::RunSettings const& settings) {
+    std::vector<std::string> const& lines = settings.slurm.setup;
+    if (settings.executor != "slurm" || lines.empty() || options.allow_setup) return;
+    throw core::InputError(
+        fmt::format("{}: each task would run these lines of run.slurm.setup: {}; if they are what you want, "
+                    "call the command again with --allow-setup",
+                    options.campaign_file, fmt::join(lines, " ; ")));
+}
+
 }  // namespace
 
 void RunOptions::add_to(CLI::App& command) {
@@ -63,6 +75,9 @@ void RunOptions::add_to(CLI::App& command) {
     command.add_flag("--accept-failed-probes", accept_failed_probes, accept_failed_probes_help);
     command.add_flag("--accept-findings", accept_findings,
                      "Run although the check of the campaign found errors (see 'vibrotrough check')");
+    command.add_flag(
+        "--allow-setup", allow_setup,
+        "Let the tasks of Slurm run the lines of run.slurm.setup, which are commands of the shell");
 }
 
 std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
@@ -73,6 +88,7 @@ std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
 
 ReadyCampaign prepare_run(RunOptions const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
+    check_setup(options, campaign.run);
     std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
     engine::Engine engine = engine::find_engine(program);

@@ -24,6 +24,7 @@ struct RunOptions {
     bool quiet = false;                 ///< the same as none
     bool accept_failed_probes = false;  ///< run an engine that failed its probes
     bool accept_findings = false;       ///< run although the check found errors
+    bool allow_setup = false;           ///< let tasks of Slurm run the lines of run.slurm.setup
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< cores to use
 
     /// Declares the options of a command.

@@ -47,6 +47,7 @@ class Hostile(EndToEndTest):
             self.refuse(campaign_text(sweep={"trough.friction": [word]}))
             self.refuse(campaign_text() + f'[run]\nexecutor = "slurm"\n[run.slurm]\npartition = {json.dumps(word)}\n')
             self.refuse(campaign_text() + f"[run.slurm]\nmemory = {json.dumps(word)}\n")
+            self.refuse(campaign_text() + f'[run]\nexecutor = "slurm"\n[run.slurm]\nextra = [{json.dumps("--qos=" + word)}, "--wrap=id"]\n')
             self.refuse(campaign_text() + f"[points_from]\nfile = {json.dumps(word)}\n")
             self.refuse(campaign_text() + f"[zip]\n{json.dumps(word)} = [1]\n")
 

@@ -176,6 +176,34 @@ class Slurm(EndToEndTest):
             self.assertEqual(self.status()["left"], 3)
             self.assertEqual(self.count_submitted(), 0)
 
+    def test_a_site_can_ask_for_more_and_set_up_its_tasks(self):
+        slurm = self.start_slurm(cpus=1)
+        more = 'extra = ["--comment=from-the-campaign"]\nsetup = ["export GREETING=hello", "echo setup says $GREETING"]\n'
+        campaign = self.write_slurm_campaign(RUN_ON_SLURM + more, {"measure.packings": 1}, None)
+
+        # The lines of setup are commands: they are shown, and run only when the person says so.
+        refused = self.call(*self.run_arguments(campaign))
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertRegex(refused.stderr, r"export GREETING=hello ; echo setup says \$GREETING; .*--allow-setup")
+        self.assertFalse((self.output / "slurm").exists())
+
+        done = self.call(*self.run_arguments(campaign), "--allow-setup")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        job = re.search(r"submitted as job (\d+)\n", done.stdout)[1]
+        self.assertEqual(slurm.command("scontrol", "show", "job", job).stdout.count("Comment=from-the-campaign"), 1)
+        self.assertEqual(self.wait_for_the_end()["finished"], 1)
+        self.assertIn("setup says hello\n", (self.output / "slurm" / "0001" / "task-0.out").read_text())
+
+        # A line that fails ends the task before the engine starts, and says which line it was.
+        self.output = self.folder / "other"
+        campaign = self.write_slurm_campaign(RUN_ON_SLURM + 'setup = ["true", "(exit 5)"]\n', {"measure.packings": 1}, None)
+        self.take_starts()
+        self.call(*self.run_arguments(campaign), "--allow-setup")
+        status = self.wait_for_the_end()
+        self.assertEqual([case["outcome"] for case in status["cases"]], ["interrupted"], status)
+        self.assertIn("ended with exit code 5", status["cases"][0]["message"])
+        self.assertIn("line 2 of run.slurm.setup", (self.output / "slurm" / "0001" / "task-0.out").read_text())
+
     def test_a_task_out_of_time_says_so(self):
         self.start_slurm(cpus=2)
         # Two seconds for a packing that nobody would stop for an hour.

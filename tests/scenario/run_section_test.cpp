@@ -24,7 +24,8 @@ TEST(RunSection, ReadsAllItsKeys) {
         "[run]\nexecutor = \"slurm\"\nretries = 2\nranks = 4\ntime_limit = \"2 hours\"\n"
         "[run.slurm]\npartition = \"compute\"\naccount = \"granular-1\"\ntime = \"90 s\"\nmemory = \"1.5 "
         "GB\"\n"
-        "concurrent_tasks = 7\n");
+        "concurrent_tasks = 7\nextra = [\"--qos=short\", \"--constraint=a&b\", \"--exclusive\"]\n"
+        "setup = [\"module load openmpi\", \"export A='b c'\"]\n");
     EXPECT_EQ(settings.executor, "slurm");
     EXPECT_EQ(settings.retries, 2);
     EXPECT_EQ(settings.ranks, 4);
@@ -34,6 +35,9 @@ TEST(RunSection, ReadsAllItsKeys) {
     EXPECT_EQ(settings.slurm.minutes, 2) << "Slurm counts whole minutes";
     EXPECT_EQ(settings.slurm.memory, 1536);
     EXPECT_EQ(settings.slurm.concurrent_tasks, 7);
+    ASSERT_EQ(settings.slurm.extra.size(), 3u);
+    EXPECT_EQ(settings.slurm.extra[1].str(), "--constraint=a&b");
+    EXPECT_EQ(settings.slurm.setup, (std::vector<std::string>{"module load openmpi", "export A='b c'"}));
 }
 
 TEST(RunSection, DoesNotChangeTheCases) {
@@ -62,16 +66,33 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
     EXPECT_TRUE(scenario::PlainName::from(std::string(64, 'a')));
 }
 
+// An option may ask for resources, but name no file, no variable and no script.
+TEST(RunSection, OptionsThatDoMoreThanAskAreRefused) {
+    for (char const* option : {"", "qos=short", "-qshort", "--output=/home/me/.bashrc", "--wrap=id",
+                               "--export=LD_PRELOAD=x", "--chdir=/", "--array=0-9", "--qos=a b", "--qos=a'b",
+                               "--qos=a/b", "--qos=$(id)", "--qos=a\nb", "--qos short", "--"}) {
+        EXPECT_FALSE(scenario::SlurmOption::from(option)) << option;
+    }
+    for (char const* option :
+         {"--qos=short", "--gres=gpu:a100:1", "--exclude=n[1-3],n7", "--exclusive", "--mail-user=me@x.org"})
+        EXPECT_TRUE(scenario::SlurmOption::from(option)) << option;
+}
+
 TEST(RunSection, MistakesNameTheirPlace) {
     for (auto const& [section, part] : std::vector<std::pair<std::string, std::string>>{
              {"[run]\nexecutor = \"cloud\"\n", "local or slurm"},
              {"[run]\nexecutor = 3\n", "is not a text"},
              {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
-             {"[run.slurm]\nqueue = \"a\"\n", "partition, account, time, memory, concurrent_tasks"},
+             {"[run.slurm]\nqueue = \"a\"\n",
+              "partition, account, time, memory, concurrent_tasks, extra, setup"},
              {"[run]\nretries = -1\n", "out of range"},
              {"[run]\nranks = 1.5\n", "not a whole number"},
              {"[run.slurm]\ntime = \"3 m\"\n", "run.slurm.time"},
              {"[run.slurm]\nmemory = \"3 kg\"\n", "1 MB to"},
+             {"[run.slurm]\nextra = \"--qos=a\"\n", "is not a list"},
+             {"[run.slurm]\nextra = [\"--wrap=id\"]\n", "--wrap=id"},
+             {"[run.slurm]\nsetup = [\"a\\nb\"]\n", "printable"},
+             {"[run.slurm]\nsetup = [3]\n", "printable"},
          }) {
         try {
             parse(section);

@@ -135,6 +135,7 @@ std::vector<std::string> submission(Array const& array) {
     if (asked.account) words.push_back("--account=" + asked.account->str());
     if (asked.minutes) words.push_back(fmt::format("--time={}", *asked.minutes));
     if (asked.memory) words.push_back(fmt::format("--mem={}M", *asked.memory));
+    for (scenario::SlurmOption const& option : asked.extra) words.push_back(option.str());
     words.push_back((std::filesystem::absolute(array.folder) / array.script).string());
     return words;
 }

@@ -49,12 +49,27 @@ std::optional<Batch> read_batch(fs::path const& folder) {
     }
 }
 
-/// Only numbers and the program's own path, as a word of the shell, enter the script.
+/// The lines of run.slurm.setup, and what ends the task when one of them fails. A login shell knows `module`.
+std::string setup_lines(std::vector<std::string> const& lines) {
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        text += fmt::format(
+            "{}\n"
+            "code=$?; [ \"$code\" = 0 ] || {{ echo \"line {} of run.slurm.setup ended with exit code $code\" "
+            ">&2;\n"
+            "    mark \"task-$index.ended\" \"$code\"; exit \"$code\"; }}\n",
+            lines[i], i + 1);
+    }
+    return text;
+}
+
+/// Only numbers and the program's own path, as a word of the shell, enter the script; and the lines of
+/// run.slurm.setup, which the user has allowed.
 std::string job_script(std::string const& number, JobScript const& job) {
     std::string options = fmt::format("--ranks {} --retries {}", job.ranks, job.retries);
     if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
     return fmt::format(
-        "#!/bin/sh\n"
+        "{3}\n"
         "# One packing of a campaign, as a task of a job array of Slurm. Made by vibrotrough run.\n"
         "# Slurm starts it in the campaign's folder; the files task-* say how far it came.\n"
         "trap : TERM INT\n"
@@ -63,11 +78,13 @@ std::string job_script(std::string const& number, JobScript const& job) {
         "    mv -fT \"slurm/{0}/.$1\" \"slurm/{0}/$1\"; }}\n"
         "[ -f slurm/{0}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
         "mark \"task-$index.started\" \"$(uname -n) $SLURM_ARRAY_JOB_ID\"\n"
+        "{4}"
         "{1} work . --task-list slurm/{0}/tasks.txt --index \"$index\" {2}\n"
         "code=$?\n"
         "mark \"task-$index.ended\" \"$code\"\n"
         "exit \"$code\"\n",
-        number, core::shell_word(job.program), options);
+        number, core::shell_word(job.program), options, job.setup.empty() ? "#!/bin/sh" : "#!/bin/bash -l",
+        setup_lines(job.setup));
 }
 
 void write_description(Batch const& batch) {

@@ -38,6 +38,7 @@ struct JobScript {
     int ranks;                         ///< MPI ranks of the engine
     std::optional<double> time_limit;  ///< s, for the packing
     int retries;                       ///< of a packing, after a failure that may not happen again
+    std::vector<std::string> setup;    ///< lines of bash that run first
 };
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.

@@ -86,7 +86,8 @@ class SlurmExecutor : public Executor {
             tasks.push_back(order.id());
         }
         scenario::RunSettings const& settings = inputs_.settings;
-        JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries};
+        JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries,
+                               settings.slurm.setup};
         Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
         std::string const below = "slurm/" + batch.folder.filename().string();
         slurm::Array const array{

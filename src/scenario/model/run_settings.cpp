@@ -1,12 +1,28 @@
 #include "scenario/model/run_settings.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 namespace {
 
 bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+/// Names of options that ask for resources or for mail, and do nothing else.
+constexpr std::array<std::string_view, 19> allowed_options{
+    "clusters",      "comment", "constraint",  "cores-per-socket", "exclude",   "exclusive", "gpus",
+    "gres",          "hint",    "licenses",    "mail-type",        "mail-user", "nice",      "nodelist",
+    "oversubscribe", "qos",     "reservation", "spread-job",       "tmp"};
+
+bool is_option_value(std::string_view text) {
+    constexpr std::string_view others = "._,:@%+&|()[]*=-";
+    return std::ranges::all_of(
+        text, [&](char c) { return is_letter_or_digit(c) || others.find(c) != others.npos; });
 }
 
 }  // namespace
@@ -20,6 +36,19 @@ std::optional<PlainName> PlainName::from(std::string_view text) {
     if (text.empty() || text.size() > 64 || !is_plain_text(text) || !is_letter_or_digit(text.front()))
         return {};
     return PlainName(text);
+}
+
+std::optional<SlurmOption> SlurmOption::from(std::string_view text) {
+    if (text.size() > 200 || !text.starts_with("--")) return {};
+    auto const equals = text.find('=');
+    std::string_view const name = text.substr(2, equals == text.npos ? text.npos : equals - 2);
+    if (std::ranges::find(allowed_options, name) == allowed_options.end()) return {};
+    if (equals != text.npos && !is_option_value(text.substr(equals + 1))) return {};
+    return SlurmOption(text);
+}
+
+std::string SlurmOption::names() {
+    return fmt::format("--{}", fmt::join(allowed_options, ", --"));
 }
 
 }  // namespace vibrotrough::scenario

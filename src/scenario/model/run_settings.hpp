@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vibrotrough::scenario {
 
@@ -25,6 +26,23 @@ class PlainName {
     std::string text_;
 };
 
+/// An option of sbatch such as "--qos=short". Only options that ask for resources are allowed, and only
+/// values without a space, quote or slash: a campaign file must not name files that Slurm writes, or
+/// variables that a task sees.
+class SlurmOption {
+  public:
+    /// The text as an option, or nullopt when it is not an allowed one.
+    static std::optional<SlurmOption> from(std::string_view text);
+    /// The names that are allowed, for messages.
+    static std::string names();
+    std::string const& str() const { return text_; }      ///< The option as one word of the command line.
+    bool operator==(SlurmOption const&) const = default;  ///< Whether the texts are equal.
+
+  private:
+    explicit SlurmOption(std::string_view text) : text_(text) {}
+    std::string text_;
+};
+
 /// What is requested from Slurm for every packing. Slurm's own defaults apply to members without a value.
 struct SlurmSettings {
     std::optional<PlainName> partition;  ///< name of the partition
@@ -32,7 +50,10 @@ struct SlurmSettings {
     std::optional<int> minutes;          ///< wall-clock time of a packing
     std::optional<std::int64_t> memory;  ///< MiB, of a packing
     std::optional<int>
-        concurrent_tasks;  ///< largest number of packings of one array that run at the same time
+        concurrent_tasks;            ///< largest number of packings of one array that run at the same time
+    std::vector<SlurmOption> extra;  ///< further options of sbatch
+    std::vector<std::string>
+        setup;  ///< lines of the shell that a task runs first; run only when the user allows it
 };
 
 /// How a campaign is run. This does not change what its cases are and is not part of their ids.

@@ -161,8 +161,7 @@ class CampaignFileReader {
     void read_axis(std::string const& path, Position where, toml::node const& node) {
         Key const& key = known_key(path, where);
         if (key.kind == KeyKind::name) fail(where, path, "a name cannot be swept", "sweep a physical input");
-        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers ||
-            key.kind == KeyKind::harmonics) {
+        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts) {
             fail(where, path, "a list cannot be swept", "sweep a key with one value");
         }
         for (Axis const& other : result_.sweep) {

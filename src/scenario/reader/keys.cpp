@@ -54,7 +54,7 @@ constexpr std::array keys{
         "\"20 deg\"",
         "phase of the motion along the trough, x = r cos(beta) sin(omega t + along_phase); makes the drive "
         "elliptical"},
-    Key{"trough.harmonics", harmonics, "", 0, 0, "orders 2 to 100, ratios -10 to 10", "", optional,
+    Key{"trough.harmonics", texts, "", 0, 0, "orders 2 to 100, ratios -10 to 10", "", optional,
         "[\"25, 0.2, 0 deg\"]",
         "order, ratio and phase of further parts of the drive's acceleration; the ratio is to the "
         "fundamental (Eq. 22)"},

@@ -18,7 +18,7 @@ enum class KeyKind {
     file,        ///< a word in `range`, or the name of a file in the folder of the campaign file
     quantities,  ///< a list of quantities
     numbers,     ///< a list of plain numbers
-    harmonics,   ///< a list of texts "order, ratio, phase"
+    texts,       ///< a list of texts
 };
 
 /// Whether a key without default value has to be given.

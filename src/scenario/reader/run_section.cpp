@@ -34,6 +34,13 @@ constexpr std::array keys{
         "memory requested for a packing; 1 GB is 1024 MB"},
     Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
         "largest number of packings of one array that run at the same time"},
+    Key{"run.slurm.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
+        "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch"},
+    Key{"run.slurm.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional,
+        "[\"module load openmpi\"]",
+        "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
+        "unless "
+        "--allow-setup is given, since they can do anything"},
 };
 
 /// An amount of memory such as "2 GB" in MiB; nullopt when the text is not such an amount.
@@ -86,8 +93,13 @@ class RunSection {
             fail(name.source(), core::printable(path, 60), "unknown key",
                  fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
         }
-        found->kind == KeyKind::name || found->kind == KeyKind::choice ? read_text(*found, node)
-                                                                       : read_number(*found, node);
+        if (found->kind == KeyKind::texts) {
+            read_texts(*found, node);
+        } else if (found->kind == KeyKind::name || found->kind == KeyKind::choice) {
+            read_text(*found, node);
+        } else {
+            read_number(*found, node);
+        }
     }
 
     void read_text(Key const& key, toml::node const& node) {
@@ -109,6 +121,27 @@ class RunSection {
             auto const plain = PlainName::from(given);
             if (!plain) refuse();
             (name == "partition" ? settings_.slurm.partition : settings_.slurm.account) = plain;
+        }
+    }
+
+    void read_texts(Key const& key, toml::node const& node) {
+        auto const refuse = [&](std::string const& text, std::string_view instead) {
+            fail(node.source(), key.path, fmt::format("'{}' is not allowed", core::printable(text, 60)),
+                 fmt::format("{}; {}", write_instead(key), instead));
+        };
+        Content const content = read_content(key, node, file_);
+        for (std::string const& text : std::get<std::vector<std::string>>(content)) {
+            if (last_name(key.path) == "setup") {
+                bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
+                if (!is_line) refuse(text, "a line has 1 to 500 printable characters");
+                settings_.slurm.setup.push_back(text);
+            } else {
+                auto const option = SlurmOption::from(text);
+                if (!option)
+                    refuse(text, fmt::format("allowed are {} with a value that has no space, quote or slash",
+                                             SlurmOption::names()));
+                settings_.slurm.extra.push_back(*option);
+            }
         }
     }
 

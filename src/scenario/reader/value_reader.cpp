@@ -137,7 +137,7 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
         case KeyKind::quantities:
         case KeyKind::numbers:
             return reader.numbers(node);
-        case KeyKind::harmonics:
+        case KeyKind::texts:
             return reader.words(node);
         default:
             return reader.number(node);
