@@ -8,8 +8,10 @@
     case = campaign.case(campaign["case"][0])                   # the case's own result.h5
     print(case["series/1/efficiency"][case["packings/cycles_discarded"][0]:])
 
+    table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
+
 Everything is read at once, so files may be renewed meanwhile. The tables of names are in src/store/README.md.
-Needs h5py and numpy.
+Needs h5py and numpy, and to_dataframe() pandas.
 """
 
 from __future__ import annotations
@@ -129,6 +131,19 @@ class Campaign(File):
             column = np.asarray(self[name])
             keep &= column == value if column.dtype.kind in "OU" else np.isclose(column, value, rtol=1e-9, atol=0)
         return np.flatnonzero(keep)
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with one row per case and one column per quantity, indexed by the case's id.
+
+        Swept keys are columns such as "swept/grains.rolling_friction". `attrs["units"]` and `attrs["descriptions"]` are dicts by column.
+        """
+        import pandas  # only this function needs it
+
+        columns = [name for name in self if name != "case" and self[name].ndim == 1 and len(self[name]) == self.cases]
+        frame = pandas.DataFrame({name: np.asarray(self[name]) for name in columns}, index=pandas.Index(list(self["case"]), name="case"))
+        frame.attrs["units"] = {name: self[name].units for name in columns}
+        frame.attrs["descriptions"] = {name: self[name].description for name in columns}
+        return frame
 
 
 def open_campaign(path: str | os.PathLike[str]) -> Campaign:

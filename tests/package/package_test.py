@@ -70,6 +70,12 @@ class Package(unittest.TestCase):
         self.assertTrue((home / "runs/report/report.html").is_file())
         self.assertTrue(list((home / "runs").rglob("*.pvd")) + list((home / "runs").rglob("*.vtp*")))
 
+    def test_python_finds_the_module(self):
+        modules = self.root / "usr/lib/python3/dist-packages"
+        done = call("/usr/bin/python3", "-B", "-c", "import vibrotrough; print(vibrotrough.__file__, vibrotrough.open_campaign.__name__)",
+                    cwd="/", env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(modules)})  # fmt: skip
+        self.assertEqual(done.stdout.split(), [f"{modules}/vibrotrough.py", "open_campaign"], done.stderr)
+
     def test_the_manual_page_is_sound_and_complete(self):
         page = self.root / "usr/share/man/man1/vibrotrough.1"
         shown = call("groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=100n", page)

@@ -54,6 +54,14 @@ def main(scripts, sample, work):
     assert list(campaign.rows(outcome="not-precise", friction=0.23)) == [0, 1]
     assert list(campaign.rows(outcome="finished")) == []
 
+    # One row per case, the same numbers, units beside them.
+    table = campaign.to_dataframe()
+    assert list(table.index) == list(campaign["case"]) and set(table.columns) == set(campaign.names()) - {"case"}
+    for name in table.columns:
+        np.testing.assert_array_equal(table[name].to_numpy(), np.asarray(campaign[name]), err_msg=name)
+        assert table.attrs["units"][name] == campaign[name].units and table.attrs["descriptions"][name] == campaign[name].description
+    assert list(table.query("frequency == 27.0").index) == [campaign["case"][1]]
+
     case = campaign.case(campaign["case"][0])
     assert case["series/1/efficiency"].units == "1" and len(case["series/1/efficiency"]) == 3
     assert case["case/frequency"].units == "Hz" and float(case["case/frequency"]) == 13.5
