@@ -233,6 +233,11 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                       bp::extend::on_exec_setup([driver = ::getpid(), &lock](auto&) {
                           prepare_child(driver);
                           lock.keep_in_child();
+                      }),
+                      // With use_vfork Boost 1.74 does not throw when there is no new process; nobody would
+                      // ever see it end.
+                      bp::extend::on_error([](auto&, std::error_code const& failure) {
+                          throw bp::process_error(failure, "no new process");
                       }));
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {

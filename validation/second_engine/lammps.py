@@ -6,6 +6,7 @@ import subprocess
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 GRAVITY = 9.81
 AMPLITUDE, TAN_BETA, FLOOR_FRICTION = 6e-3, 0.5, 0.23
@@ -147,11 +148,11 @@ def run(folder: pathlib.Path, name: str, text: str) -> str:
     return answer.stdout
 
 
-def efficiencies(folder: pathlib.Path, throw_number: float, rotation: str, seed: int, cycles: int = CYCLES) -> np.ndarray:
+def efficiencies(folder: pathlib.Path, throw_number: float, rotation: str, seed: int, cycles: int = CYCLES) -> NDArray[np.float64]:
     """The velocity efficiency of each driven cycle of one packing; a run that ended before is read, not repeated."""
     table = folder / "cycles.csv"
 
-    def values() -> np.ndarray | None:
+    def values() -> NDArray[np.float64] | None:
         if not table.exists():
             return None
         steps, x, _, energy = np.loadtxt(table, delimiter=",", skiprows=1, unpack=True)

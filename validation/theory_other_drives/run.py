@@ -41,7 +41,7 @@ def circular(run: ValidationCase, throw_numbers: NDArray[np.float64], friction: 
 
 def judge_horizontal(run: ValidationCase) -> None:
     odd = [horizontal(run, strength, 3, phase) for strength in STRENGTHS for phase in PHASES]
-    run.between("two frequencies 1 : 3, whose second half cycle is the first one reversed: largest efficiency", max(map(abs, odd)), 0, ROUNDING,
+    run.between("two frequencies 1 : 3, whose second half cycle is the first one reversed: largest efficiency", max(abs(value) for value in odd), 0, ROUNDING,
                 because="what is conveyed in one half is carried back in the other; rounding")
     for strength in STRENGTHS:
         reversed_sum = horizontal(run, strength, 2, 30.0) + horizontal(run, strength, 2, 210.0)
@@ -82,7 +82,7 @@ def reversal(run: ValidationCase, friction: float) -> float:
 def findings(run: ValidationCase, numbers: NDArray[np.float64], level: NDArray[np.float64], inclined: NDArray[np.float64]) -> None:
     second = [horizontal(run, strength, 2, 90.0) for strength in STRENGTHS]
     run.finding("two frequencies move a body on a laterally shaken surface when the second half cycle is not the first one reversed, and the reversed drive "
-                "moves it the other way (Hashemi et al. 2022)", min(map(abs, second)) > 0.01,
+                "moves it the other way (Hashemi et al. 2022)", min(abs(value) for value in second) > 0.01,
                 "frequencies 1 : 2, phase 90 degrees: " + ", ".join(f"{value:.3f} at K = {strength:g}" for strength, value in zip(STRENGTHS, second))
                 + "; 1 : 3: 0 for all phases; reversed drives: the opposite to rounding")
     weak, strong = horizontal(run, 300.0, 2, 90.0), horizontal(run, 3000.0, 2, 90.0)
