@@ -31,8 +31,11 @@ def hertz_overlap(speed: float) -> float:
 
 
 def impact(restitution: ArrayLike, friction: ArrayLike, normal: ArrayLike, tangential: ArrayLike, gravity: float = 0.0,
-           steps: int = 4000) -> list[Floats]:
-    """Arrays of nominal restitution, friction and speeds before; gives normal speed, tangential speed and spin after."""
+           steps: int = 4000, shortening: float = 0.5) -> list[Floats]:
+    """Arrays of nominal restitution, friction and speeds before; gives normal speed, tangential speed and spin after.
+
+    `shortening`: share of the overlap by which the lever of the friction is shorter than the radius; 0.5 in LIGGGHTS, 0 in LAMMPS.
+    """
     e, mu, w, v = (np.array(a, dtype=float) for a in np.broadcast_arrays(*map(np.atleast_1d, (restitution, friction, normal, tangential))))
     log = np.log(e)
     damping = 2 * math.sqrt(5 / 6) * np.abs(log) / np.hypot(log, math.pi)
@@ -40,8 +43,8 @@ def impact(restitution: ArrayLike, friction: ArrayLike, normal: ArrayLike, tange
     state = [np.zeros_like(w), w, v, np.zeros_like(w), np.zeros_like(w)]  # overlap, speed inward, along, spin, spring
     done = [np.full_like(w, np.nan) for _ in range(3)]
     for _ in range(100 * steps):
-        middle = [a + dt / 2 * b for a, b in zip(state, rates(state, damping, mu, gravity)[0])]
-        change, limit, normal = rates(middle, damping, mu, gravity)
+        middle = [a + dt / 2 * b for a, b in zip(state, rates(state, damping, mu, gravity, shortening)[0])]
+        change, limit, normal = rates(middle, damping, mu, gravity, shortening)
         state = [a + dt * b for a, b in zip(state, change)]
         state[4] = np.clip(state[4], -limit, limit)  # a contact that slips keeps the spring at Coulomb's limit
         left = np.isnan(done[0]) & (state[1] < 0) & ((state[0] <= 0) | (normal == 0))
@@ -54,7 +57,7 @@ def impact(restitution: ArrayLike, friction: ArrayLike, normal: ArrayLike, tange
     raise ArithmeticError("a contact does not end")
 
 
-def rates(state: Sequence[Floats], damping: Floats, mu: Floats, gravity: float) -> tuple[tuple[Floats, ...], Floats, Floats]:
+def rates(state: Sequence[Floats], damping: Floats, mu: Floats, gravity: float, shortening: float) -> tuple[tuple[Floats, ...], Floats, Floats]:
     """Time derivatives of the state, the spring's length at which the contact slips, and the normal force."""
     overlap, inward, along, spin, spring = state
     contact = np.sqrt(RADIUS * np.maximum(overlap, 0))
@@ -62,7 +65,7 @@ def rates(state: Sequence[Floats], damping: Floats, mu: Floats, gravity: float) 
     stiffness = 8 * G_STAR * contact
     limit = np.divide(mu * normal, stiffness, out=np.zeros_like(normal), where=stiffness > 0)
     tangential = stiffness * np.clip(spring, -limit, limit)
-    lever = RADIUS - overlap / 2
+    lever = RADIUS - shortening * overlap
     return (inward, gravity - normal / MASS, -tangential / MASS, tangential * lever / INERTIA, along - spin * lever), limit, normal
 
 
