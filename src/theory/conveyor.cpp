@@ -3,12 +3,14 @@
 #include "theory/detail/conveyor_walk.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/plastic_orbit.hpp"
 #include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -21,12 +23,15 @@ using detail::Walk;
 using detail::WalkState;
 using Keep = Walk::Keep;
 
-constexpr int longest_period = 64;  // cycles
-constexpr int settling = 500;       // cycles skipped before averaging a motion without a period
-constexpr int batches = 20;         // number of batch means for its confidence interval
-constexpr int cycles_per_batch = 125;
-constexpr int plain_repeats = 60;  // periods followed directly before Newton's method takes over
-constexpr double closing = 1e-6;   // rad: tolerance in time for an orbit that recurs within state_match
+constexpr int longest_period = 64;     // cycles
+constexpr int settling = 500;          // cycles skipped before averaging a motion without a period
+constexpr int batches = 20;            // number of batch means for its confidence interval
+constexpr int cycles_per_batch = 125;  // or more, so that a batch has some flights
+constexpr int most_cycles_per_batch = 1 << 24;
+constexpr std::size_t flights_per_batch = 8;
+constexpr std::size_t most_pieces = 200000;  // kept of a motion without a period
+constexpr int plain_repeats = 60;            // periods followed directly before Newton's method takes over
+constexpr double closing = 1e-6;  // rad: tolerance in time for an orbit that recurs within state_match
 constexpr double repeat_match =
     1e-9;  // tolerance of displacement and impact energy per cycle, period to period
 constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
@@ -145,6 +150,8 @@ class Solver {
     bool repeats(Passage const& two_periods, int cycles) const;
     ConveyorMotion periodic(int cycles);
     ConveyorMotion averaged();
+    int find_batch_length() const;
+    void add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const;
 
     std::shared_ptr<ConveyorModel const> model_;
     Walk walk_;
@@ -278,14 +285,52 @@ ConveyorMotion Solver::periodic(int cycles) {
     return result;
 }
 
+/// The number of cycles of a batch. A flight can last thousands of cycles: the mean over a part of one flight
+/// says nothing of the motion.
+int Solver::find_batch_length() const {
+    WalkState s = state_;
+    std::size_t landings = 0;
+    int followed = 0, cycles = cycles_per_batch;
+    while (true) {
+        Passage const passage = pass(s, cycles - followed, Keep::pieces);
+        followed = cycles;
+        landings += passage.impacts.size();
+        bool const flew = landings > 0 || s.flying;
+        if (!flew || landings >= flights_per_batch || cycles >= most_cycles_per_batch) return cycles;
+        cycles *= 2;
+    }
+}
+
+/// Adds what happened in a batch that begins so many cycles after the first one. When there is too much, what
+/// was there before is forgotten.
+void Solver::add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const {
+    if (result.pieces.size() > most_pieces) {
+        result.pieces.clear();
+        result.impacts.clear();
+    }
+    double const shift = two_pi * cycles_before;
+    for (Piece& piece : passage.pieces) {
+        piece.start += shift;
+        piece.end += shift;
+        result.pieces.push_back(piece);
+    }
+    for (Impact& impact : passage.impacts) {
+        impact.t += shift;
+        result.impacts.push_back(impact);
+    }
+}
+
 ConveyorMotion Solver::averaged() {
     ConveyorMotion result;
     pass(state_, settling, Keep::nothing);
     rebase();
+    int const cycles = find_batch_length();
     std::vector<double> means;
-    double const length = two_pi * cycles_per_batch;
+    double const length = two_pi * cycles;
     for (int i = 0; i < batches; ++i) {
-        means.push_back(pass(state_, cycles_per_batch, Keep::nothing).displacement / length);
+        Passage passage = pass(state_, cycles, Keep::pieces);
+        means.push_back(passage.displacement / length);
+        add_batch(result, std::move(passage), i * cycles);
         rebase();
     }
     double mean = 0, square = 0;
@@ -293,11 +338,8 @@ ConveyorMotion Solver::averaged() {
     for (double const m : means) square += (m - mean) * (m - mean) / (batches - 1);
     boost::math::students_t const student(batches - 1);
     result.half_width = boost::math::quantile(student, 0.975) * std::sqrt(square / batches);
-    result.cycles_followed = batches * cycles_per_batch;
+    result.cycles_followed = batches * cycles;
     result.motion = no_motion(Outcome::unsettled, mean);
-    Passage last = pass(state_, cycles_per_batch, Keep::pieces);
-    result.pieces = std::move(last.pieces);
-    result.impacts = std::move(last.impacts);
     return result;
 }
 
@@ -319,7 +361,6 @@ ConveyorMotion Solver::solve() {
             result = cycles > 0 ? periodic(cycles) : averaged();
         }
     }
-    result.model = model_;
     return result;
 }
 
@@ -335,7 +376,10 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 ConveyorMotion solve(Conveyor const& conveyor) {
     check_ranges(conveyor);
     try {
-        return Solver(detail::with_noticeable_forces(conveyor)).solve();
+        ConveyorMotion answer = Solver(detail::with_noticeable_forces(conveyor)).solve();
+        // Forces and energies are those of the conveyor itself, however weak they are.
+        answer.model = std::make_shared<ConveyorModel const>(conveyor);
+        return answer;
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }
@@ -343,8 +387,11 @@ ConveyorMotion solve(Conveyor const& conveyor) {
 
 ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {
     ConveyorMotion answer;
-    if (detail == Detail::pieces) answer = solve(conveyor);
-    answer.motion = solve(conveyor.point);
+    detail::PlasticOrbit orbit = detail::solve_orbit(conveyor.point);
+    if (orbit.motion.outcome == Outcome::unsettled) return solve(conveyor);
+    if (detail == Detail::pieces && orbit.motion.converged) detail::add_pieces(orbit, answer);
+    answer.motion = std::move(orbit.motion);
+    answer.model = std::make_shared<ConveyorModel const>(conveyor);
     return answer;
 }
 

@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/time.hpp"
 #include "deck/commands.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
@@ -133,7 +134,7 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
         return;
     }
     auto settling = std::make_unique<Settling>();
-    settling->folder = folder_ / fmt::format("{}.settling-{}", key, ::getpid());
+    settling->folder = folder_ / fmt::format("{}.settling-{}-{}", key, core::host_name(), ::getpid());
     settling->deck = deck;
     settling->weight = weight;
     settling->waiting.push_back(std::move(ready));
@@ -149,8 +150,8 @@ void SettledPackings::remove_leftovers() {
     std::vector<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        // 12 hexadecimal digits and a process number; "making" up to version 0.1.
-        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-[0-9]+");
+        // 12 hexadecimal digits, machine and process number; "making" and no machine up to version 0.1.
+        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-(.+-)?[0-9]+");
         if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
     }
     for (fs::path const& leftover : leftovers) core::remove_tree(leftover);
