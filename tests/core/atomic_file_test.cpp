@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -58,12 +59,9 @@ TEST_F(AtomicFile, FailsOnPathsThatCannotBeUsed) {
 // (this one), and the machine another.
 TEST_F(AtomicFile, RemovesWhatAKilledProcessLeftOfAFile) {
     std::string const number = std::to_string(::getpid());
-    auto const leave = [&] {
-        for (std::string const& name :
-             {"a.part-elsewhere-1", ("a.part-here-" + number).c_str(), "b.part-elsewhere-1"})
-            std::ofstream(folder / name) << "half";
-    };
-    leave();
+    for (std::string const& name :
+         std::vector<std::string>{"a.part-elsewhere-1", "a.part-here-" + number, "b.part-elsewhere-1"})
+        std::ofstream(folder / name) << "half";
     core::write_file_atomically(folder / "a", "whole");
     EXPECT_TRUE(fs::exists(folder / "a.part-elsewhere-1")) << "in a folder that is not ours, it is a user's";
     core::OwnFolder const own(folder);
