@@ -138,6 +138,14 @@ void make_sole_writer(fs::path const& folder) {
     if (!taken || !wait_until([&] { return writers_in(folder).empty(); })) refuse(folder);
 }
 
+bool has_writer(fs::path const& folder) {
+    int const descriptor = open_writer_file(folder, 0);
+    if (descriptor < 0) return false;
+    bool const held = !try_lock(descriptor) && errno == EWOULDBLOCK;
+    ::close(descriptor);
+    return held;
+}
+
 WriterLock::WriterLock(fs::path const& folder) : descriptor_(open_writer_file(folder, O_CREAT)) {
     if (descriptor_ < 0) {
         throw core::MissingError(fmt::format("cannot write {} ({}); choose another folder",

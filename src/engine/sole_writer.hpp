@@ -16,6 +16,9 @@ constexpr char const* writer_file = ".engine";
 /// @throws MissingError when somebody still writes in the folder after ten seconds
 void make_sole_writer(std::filesystem::path const& folder);
 
+/// Whether an engine, or something that it started, holds the lock of the folder now.
+bool has_writer(std::filesystem::path const& folder);
+
 /// The lock of one run. The driver opens it, the engine inherits it, and the driver closes its own end.
 class WriterLock {
   public:

@@ -216,10 +216,10 @@ EnergyBalance energy_balance(ConveyorMotion const& motion) {
 }
 
 double angular_frequency(PointMass const& point, Machine const& machine) {
-    detail::require_range(machine.amplitude > 0 && machine.amplitude <= 10, "amplitude", machine.amplitude,
-                          "(0, 10] m");
-    detail::require_range(machine.gravity > 0 && machine.gravity <= 1e3, "gravity", machine.gravity,
-                          "(0, 1000] m/s2");
+    detail::require_range(machine.amplitude >= 1e-12 && machine.amplitude <= 10, "amplitude",
+                          machine.amplitude, "[1e-12, 10] m");
+    detail::require_range(machine.gravity >= 1e-6 && machine.gravity <= 1e3, "gravity", machine.gravity,
+                          "[1e-6, 1000] m/s2");
     return std::sqrt(machine_number(point) * machine.gravity / machine.amplitude);
 }
 

@@ -52,6 +52,12 @@ def any_number(generator: random.Random) -> str:
     return repr(generator.uniform(-2, 6))
 
 
+def any_range(generator: random.Random, low: float, high: float) -> tuple[str, str]:
+    """The ends of a range: mostly within the usual one, so that there is something to solve."""
+    ends = sorted(generator.uniform(low, high) for _ in range(2))
+    return tuple(any_number(generator) if generator.random() < 0.2 else repr(end) for end in ends)  # type: ignore[return-value]
+
+
 def any_words(generator: random.Random) -> list[str]:
     words = [word for group in BASE.values() for word in generator.choice(group)]
     for option in generator.sample(EXTRA, generator.choice([0, 0, 1, 1, 2])):
@@ -122,7 +128,10 @@ def stored_energies(theory: Theory, words: list[str], answer: dict[str, Any]) ->
 def check_energy(theory: Theory, words: list[str], answer: dict[str, Any]) -> str:
     """Work of the trough = losses + lift + what the mass has more at the end, J/kg per cycle, where no drag takes a part that is not
     printed. @return what was checked"""
-    if "quantities" not in answer or "--air-drag" in words or "--gravity" in words:
+    if "quantities" not in answer:
+        return ""
+    assert None not in [quantity["value"] for quantity in answer["quantities"].values()], (words, answer)
+    if "--air-drag" in words or "--gravity" in words:
         return ""
     parts = [value_of(answer, name) for name in ("trough_work", "friction_energy", "impact_energy")]
     slope = answer["tan_inclination"]
@@ -194,22 +203,24 @@ def try_batches(theory: Theory, generator: random.Random, runs: int, folder: Pat
 def try_maps(theory: Theory, generator: random.Random, runs: int, folder: Path) -> None:
     for _ in range(runs):
         x, y = generator.sample(AXES, 2)
-        axes = [f"--x={x}={any_number(generator)}:{any_number(generator)}:3", f"--y={y}=0.1:0.6:3"]
-        words = [word for group in BASE.values() for word in generator.choice(group)]
+        low, high = any_range(generator, 0, 6)
+        axes = [f"--x={x}={low}:{high}:3", f"--y={y}=0.1:0.6:3"]
+        given = {"drive": ("throw_number", "machine_number"), "angle": ("vibration_angle_deg", "tan_vibration_angle"),
+                 "slope": ("inclination_deg", "tan_inclination"), "friction": ("friction",)}  # fmt: skip
+        words = [word for name, group in BASE.items() if x not in given[name] and y not in given[name] for word in generator.choice(group)]
         theory.call("map", words, [*axes, f"--output={folder}/map.h5", "--jobs=1"], SEARCH_PATIENCE)
 
 
 def try_designs(theory: Theory, generator: random.Random, runs: int) -> None:
-    options = ["--friction", "--machine-number", "--throw-number", "--frequency", "--amplitude", "--vibration-angle", "--inclination", "--gravity"]
-    units = {"--frequency": " Hz", **UNITS}
+    ranges = {"--frequency": (" Hz", 5, 60), "--amplitude": (" m", 5e-4, 0.015), "--vibration-angle": (" deg", 5, 60), "--inclination": (" deg", -5, 5)}
+    single = {"--friction": ("", 0.1, 0.8), "--machine-number": ("", 1, 6), "--throw-number": ("", 0.5, 3.29), "--gravity": (" m/s2", 1, 20)}
     for _ in range(runs):
-        words = ["--friction", "0.3"]
-        for option in generator.sample(options, generator.choice([1, 2, 3])):
-            unit = units.get(option, "")
-            text = any_number(generator) + unit
-            if option in ("--frequency", "--amplitude", "--vibration-angle", "--inclination") and generator.random() < 0.5:
-                text += f" to {any_number(generator)}{unit}"
-            words = ["--friction", text] + words[2:] if option == "--friction" else words + [option, text]
+        chosen = {"--friction": "0.3"}
+        for option in generator.sample([*ranges, *single], generator.choice([1, 2, 3])):
+            unit, least, most = (ranges | single)[option]
+            low, high = any_range(generator, least, most)
+            chosen[option] = f"{low}{unit} to {high}{unit}" if option in ranges else high + unit
+        words = [word for pair in chosen.items() for word in pair]
         done = theory.call("design", words, ["--json"], SEARCH_PATIENCE)
         if done.returncode != 2:
             assert all(map(math.isfinite, numbers_in(json.loads(done.stdout)))), (words, done.stdout)

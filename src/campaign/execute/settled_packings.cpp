@@ -8,6 +8,7 @@
 #include "deck/commands.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
+#include "engine/sole_writer.hpp"
 
 #include <cmath>
 #include <optional>
@@ -154,7 +155,10 @@ void SettledPackings::remove_leftovers() {
         static std::regex const name("[0-9a-f]{12}\\.(making|settling)-(.+-)?[0-9]+");
         if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
     }
-    for (fs::path const& leftover : leftovers) core::remove_tree(leftover);
+    for (fs::path const& leftover : leftovers) {
+        // A task of a cluster may be settling there now.
+        if (!engine::has_writer(leftover)) core::remove_tree(leftover);
+    }
 }
 
 void SettledPackings::interrupt() {
