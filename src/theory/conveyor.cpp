@@ -1,7 +1,7 @@
 #include "theory/conveyor.hpp"
 
+#include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/conveyor_walk.hpp"
-#include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
 #include "theory/detail/plastic_orbit.hpp"
 #include "theory/detail/weak_forces.hpp"
@@ -29,64 +29,16 @@ constexpr int batches = 20;            // number of batch means for its confiden
 constexpr int cycles_per_batch = 125;  // or more, so that a batch has some flights
 constexpr int most_cycles_per_batch = 1 << 24;
 constexpr std::size_t flights_per_batch = 8;
-constexpr std::size_t most_pieces = 200000;  // kept of a motion without a period
-constexpr int plain_repeats = 60;            // periods followed directly before Newton's method takes over
-constexpr double closing = 1e-6;  // rad: tolerance in time for an orbit that recurs within state_match
+constexpr std::size_t most_pieces = 20000;  // kept of a motion without a period, beside its last batch
+// Ends of phases that are looked at before a motion counts as one without a period, and in one of its
+// batches: for harmonics of high order, in the cycles of others there are too many of them (a million take
+// half a second).
+constexpr int most_events = 1000000, most_events_per_batch = 25000;
+constexpr int plain_repeats = 60;  // periods followed directly before Newton's method takes over
+constexpr double closing = 1e-6;   // rad: tolerance in time for an orbit that recurs within state_match
 constexpr double repeat_match =
     1e-9;  // tolerance of displacement and impact energy per cycle, period to period
 constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
-
-void check_ranges(Conveyor const& c) {
-    using detail::require_range;
-    detail::check_ranges(c.point);
-    require_range(
-        c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
-        "static_friction", c.static_friction, "[friction, 1e6]");
-    require_range(c.restitution >= 0 && c.restitution < 1, "restitution", c.restitution, "[0, 1)");
-    require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
-                  "[1e-9, 1]");
-    require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
-                  "landing_friction", c.landing_friction.value_or(0), "[0, 1e6]");
-    require_range(c.air_drag >= 0 && c.air_drag <= 1e3, "air_drag", c.air_drag, "[0, 1000]");
-    require_range(std::abs(c.along_ratio) <= 1e3, "along_ratio", c.along_ratio, "[-1000, 1000]");
-    require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
-    for (auto const* harmonics : {&c.along, &c.normal}) {
-        for (Harmonic const& h : *harmonics) {
-            require_range(h.order >= 1 && h.order <= 1000, "order", h.order, "[1, 1000]");
-            require_range(std::abs(h.amplitude) <= 1e3, "amplitude", h.amplitude, "[-1000, 1000]");
-            require_range(std::abs(h.phase) <= 100, "phase", h.phase, "[-100, 100]");
-        }
-    }
-    require_range(c.wall_friction >= 0 && c.wall_friction <= 1e3, "wall_friction", c.wall_friction,
-                  "[0, 1000]");
-    require_range(c.wall_pressure_ratio >= 0 && c.wall_pressure_ratio <= 1, "wall_pressure_ratio",
-                  c.wall_pressure_ratio, "[0, 1]");
-    require_range(c.height_over_width >= 0 && c.height_over_width <= 1e3, "height_over_width",
-                  c.height_over_width, "[0, 1000]");
-}
-
-/// The inputs as text from which they can be reproduced.
-std::string inputs_text(Conveyor const& c) {
-    auto const number = [](char const* name, double value) {
-        return std::string(" ") + name + "=" + detail::number_text(value);
-    };
-    auto const harmonics = [&](char const* name, std::vector<Harmonic> const& all) {
-        std::string text;
-        for (Harmonic const& h : all) {
-            text += std::string(" ") + name + "=" + std::to_string(h.order) + "," +
-                    detail::number_text(h.amplitude) + "," + detail::number_text(h.phase);
-        }
-        return text;
-    };
-    return detail::inputs_text(c.point) + number("static_friction", c.static_friction) +
-           number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
-           (c.landing_friction ? number("landing_friction", *c.landing_friction) : "") +
-           number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
-           number("along_phase", c.along_phase) + harmonics("along", c.along) +
-           harmonics("normal", c.normal) + number("wall_friction", c.wall_friction) +
-           number("wall_pressure_ratio", c.wall_pressure_ratio) +
-           number("height_over_width", c.height_over_width);
-}
 
 Motion no_motion(Outcome outcome, double eta) {
     return {.velocity_efficiency = eta,
@@ -168,9 +120,10 @@ bool Solver::gravity_wins() const {
 /// The number of cycles after which the normal motion recurs; 0 when it does not. Leaves `state_` there.
 int Solver::find_normal_period() {
     std::vector<WalkState> starts;
-    for (int cycle = 0; cycle < settling + batches * cycles_per_batch; ++cycle) {
+    int events = 0;
+    for (int cycle = 0; cycle < settling + batches * cycles_per_batch && events < most_events; ++cycle) {
         starts.push_back(state_);
-        pass(state_, 1, Keep::nothing);
+        events += pass(state_, 1, Keep::nothing).events;
         rebase();
         int const n = steps_to_return(state_, starts, longest_period, normal_mismatch);
         if (n > 0) return n;
@@ -291,6 +244,8 @@ int Solver::find_batch_length() const {
     WalkState s = state_;
     std::size_t landings = 0;
     int followed = 0, cycles = cycles_per_batch;
+    int const events = pass(s, 1, Keep::nothing).events;
+    if (events * cycles > most_events_per_batch) return std::max(most_events_per_batch / events, 1);
     while (true) {
         Passage const passage = pass(s, cycles - followed, Keep::pieces);
         followed = cycles;
@@ -322,9 +277,9 @@ void Solver::add_batch(ConveyorMotion& result, Passage&& passage, int cycles_bef
 
 ConveyorMotion Solver::averaged() {
     ConveyorMotion result;
-    pass(state_, settling, Keep::nothing);
-    rebase();
     int const cycles = find_batch_length();
+    pass(state_, settling / cycles_per_batch * cycles, Keep::nothing);
+    rebase();
     std::vector<double> means;
     double const length = two_pi * cycles;
     for (int i = 0; i < batches; ++i) {
@@ -374,14 +329,14 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 }
 
 ConveyorMotion solve(Conveyor const& conveyor) {
-    check_ranges(conveyor);
+    detail::check_ranges(conveyor);
     try {
         ConveyorMotion answer = Solver(detail::with_noticeable_forces(conveyor)).solve();
         // Forces and energies are those of the conveyor itself, however weak they are.
         answer.model = std::make_shared<ConveyorModel const>(conveyor);
         return answer;
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(conveyor) + ")");
     }
 }
 

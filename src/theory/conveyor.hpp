@@ -100,7 +100,7 @@ struct ConveyorMotion {
 /// motion along the trough is then the fixed point of a map of one velocity. Two successive periods must
 /// agree to 1e-9, because long chains of rebounds amplify rounding errors. If the state does not recur within
 /// 3000 cycles, the mean of eta is given with the half-width of its confidence interval from 20 batches
-/// (Student's t). A batch has 125 cycles, or more until there are 8 flights in it.
+/// (Student's t). A batch has 125 cycles; more where flights are long, fewer where phases are very many.
 ///
 /// If static friction exceeds kinetic friction, several periodic motions can exist: the one reached from rest
 /// is given.

@@ -105,9 +105,9 @@ struct Forces {
 };
 
 /// The largest forces in contact. Every piece is looked at, because the contacts may be a small part of a
-/// period; the distance of 1/100 of the shortest quarter period costs 1e-4 of the value at most.
+/// period; the distance of 1/20 of the shortest quarter period costs 1e-3 of the value at most.
 Forces largest_forces(ConveyorMotion const& motion) {
-    double const step = shortest_stretch(motion.model->conveyor()) / 100;
+    double const step = shortest_stretch(motion.model->conveyor()) / 20;
     Forces most{};
     for (Piece const& piece : motion.pieces) {
         PieceMotion const m(*motion.model, piece);
