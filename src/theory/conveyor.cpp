@@ -27,8 +27,8 @@ constexpr int longest_period = 64;     // cycles
 constexpr int settling = 500;          // cycles skipped before averaging a motion without a period
 constexpr int batches = 20;            // number of batch means for its confidence interval
 constexpr int cycles_per_batch = 125;  // or more, so that a batch has some flights
-constexpr int most_cycles_per_batch = 1 << 24;
-constexpr std::size_t flights_per_batch = 8;
+constexpr int most_cycles_per_batch = 1000000;
+constexpr int flights_per_batch = 8;
 constexpr std::size_t most_pieces = 20000;  // kept of a motion without a period, beside its last batch
 // Ends of phases that are looked at before a motion counts as one without a period, and in one of its
 // batches: for harmonics of high order, in the cycles of others there are too many of them (a million take
@@ -102,7 +102,7 @@ class Solver {
     bool repeats(Passage const& two_periods, int cycles) const;
     ConveyorMotion periodic(int cycles);
     ConveyorMotion averaged();
-    int find_batch_length() const;
+    ConveyorMotion average(int cycles);
     void add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const;
 
     std::shared_ptr<ConveyorModel const> model_;
@@ -238,22 +238,15 @@ ConveyorMotion Solver::periodic(int cycles) {
     return result;
 }
 
-/// The number of cycles of a batch. A flight can last thousands of cycles: the mean over a part of one flight
-/// says nothing of the motion.
-int Solver::find_batch_length() const {
-    WalkState s = state_;
-    std::size_t landings = 0;
-    int followed = 0, cycles = cycles_per_batch;
-    int const events = pass(s, 1, Keep::nothing).events;
-    if (events * cycles > most_events_per_batch) return std::max(most_events_per_batch / events, 1);
-    while (true) {
-        Passage const passage = pass(s, cycles - followed, Keep::pieces);
-        followed = cycles;
-        landings += passage.impacts.size();
-        bool const flew = landings > 0 || s.flying;
-        if (!flew || landings >= flights_per_batch || cycles >= most_cycles_per_batch) return cycles;
-        cycles *= 2;
+/// rad, the longest flight. A piece that continues a flight begins with a gap.
+double longest_flight(std::vector<Piece> const& pieces) {
+    double longest = 0, start = 0;
+    for (Piece const& piece : pieces) {
+        if (piece.kind != PhaseKind::flight) continue;
+        if (piece.gap == 0 || &piece == &pieces.front()) start = piece.start;
+        longest = std::max(longest, piece.end - start);
     }
+    return longest;
 }
 
 /// Adds what happened in a batch that begins so many cycles after the first one. When there is too much, what
@@ -275,11 +268,9 @@ void Solver::add_batch(ConveyorMotion& result, Passage&& passage, int cycles_bef
     }
 }
 
-ConveyorMotion Solver::averaged() {
+/// The mean over batches of so many cycles, and what happened in them.
+ConveyorMotion Solver::average(int cycles) {
     ConveyorMotion result;
-    int const cycles = find_batch_length();
-    pass(state_, settling / cycles_per_batch * cycles, Keep::nothing);
-    rebase();
     std::vector<double> means;
     double const length = two_pi * cycles;
     for (int i = 0; i < batches; ++i) {
@@ -296,6 +287,23 @@ ConveyorMotion Solver::averaged() {
     result.cycles_followed = batches * cycles;
     result.motion = no_motion(Outcome::unsettled, mean);
     return result;
+}
+
+/// A flight can last thousands of cycles, and the mean over a part of one says nothing of the motion: the
+/// batches become longer until there is room for some flights in each.
+ConveyorMotion Solver::averaged() {
+    WalkState begin = state_;
+    int const events = pass(begin, 1, Keep::nothing).events;
+    int cycles = std::clamp(most_events_per_batch / std::max(events, 1), 1, cycles_per_batch);
+    while (true) {
+        pass(state_, settling * cycles / cycles_per_batch, Keep::nothing);
+        rebase();
+        ConveyorMotion result = average(cycles);
+        if (longest_flight(result.pieces) * flights_per_batch <= two_pi * cycles ||
+            cycles >= most_cycles_per_batch)
+            return result;
+        cycles *= 4;
+    }
 }
 
 ConveyorMotion Solver::solve() {
