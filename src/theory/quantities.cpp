@@ -226,12 +226,13 @@ double angular_frequency(PointMass const& point, Machine const& machine) {
 EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine const& machine) {
     require_pieces(motion);
     Conveyor const& conveyor = motion.model->conveyor();
-    auto const [along, normal] = weights(conveyor);
     EngineerQuantities q{};
     q.angular_frequency = angular_frequency(conveyor.point, machine);
     q.frequency = q.angular_frequency / two_pi;
     double const speed = q.angular_frequency * machine.amplitude;  // omega r
-    double const vx = speed * std::sqrt(along), vy = speed * std::sqrt(normal);
+    // Not from the squares: that of the smallest vibration angles is zero.
+    double const tangent = conveyor.point.tan_vibration_angle, cosine = 1 / std::hypot(1, tangent);
+    double const vx = speed * cosine, vy = speed * cosine * tangent;
     q.conveying_speed = motion.motion.velocity_efficiency * vx;
     q.stroke = 2 * machine.amplitude;
     double const mass_per_area = machine.bulk_density * machine.layer_height;

@@ -1,5 +1,5 @@
-// A campaign file in a folder with the files that it names: a measured waveform, a clump, points. Whatever they
-// hold, they are read, or refused with an InputError of one line.
+// A campaign file in a folder with the files that it names: a measured waveform, a clump, points. Whatever
+// they hold, they are read, or refused with an InputError of one line.
 
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
@@ -66,7 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
         scenario::Scenario const& first = campaign.cases.front();
         check_motion(first.trough);
         check_clump(first.grains);
-        // What was taken must come back: a case as a campaign file of its own, with its files, is the same case.
+        // What was taken must come back: a case as a campaign file of its own, with its files, is the same
+        // case.
         std::string const frozen = to_toml(first);
         scenario::FileSource const source{"/no-such-folder", named_files(first)};
         require(to_toml(scenario::parse_campaign(frozen, "frozen.toml", source).cases.front()) == frozen);

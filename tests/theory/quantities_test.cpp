@@ -204,6 +204,19 @@ TEST(Quantities, AreInSiUnits) {
     EXPECT_GT(q.impact_speed, q.normal_impact_speed * 0.999);
 }
 
+// The trough carries the weight of a resting mass at any vibration angle: N = g cos(alpha) and more while it
+// accelerates upwards. The square of the tangent underflows.
+TEST(Quantities, TheWeightDoesNotVanishWithTheVibrationAngle) {
+    for (double const tangent : {1e-3, 1e-160, 1e-300}) {
+        Conveyor conveyor{};
+        conveyor.point = {4 * tangent, tangent, 0, 0.3};  // K = 4
+        EngineerQuantities const q = engineer_quantities(solve_plastic(conveyor, Detail::pieces),
+                                                         {.amplitude = 0.006, .gravity = 9.81});
+        EXPECT_NEAR(q.largest_normal_force, 9.81 * (1 + 4 * tangent), 1e-2 * 9.81 * 4 * tangent + 1e-9);
+        EXPECT_NEAR(q.largest_tangential_force, 0.3 * q.largest_normal_force, 1e-9 + 1e-2 * tangent);
+    }
+}
+
 // Without a layer there is no mass flow, which is not the same as a mass flow of zero.
 TEST(Quantities, WithoutALayerThereIsNoMassFlow) {
     Conveyor conveyor{};
