@@ -172,7 +172,8 @@ std::string to_string(Outcome outcome) {
         case Outcome::periodic:
             return "the motion is periodic";
         case Outcome::runs_away:
-            return "the mass runs away downhill: |tan(alpha)| is larger than mu, so there is no steady speed";
+            return "the mass runs away downhill: gravity is stronger than friction, so there is no steady "
+                   "speed";
         case Outcome::indifferent:
             return "without friction on a level trough no force drives the mass: it keeps its initial speed";
         case Outcome::unsettled:
