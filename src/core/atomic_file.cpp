@@ -1,6 +1,7 @@
 #include "core/atomic_file.hpp"
 
 #include "core/error.hpp"
+#include "core/own_place.hpp"
 #include "core/time.hpp"
 
 #include <algorithm>
@@ -8,8 +9,10 @@
 #include <cstring>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -56,21 +59,62 @@ class Descriptor {
 
 enum class Sync { yes, no };
 
+constexpr char const* temporary_mark = ".part-";
+
 /// The name of the temporary file. The host name is needed because machines that share a file system may use
 /// the same process number.
 std::string temporary_name(std::string const& name) {
-    return name + ".part-" + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
+    return name + temporary_mark + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
+}
+
+/// Opens a new file, which is locked until it is closed: see remove_remains().
+int open_new(int folder, std::string const& name) {
+    constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    for (int i = 0; i < 3; ++i) {
+        int const opened = ::openat(folder, name.c_str(), flags, 0666);
+        if (opened < 0 && errno != EEXIST) return -1;
+        struct stat status {};
+        if (opened >= 0) {
+            ::flock(opened, LOCK_EX);
+            if (::fstat(opened, &status) == 0 && status.st_nlink > 0) return opened;
+            ::close(opened);  // another process took it for a remnant before it was locked
+            continue;
+        }
+        // Of an earlier process of the same number, or planted: it is removed and not written into.
+        ::unlinkat(folder, name.c_str(), 0);
+    }
+    errno = EEXIST;
+    return -1;
+}
+
+/// Removes what a killed process left of a temporary file. A process that still writes it holds its lock,
+/// whatever its number and on whichever machine.
+void remove_remnant(int folder, char const* name) {
+    Descriptor const file(::openat(folder, name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (file.is_open() && ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) &&
+        ::flock(file.number(), LOCK_EX | LOCK_NB) == 0)
+        ::unlinkat(folder, name, 0);
+}
+
+/// Removes what killed processes left of a file. That it cannot be removed does no harm.
+void remove_remains(ParentFolder const& parent) {
+    int const copy = ::openat(parent.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR* const stream = copy < 0 ? nullptr : ::fdopendir(copy);
+    if (stream == nullptr) {
+        if (copy >= 0) ::close(copy);
+        return;
+    }
+    std::string const begin = std::string(parent.name()) + temporary_mark;
+    while (dirent const* const entry = ::readdir(stream)) {
+        if (std::string_view(entry->d_name).starts_with(begin))
+            remove_remnant(parent.descriptor(), entry->d_name);
+    }
+    ::closedir(stream);
 }
 
 bool write_whole(ParentFolder const& parent, std::string const& name, std::string_view content, Sync sync) {
-    constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-    int opened = ::openat(parent.descriptor(), name.c_str(), flags, 0666);
-    if (opened < 0 && errno == EEXIST) {
-        // Of an earlier process of the same number, or planted: it is removed and not written into.
-        ::unlinkat(parent.descriptor(), name.c_str(), 0);
-        opened = ::openat(parent.descriptor(), name.c_str(), flags, 0666);
-    }
-    Descriptor file(opened);
+    Descriptor file(open_new(parent.descriptor(), name));
     return file.is_open() && file.write(content) && (sync == Sync::no || file.sync()) && file.close();
 }
 
@@ -78,6 +122,7 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
     ParentFolder const parent(path);
     std::string const temporary = temporary_name(path.filename().string());
     int const folder = parent.descriptor();
+    if (parent.is_open() && lies_in_own_folder(path)) remove_remains(parent);
     bool const written = parent.is_open() && write_whole(parent, temporary, content, sync) &&
                          ::renameat(folder, temporary.c_str(), folder, parent.name()) == 0;
     if (written) {

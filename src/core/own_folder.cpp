@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_place.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -174,6 +175,10 @@ void make_folder_below(Place const& place, fs::path const& path) {
 }
 
 }  // namespace
+
+bool lies_in_own_folder(fs::path const& path) {
+    return find_place(path.has_parent_path() ? path.parent_path() : fs::path(".")).has_value();
+}
 
 OwnFolder::OwnFolder(fs::path const& folder) {
     Handle opened(open_folder(folder, folder_flags));

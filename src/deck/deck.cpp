@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
+#include "deck/deck_folder.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
 #include "deck/trough_mesh.hpp"
@@ -124,8 +125,7 @@ void write_files(std::map<std::string, std::string> const& files, std::filesyste
 
 void write_deck(Deck const& deck, std::filesystem::path const& folder, int ranks) {
     write_files(for_ranks(deck.files, ranks), folder);
-    // The engine does not make folders.
-    if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
+    make_frame_folder(deck, folder);
 }
 
 }  // namespace vibrotrough::deck

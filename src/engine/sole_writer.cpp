@@ -4,6 +4,7 @@
 #include "core/own_folder.hpp"
 #include "core/time.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -65,9 +66,8 @@ bool writes_below(fs::path const& process, std::string const& folder) {
     return false;
 }
 
-/// Processes of this machine that work in the folder and write there. MPI's ranks close the lock that they
-/// inherit, and end some seconds after the program that had started them.
-std::vector<int> writers_in(fs::path const& folder) {
+/// Processes of this machine, besides this one, that work in the folder.
+std::vector<int> processes_in(fs::path const& folder) {
     std::vector<int> found;
     std::error_code ended;
     std::string const place = fs::canonical(folder, ended).string();
@@ -78,10 +78,27 @@ std::vector<int> writers_in(fs::path const& folder) {
         auto const [end, failure] = std::from_chars(name.data(), name.data() + name.size(), number);
         if (failure != std::errc() || end != name.data() + name.size() || number == ::getpid()) continue;
         std::error_code none;
-        if (fs::read_symlink(process.path() / "cwd", none) == place && writes_below(process.path(), place))
-            found.push_back(number);
+        if (fs::read_symlink(process.path() / "cwd", none) == place) found.push_back(number);
     }
     return found;
+}
+
+/// Those of them that write there. MPI's ranks close the lock that they inherit, and end some seconds after
+/// the program that had started them.
+std::vector<int> writers_in(fs::path const& folder) {
+    std::vector<int> found = processes_in(folder);
+    std::error_code ended;
+    std::string const place = fs::canonical(folder, ended).string();
+    std::erase_if(found, [&](int number) {
+        return ended || !writes_below(fs::path("/proc") / std::to_string(number), place);
+    });
+    return found;
+}
+
+/// Whether a process of the group works in the folder. The number in the file may be that of a group that
+/// has ended, and meanwhile belong to a stranger.
+bool group_works_in(fs::path const& folder, pid_t group) {
+    return std::ranges::any_of(processes_in(folder), [&](int number) { return ::getpgid(number) == group; });
 }
 
 [[noreturn]] void refuse(fs::path const& folder) {
@@ -102,11 +119,12 @@ bool wait_until(Question const& question) {
     return true;
 }
 
-/// Takes the lock. Whoever still holds it belongs to an engine that this program had started: its process
-/// group keeps its number as long as it has a member, so that no other process can be hit.
-bool take(int descriptor) {
+/// Takes the lock. Whoever still holds it was started by an engine of this program. Its process group is
+/// killed if one of its members works in the folder.
+bool take(int descriptor, fs::path const& folder) {
     if (try_lock(descriptor)) return true;
-    if (auto const group = group_in(descriptor)) ::kill(-*group, SIGKILL);
+    auto const group = group_in(descriptor);
+    if (group && group_works_in(folder, *group)) ::kill(-*group, SIGKILL);
     return wait_until([&] { return try_lock(descriptor); });
 }
 
@@ -115,9 +133,17 @@ bool take(int descriptor) {
 void make_sole_writer(fs::path const& folder) {
     int const descriptor = open_writer_file(folder, 0);
     if (descriptor < 0) return;  // nobody has written here yet
-    bool const taken = take(descriptor);
+    bool const taken = take(descriptor, folder);
     ::close(descriptor);
     if (!taken || !wait_until([&] { return writers_in(folder).empty(); })) refuse(folder);
+}
+
+bool has_writer(fs::path const& folder) {
+    int const descriptor = open_writer_file(folder, 0);
+    if (descriptor < 0) return false;
+    bool const held = !try_lock(descriptor) && errno == EWOULDBLOCK;
+    ::close(descriptor);
+    return held;
 }
 
 WriterLock::WriterLock(fs::path const& folder) : descriptor_(open_writer_file(folder, O_CREAT)) {
@@ -126,7 +152,7 @@ WriterLock::WriterLock(fs::path const& folder) : descriptor_(open_writer_file(fo
                                              (folder / writer_file).string(), core::reason_of_errno()));
     }
     // A file system that knows no locks must not keep anybody from simulating.
-    if (take(descriptor_) || (errno != EWOULDBLOCK && errno != EINTR)) return;
+    if (take(descriptor_, folder) || (errno != EWOULDBLOCK && errno != EINTR)) return;
     ::close(descriptor_);
     refuse(folder);
 }

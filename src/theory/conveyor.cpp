@@ -1,14 +1,16 @@
 #include "theory/conveyor.hpp"
 
+#include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/conveyor_walk.hpp"
-#include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/plastic_orbit.hpp"
 #include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -21,67 +23,24 @@ using detail::Walk;
 using detail::WalkState;
 using Keep = Walk::Keep;
 
-constexpr int longest_period = 64;  // cycles
-constexpr int settling = 500;       // cycles skipped before averaging a motion without a period
-constexpr int batches = 20;         // number of batch means for its confidence interval
-constexpr int cycles_per_batch = 125;
+constexpr int longest_period = 64;     // cycles
+constexpr int settling = 500;          // cycles skipped before averaging a motion without a period
+constexpr int batches = 20;            // number of batch means for its confidence interval
+constexpr int cycles_per_batch = 125;  // or more, so that a batch has some flights
+constexpr int most_cycles_per_batch = 1000000;
+constexpr int flights_per_batch = 8;
+constexpr std::size_t most_pieces = 20000;  // kept of a motion without a period, beside its last batch
+// Ends of phases that are looked at before a motion counts as one without a period, and in one of its
+// batches: for harmonics of high order, in the cycles of others there are too many of them (a million take
+// half a second).
+constexpr int most_events = 1000000, most_events_per_batch = 25000;
 constexpr int plain_repeats = 60;  // periods followed directly before Newton's method takes over
-constexpr double closing = 1e-6;   // rad: tolerance in time for an orbit that recurs within state_match
+constexpr double least_drift =
+    1e-9;  // of the velocity per period, beyond rounding at the speed at which it is looked at
+constexpr double closing = 1e-6;  // rad: tolerance in time for an orbit that recurs within state_match
 constexpr double repeat_match =
     1e-9;  // tolerance of displacement and impact energy per cycle, period to period
 constexpr double state_match = 1e-11;  // tolerance of gap, its rate and slip velocity, in their units
-
-void check_ranges(Conveyor const& c) {
-    using detail::require_range;
-    detail::check_ranges(c.point);
-    require_range(
-        c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
-        "static_friction", c.static_friction, "[friction, 1e6]");
-    require_range(c.restitution >= 0 && c.restitution < 1, "restitution", c.restitution, "[0, 1)");
-    require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
-                  "[1e-9, 1]");
-    require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
-                  "landing_friction", c.landing_friction.value_or(0), "[0, 1e6]");
-    require_range(c.air_drag >= 0 && c.air_drag <= 1e3, "air_drag", c.air_drag, "[0, 1000]");
-    require_range(std::abs(c.along_ratio) <= 1e3, "along_ratio", c.along_ratio, "[-1000, 1000]");
-    require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
-    for (auto const* harmonics : {&c.along, &c.normal}) {
-        for (Harmonic const& h : *harmonics) {
-            require_range(h.order >= 1 && h.order <= 1000, "order", h.order, "[1, 1000]");
-            require_range(std::abs(h.amplitude) <= 1e3, "amplitude", h.amplitude, "[-1000, 1000]");
-            require_range(std::abs(h.phase) <= 100, "phase", h.phase, "[-100, 100]");
-        }
-    }
-    require_range(c.wall_friction >= 0 && c.wall_friction <= 1e3, "wall_friction", c.wall_friction,
-                  "[0, 1000]");
-    require_range(c.wall_pressure_ratio >= 0 && c.wall_pressure_ratio <= 1, "wall_pressure_ratio",
-                  c.wall_pressure_ratio, "[0, 1]");
-    require_range(c.height_over_width >= 0 && c.height_over_width <= 1e3, "height_over_width",
-                  c.height_over_width, "[0, 1000]");
-}
-
-/// The inputs as text from which they can be reproduced.
-std::string inputs_text(Conveyor const& c) {
-    auto const number = [](char const* name, double value) {
-        return std::string(" ") + name + "=" + detail::number_text(value);
-    };
-    auto const harmonics = [&](char const* name, std::vector<Harmonic> const& all) {
-        std::string text;
-        for (Harmonic const& h : all) {
-            text += std::string(" ") + name + "=" + std::to_string(h.order) + "," +
-                    detail::number_text(h.amplitude) + "," + detail::number_text(h.phase);
-        }
-        return text;
-    };
-    return detail::inputs_text(c.point) + number("static_friction", c.static_friction) +
-           number("restitution", c.restitution) + number("slowest_rebound", c.slowest_rebound) +
-           (c.landing_friction ? number("landing_friction", *c.landing_friction) : "") +
-           number("air_drag", c.air_drag) + number("along_ratio", c.along_ratio) +
-           number("along_phase", c.along_phase) + harmonics("along", c.along) +
-           harmonics("normal", c.normal) + number("wall_friction", c.wall_friction) +
-           number("wall_pressure_ratio", c.wall_pressure_ratio) +
-           number("height_over_width", c.height_over_width);
-}
 
 Motion no_motion(Outcome outcome, double eta) {
     return {.velocity_efficiency = eta,
@@ -145,6 +104,8 @@ class Solver {
     bool repeats(Passage const& two_periods, int cycles) const;
     ConveyorMotion periodic(int cycles);
     ConveyorMotion averaged();
+    ConveyorMotion average(int cycles);
+    void add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const;
 
     std::shared_ptr<ConveyorModel const> model_;
     Walk walk_;
@@ -161,9 +122,10 @@ bool Solver::gravity_wins() const {
 /// The number of cycles after which the normal motion recurs; 0 when it does not. Leaves `state_` there.
 int Solver::find_normal_period() {
     std::vector<WalkState> starts;
-    for (int cycle = 0; cycle < settling + batches * cycles_per_batch; ++cycle) {
+    int events = 0;
+    for (int cycle = 0; cycle < settling + batches * cycles_per_batch && events < most_events; ++cycle) {
         starts.push_back(state_);
-        pass(state_, 1, Keep::nothing);
+        events += pass(state_, 1, Keep::nothing).events;
         rebase();
         int const n = steps_to_return(state_, starts, longest_period, normal_mismatch);
         if (n > 0) return n;
@@ -203,6 +165,14 @@ int Solver::settle_along(int cycles) {
         pass(s, cycles, Keep::nothing);
         return detail::Tangent{s.v, s.slope};
     };
+    // The drift per period never increases with v. Where the mass is so fast that it never stops, it is the
+    // same at any speed, and where gravity wins there, it wins everywhere: landings may have less friction
+    // than slides.
+    double const fast = 1e4 * (1 + model_->trough_vx_bound());
+    if (map(fast).v - fast > least_drift || map(-fast).v + fast < -least_drift) {
+        runs_away_ = true;
+        return 0;
+    }
     state_.v = detail::fixed_point(map, start.v, 1e-14).v;
     state_.starting = 0;
     return cycles;
@@ -278,27 +248,80 @@ ConveyorMotion Solver::periodic(int cycles) {
     return result;
 }
 
-ConveyorMotion Solver::averaged() {
+/// rad, the longest flight. A piece that continues a flight begins with a gap.
+double longest_flight(std::vector<Piece> const& pieces) {
+    double longest = 0, start = 0;
+    for (Piece const& piece : pieces) {
+        if (piece.kind != PhaseKind::flight) continue;
+        if (piece.gap == 0 || &piece == &pieces.front()) start = piece.start;
+        longest = std::max(longest, piece.end - start);
+    }
+    return longest;
+}
+
+/// Adds what happened in a batch that begins so many cycles after the first one. When there is too much, what
+/// was there before is forgotten.
+void Solver::add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const {
+    if (result.pieces.size() > most_pieces) {
+        result.pieces.clear();
+        result.impacts.clear();
+    }
+    double const shift = two_pi * cycles_before;
+    for (Piece& piece : passage.pieces) {
+        piece.start += shift;
+        piece.end += shift;
+        result.pieces.push_back(piece);
+    }
+    for (Impact& impact : passage.impacts) {
+        impact.t += shift;
+        result.impacts.push_back(impact);
+    }
+}
+
+/// The mean over batches of so many cycles, and what happened in them.
+ConveyorMotion Solver::average(int cycles) {
     ConveyorMotion result;
-    pass(state_, settling, Keep::nothing);
-    rebase();
     std::vector<double> means;
-    double const length = two_pi * cycles_per_batch;
+    bool stopped = model_->drag() > 0;
+    double const length = two_pi * cycles;
     for (int i = 0; i < batches; ++i) {
-        means.push_back(pass(state_, cycles_per_batch, Keep::nothing).displacement / length);
+        Passage passage = pass(state_, cycles, Keep::pieces);
+        means.push_back(passage.displacement / length);
+        stopped = stopped || passage.stopped;
+        add_batch(result, std::move(passage), i * cycles);
         rebase();
     }
+    // The mass is faster from batch to batch and never stops. (20 means are in order by chance once in 1e18
+    // times.)
+    double const downhill = -std::copysign(1.0, model_->gravity());
+    bool const fast = downhill * state_.v > 10 * (1 + model_->trough_vx_bound());
+    runs_away_ =
+        fast && !stopped && std::ranges::is_sorted(means, {}, [&](double m) { return downhill * m; });
     double mean = 0, square = 0;
     for (double const m : means) mean += m / batches;
     for (double const m : means) square += (m - mean) * (m - mean) / (batches - 1);
     boost::math::students_t const student(batches - 1);
     result.half_width = boost::math::quantile(student, 0.975) * std::sqrt(square / batches);
-    result.cycles_followed = batches * cycles_per_batch;
+    result.cycles_followed = batches * cycles;
     result.motion = no_motion(Outcome::unsettled, mean);
-    Passage last = pass(state_, cycles_per_batch, Keep::pieces);
-    result.pieces = std::move(last.pieces);
-    result.impacts = std::move(last.impacts);
     return result;
+}
+
+/// A flight can last thousands of cycles, and the mean over a part of one says nothing of the motion: the
+/// batches become longer until there is room for some flights in each.
+ConveyorMotion Solver::averaged() {
+    WalkState begin = state_;
+    int const events = pass(begin, 1, Keep::nothing).events;
+    int cycles = std::clamp(most_events_per_batch / std::max(events, 1), 1, cycles_per_batch);
+    while (true) {
+        pass(state_, settling * cycles / cycles_per_batch, Keep::nothing);
+        rebase();
+        ConveyorMotion result = average(cycles);
+        if (longest_flight(result.pieces) * flights_per_batch <= two_pi * cycles ||
+            cycles >= most_cycles_per_batch)
+            return result;
+        cycles *= 4;
+    }
 }
 
 ConveyorMotion Solver::solve() {
@@ -313,13 +336,12 @@ ConveyorMotion Solver::solve() {
     } else {
         int const normal = find_normal_period();
         int const cycles = normal > 0 ? settle_along(normal) : 0;
+        if (!runs_away_) result = cycles > 0 ? periodic(cycles) : averaged();
         if (runs_away_) {
+            result = {};
             result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
-        } else {
-            result = cycles > 0 ? periodic(cycles) : averaged();
         }
     }
-    result.model = model_;
     return result;
 }
 
@@ -333,18 +355,24 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 }
 
 ConveyorMotion solve(Conveyor const& conveyor) {
-    check_ranges(conveyor);
+    detail::check_ranges(conveyor);
     try {
-        return Solver(detail::with_noticeable_forces(conveyor)).solve();
+        ConveyorMotion answer = Solver(detail::with_noticeable_forces(conveyor)).solve();
+        // Forces and energies are those of the conveyor itself, however weak they are.
+        answer.model = std::make_shared<ConveyorModel const>(conveyor);
+        return answer;
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(conveyor) + ")");
     }
 }
 
 ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {
     ConveyorMotion answer;
-    if (detail == Detail::pieces) answer = solve(conveyor);
-    answer.motion = solve(conveyor.point);
+    detail::PlasticOrbit orbit = detail::solve_orbit(conveyor.point);
+    if (orbit.motion.outcome == Outcome::unsettled) return solve(conveyor);
+    if (detail == Detail::pieces && orbit.motion.converged) detail::add_pieces(orbit, answer);
+    answer.motion = std::move(orbit.motion);
+    answer.model = std::make_shared<ConveyorModel const>(conveyor);
     return answer;
 }
 

@@ -87,7 +87,7 @@ struct ConveyorMotion {
     Motion motion;          ///< as for a PointMass: eta, mode, phases, period
     double half_width = 0;  ///< of the 95 % confidence interval of eta if no period was found; 0 if periodic
     int cycles_followed = 0;      ///< number of cycles averaged over if no period was found
-    std::vector<Piece> pieces;    ///< of one period, or of the last cycles followed if no period was found
+    std::vector<Piece> pieces;    ///< of one period, or of the (last) cycles followed if there is none
     std::vector<Impact> impacts;  ///< in the same time span as `pieces`
     std::shared_ptr<ConveyorModel const> model;  ///< evaluates the pieces
 };
@@ -100,7 +100,7 @@ struct ConveyorMotion {
 /// motion along the trough is then the fixed point of a map of one velocity. Two successive periods must
 /// agree to 1e-9, because long chains of rebounds amplify rounding errors. If the state does not recur within
 /// 3000 cycles, the mean of eta is given with the half-width of its confidence interval from 20 batches
-/// (Student's t).
+/// (Student's t). A batch has 125 cycles; more where flights are long, fewer where phases are very many.
 ///
 /// If static friction exceeds kinetic friction, several periodic motions can exist: the one reached from rest
 /// is given.
@@ -115,7 +115,7 @@ enum class Detail {
     pieces,  ///< also the pieces and impacts, from which forces and energies follow
 };
 
-/// The same for Sloot & Kruyt's plastic point mass, for which solve(PointMass) gives the motion more exactly.
+/// The same for Sloot & Kruyt's plastic point mass, for which solve(PointMass) finds periods of any length.
 /// @param conveyor  nothing beyond the plastic point mass is set
 ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail);
 

@@ -4,6 +4,7 @@
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/plastic_orbit.hpp"
 #include "theory/detail/weak_forces.hpp"
 #include "theory/errors.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using detail::Instant;
 using detail::Law;
 using detail::NormalMotion;
+using detail::PlasticOrbit;
 using detail::two_pi;
 
 constexpr double shortest_phase = 1e-12;  // rad; shorter phases are rounding errors, not motion
@@ -91,8 +93,8 @@ Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
 }
 
 /// Without a flight: moves the start of the period from within a slide to the start of the positive slide, or
-/// of the negative slide if there is no positive one.
-void start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
+/// of the negative slide if there is no positive one. @return whether it did
+bool start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
     for (auto const first : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
         for (Phase const& phase : motion.phases) {
             if (phase.kind != first || phase.start == normal.start.t) continue;
@@ -100,36 +102,49 @@ void start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) 
             normal.end = normal.start;
             normal.end.t += two_pi;
             motion.phases = record_period(law, normal, 0);
-            return;
+            return true;
         }
     }
+    return false;
 }
 
-Motion solve_checked(PointMass const& input) {
-    if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) return endless_motion(input);
-    Law const law = detail::make_law(input);
-    NormalMotion normal;
-    bool const flies = input.throw_number > 1;
-    if (flies) {
-        detail::find_normal_motion(input.throw_number, normal);
-        if (normal.cycles == 0) return unsettled_motion(law, normal);
-    } else if (!detail::start_at_slide(law, normal)) {
-        return resting_motion();
-    }
+/// @return the velocity at the start of the recorded period
+double solve_along(PlasticOrbit& orbit, bool flies) {
+    Law const& law = orbit.law;
+    NormalMotion& normal = orbit.normal;
+    Motion& motion = orbit.motion;
     detail::Hints hints;
     auto const ignore = [](PhaseKind, Instant, Instant, double, double) {};
     auto const period = [&](double v0) { return detail::follow_period(law, normal, v0, hints, ignore); };
-    auto const start = detail::fixed_point(period, 0, 0);
-    Motion motion{.velocity_efficiency = 0,
-                  .mode = "",
-                  .phases = record_period(law, normal, start.v),
-                  .flight_number = 0,
-                  .period_cycles = normal.cycles,
-                  .converged = true,
-                  .outcome = Outcome::periodic};
-    if (!flies && start.v != 0) start_at_first_slide(motion, law, normal);
+    double const start = detail::fixed_point(period, 0, 0).v;
+    motion = {.velocity_efficiency = 0,
+              .mode = "",
+              .phases = record_period(law, normal, start),
+              .flight_number = 0,
+              .period_cycles = normal.cycles,
+              .converged = true,
+              .outcome = Outcome::periodic};
+    bool const moved = !flies && start != 0 && start_at_first_slide(motion, law, normal);
     describe(motion, normal.end.t - normal.start.t);
-    return motion;
+    return moved ? 0 : start;
+}
+
+PlasticOrbit solve_checked(PointMass const& input) {
+    PlasticOrbit orbit{.law = detail::make_law(input)};
+    if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) {
+        orbit.motion = endless_motion(input);
+        return orbit;
+    }
+    bool const flies = input.throw_number > 1;
+    if (flies) detail::find_normal_motion(input.throw_number, orbit.normal);
+    if (flies && orbit.normal.cycles == 0) {
+        orbit.motion = unsettled_motion(orbit.law, orbit.normal);
+    } else if (!flies && !detail::start_at_slide(orbit.law, orbit.normal)) {
+        orbit.motion = resting_motion();
+    } else {
+        orbit.velocity = solve_along(orbit, flies);
+    }
+    return orbit;
 }
 
 }  // namespace
@@ -157,7 +172,8 @@ std::string to_string(Outcome outcome) {
         case Outcome::periodic:
             return "the motion is periodic";
         case Outcome::runs_away:
-            return "the mass runs away downhill: |tan(alpha)| is larger than mu, so there is no steady speed";
+            return "the mass runs away downhill: gravity is stronger than friction, so there is no steady "
+                   "speed";
         case Outcome::indifferent:
             return "without friction on a level trough no force drives the mass: it keeps its initial speed";
         case Outcome::unsettled:
@@ -171,13 +187,21 @@ double machine_number(PointMass const& input) {
     return input.throw_number * std::sqrt(1 + b * b) / b / std::sqrt(1 + a * a);  // cos(alpha) / sin(beta)
 }
 
-Motion solve(PointMass const& input) {
-    detail::check_ranges(input);
+namespace detail {
+
+PlasticOrbit solve_orbit(PointMass const& input) {
+    check_ranges(input);
     try {
-        return solve_checked(detail::with_noticeable_forces(input));
+        return solve_checked(with_noticeable_forces(input));
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + inputs_text(input) + ")");
     }
+}
+
+}  // namespace detail
+
+Motion solve(PointMass const& input) {
+    return detail::solve_orbit(input).motion;
 }
 
 }  // namespace vibrotrough::theory

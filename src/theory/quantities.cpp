@@ -100,6 +100,28 @@ Weights weights(Conveyor const& conveyor) {
     return {1 / (1 + b * b), b * b / (1 + b * b)};
 }
 
+struct Forces {
+    double normal, tangential;
+};
+
+/// The largest forces in contact. Every piece is looked at, because the contacts may be a small part of a
+/// period; the distance of 1/20 of the shortest quarter period costs 1e-3 of the value at most.
+Forces largest_forces(ConveyorMotion const& motion) {
+    double const step = shortest_stretch(motion.model->conveyor()) / 20;
+    Forces most{};
+    for (Piece const& piece : motion.pieces) {
+        PieceMotion const m(*motion.model, piece);
+        if (m.flies()) continue;
+        int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / step)));
+        for (int i = 0; i <= parts; ++i) {
+            double const t = piece.start + (piece.end - piece.start) * i / parts;
+            most.normal = std::max(most.normal, m.normal_force(t));
+            most.tangential = std::max(most.tangential, std::abs(m.tangential_force(t)));
+        }
+    }
+    return most;
+}
+
 TraceSample sample_of(ConveyorModel const& model, Piece const& piece, double t, double before) {
     PieceMotion const m(model, piece);
     return {t,
@@ -162,12 +184,16 @@ EnergyBalance energy_balance(ConveyorMotion const& motion) {
     EnergyBalance sum{};
     for (Piece const& piece : motion.pieces) {
         PieceMotion const m(model, piece);
-        auto const over = [&](auto const& f) { return integral(piece, stretch, f); };
-        sum.trough_work += over([&](double t) {
-            return along * m.tangential_force(t) * model.trough_vx(t) +
-                   normal * m.normal_force(t) * model.trough_vy(t);
-        });
-        sum.friction_loss += over([&](double t) { return -along * m.tangential_force(t) * m.slip(t); });
+        // In flight the velocity changes by the drag only, within 1 / kappa; a flight may last many cycles.
+        double const step = m.flies() ? 2 / model.drag() : stretch;
+        auto const over = [&](auto const& f) { return integral(piece, step, f); };
+        if (!m.flies()) {
+            sum.trough_work += over([&](double t) {
+                return along * m.tangential_force(t) * model.trough_vx(t) +
+                       normal * m.normal_force(t) * model.trough_vy(t);
+            });
+            sum.friction_loss += over([&](double t) { return -along * m.tangential_force(t) * m.slip(t); });
+        }
         if (model.drag() > 0) {
             sum.drag_loss += model.drag() * over([&](double t) {
                                  return along * m.vx(t) * m.vx(t) + normal * m.vy(t) * m.vy(t);
@@ -190,22 +216,23 @@ EnergyBalance energy_balance(ConveyorMotion const& motion) {
 }
 
 double angular_frequency(PointMass const& point, Machine const& machine) {
-    detail::require_range(machine.amplitude > 0 && machine.amplitude <= 10, "amplitude", machine.amplitude,
-                          "(0, 10] m");
-    detail::require_range(machine.gravity > 0 && machine.gravity <= 1e3, "gravity", machine.gravity,
-                          "(0, 1000] m/s2");
+    detail::require_range(machine.amplitude >= 1e-12 && machine.amplitude <= 10, "amplitude",
+                          machine.amplitude, "[1e-12, 10] m");
+    detail::require_range(machine.gravity >= 1e-6 && machine.gravity <= 1e3, "gravity", machine.gravity,
+                          "[1e-6, 1000] m/s2");
     return std::sqrt(machine_number(point) * machine.gravity / machine.amplitude);
 }
 
 EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine const& machine) {
     require_pieces(motion);
     Conveyor const& conveyor = motion.model->conveyor();
-    auto const [along, normal] = weights(conveyor);
     EngineerQuantities q{};
     q.angular_frequency = angular_frequency(conveyor.point, machine);
     q.frequency = q.angular_frequency / two_pi;
     double const speed = q.angular_frequency * machine.amplitude;  // omega r
-    double const vx = speed * std::sqrt(along), vy = speed * std::sqrt(normal);
+    // Not from the squares: that of the smallest vibration angles is zero.
+    double const tangent = conveyor.point.tan_vibration_angle, cosine = 1 / std::hypot(1, tangent);
+    double const vx = speed * cosine, vy = speed * cosine * tangent;
     q.conveying_speed = motion.motion.velocity_efficiency * vx;
     q.stroke = 2 * machine.amplitude;
     double const mass_per_area = machine.bulk_density * machine.layer_height;
@@ -224,12 +251,9 @@ EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine con
     q.trough_work = energy.trough_work * speed * speed;
     q.mean_power = q.trough_work * q.frequency;
     if (mass_per_area > 0) q.power_per_area = q.mean_power * mass_per_area;
-    int const samples = 2000;
-    for (TraceSample const& s : trace(motion, samples)) {
-        q.largest_normal_force = std::max(q.largest_normal_force, s.normal_force * q.angular_frequency * vy);
-        q.largest_tangential_force =
-            std::max(q.largest_tangential_force, std::abs(s.tangential_force) * q.angular_frequency * vx);
-    }
+    auto const [push, drag] = largest_forces(motion);
+    q.largest_normal_force = push * q.angular_frequency * vy;
+    q.largest_tangential_force = drag * q.angular_frequency * vx;
     return q;
 }
 

@@ -4,9 +4,15 @@
 #include "core/temporary_folder.hpp"
 
 #include <csignal>
+#include <fstream>
+#include <string>
+#include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace vibrotrough {
 namespace {
@@ -47,6 +53,31 @@ TEST_F(AtomicFile, FailsOnPathsThatCannotBeUsed) {
     EXPECT_THROW(core::read_file(folder), core::MissingError);
     core::write_file_atomically(folder / "file", "");
     EXPECT_THROW(core::make_folder(folder / "file" / "below"), core::MissingError);
+}
+
+// A temporary file belongs to whoever holds its lock. The number in its name may be that of a living process
+// (this one), and the machine another.
+TEST_F(AtomicFile, RemovesWhatAKilledProcessLeftOfAFile) {
+    std::string const number = std::to_string(::getpid());
+    for (std::string const& name :
+         std::vector<std::string>{"a.part-elsewhere-1", "a.part-here-" + number, "b.part-elsewhere-1"})
+        std::ofstream(folder / name) << "half";
+    core::write_file_atomically(folder / "a", "whole");
+    EXPECT_TRUE(fs::exists(folder / "a.part-elsewhere-1")) << "in a folder that is not ours, it is a user's";
+    core::OwnFolder const own(folder);
+    int const living = ::open((folder / "a.part-living-1").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    ASSERT_EQ(::flock(living, LOCK_EX), 0);
+    fs::create_symlink(folder / "b.part-elsewhere-1", folder / "a.part-link");
+    core::replace_file(folder / "a", "whole");
+    EXPECT_FALSE(fs::exists(folder / "a.part-elsewhere-1"));
+    EXPECT_FALSE(fs::exists(folder / ("a.part-here-" + number)));
+    EXPECT_TRUE(fs::exists(folder / "a.part-living-1")) << "somebody still writes it";
+    EXPECT_TRUE(fs::is_symlink(folder / "a.part-link"));
+    EXPECT_EQ(core::read_file(folder / "b.part-elsewhere-1"), "half") << "it is another file's";
+    ::close(living);
+    core::write_file_atomically(folder / "a", "whole");
+    EXPECT_FALSE(fs::exists(folder / "a.part-living-1"));
+    EXPECT_EQ(core::read_file(folder / "a"), "whole");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
  *
  *   VIBROTROUGH_FAULT_PROGRAM   name of the process (comm)
  *   VIBROTROUGH_FAULT_BELOW     only calls whose file lies below this folder count; unset: all
+ *   VIBROTROUGH_FAULT_NAMED     only calls whose file has this text in its path count; unset: all
  *   VIBROTROUGH_FAULT_AT        number of the call that fails, from 1; 0: none
- *   VIBROTROUGH_FAULT_ERROR     errno of the failure, or "short": a write that writes one byte only
+ *   VIBROTROUGH_FAULT_ERROR     errno of the failure, or "short": a write that writes one byte only, or "kill": SIGKILL at
+ *                               the call, or "torn": SIGKILL when a write has written half
  *   VIBROTROUGH_FAULT_COUNT     file that receives one line per call: its kind and its file
  */
 #define _GNU_SOURCE
@@ -13,6 +15,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,8 +27,8 @@
 
 static int is_watched = -1, count_file = -1;
 static long calls, fails_at;
-static int error = EIO, is_short;
-static const char* below;
+static int error = EIO, is_short, is_kill, is_torn;
+static const char *below, *named;
 static pid_t watched;
 
 /* The real syscall(), because this library has one of its own. */
@@ -51,11 +54,14 @@ static void read_settings(void) {
     if (!is_watched) return;
     watched = getpid();
     below = getenv("VIBROTROUGH_FAULT_BELOW");
+    named = getenv("VIBROTROUGH_FAULT_NAMED");
     char const* const at = getenv("VIBROTROUGH_FAULT_AT");
     fails_at = at == NULL ? 0 : strtol(at, NULL, 10);
     char const* const kind = getenv("VIBROTROUGH_FAULT_ERROR");
     is_short = kind != NULL && strcmp(kind, "short") == 0;
-    if (kind != NULL && !is_short) error = (int)strtol(kind, NULL, 10);
+    is_kill = kind != NULL && strcmp(kind, "kill") == 0;
+    is_torn = kind != NULL && strcmp(kind, "torn") == 0;
+    if (kind != NULL && !is_short && !is_kill && !is_torn) error = (int)strtol(kind, NULL, 10);
     char const* const path = getenv("VIBROTROUGH_FAULT_COUNT");
     if (path != NULL) count_file = (int)kernel(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     /* Children are not watched: the library need not be loaded there. */
@@ -67,12 +73,14 @@ static int is_due(char const* kind, char const* file) {
     if (is_watched < 0) read_settings();
     if (!is_watched || getpid() != watched) return 0;
     if (below != NULL && file != NULL && strncmp(file, below, strlen(below)) != 0) return 0;
+    if (named != NULL && (file == NULL || strstr(file, named) == NULL)) return 0;
     long const number = __atomic_add_fetch(&calls, 1, __ATOMIC_SEQ_CST);
     if (count_file >= 0) {
         char line[PATH_MAX + 40];
         int const length = snprintf(line, sizeof line, "%ld %s %s\n", number, kind, file == NULL ? "" : file);
         kernel(SYS_write, count_file, line, (size_t)length);
     }
+    if (number == fails_at && is_kill) kernel(SYS_kill, watched, SIGKILL);
     return number == fails_at;
 }
 
@@ -110,6 +118,10 @@ static int fail(void) {
 ssize_t write(int descriptor, void const* bytes, size_t length) {
     char place[PATH_MAX];
     if (descriptor > 2 && is_due("write", path_of(descriptor, place))) {
+        if (is_torn) {
+            kernel(SYS_write, descriptor, bytes, length / 2);
+            kernel(SYS_kill, watched, SIGKILL);
+        }
         if (!is_short) return fail();
         return kernel(SYS_write, descriptor, bytes, length > 1 ? 1 : length);
     }

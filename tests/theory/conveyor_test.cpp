@@ -3,6 +3,7 @@
 #include "stepped_conveyor.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -185,6 +186,28 @@ TEST(Conveyor, StaticFrictionHoldsOnASlope) {
     // With air drag a steady speed exists.
     conveyor.air_drag = 0.1;
     EXPECT_TRUE(solve(conveyor).motion.converged);
+}
+
+// In a motion with flights most of the weight is carried by impacts. When these have no friction, the slides
+// between them do not hold the mass on a slope, although mu > |tan(alpha)|; the number of a period at -1e13
+// was believed.
+TEST(Conveyor, RunsAwayWhenLandingsHaveNoFriction) {
+    Conveyor c{};
+    c.point = {6, 0.25, 0.05, 0.3};
+    c.landing_friction = 1e-300;
+    ConveyorMotion const motion = solve(c);
+    EXPECT_EQ(motion.motion.outcome, Outcome::runs_away);
+    EXPECT_EQ(motion.motion.velocity_efficiency, -std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(motion.pieces.empty());
+    c.point.tan_inclination = -0.05;
+    EXPECT_EQ(solve(c).motion.velocity_efficiency, std::numeric_limits<double>::infinity());
+    c.point.tan_inclination = 0.05;
+    c.restitution = 0.9;  // without a period
+    EXPECT_EQ(solve(c).motion.outcome, Outcome::runs_away);
+    c.landing_friction = 0.3;
+    EXPECT_TRUE(std::isfinite(solve(c).motion.velocity_efficiency));
+    c.restitution = 0;
+    EXPECT_TRUE(std::isfinite(solve(c).motion.velocity_efficiency));
 }
 
 }  // namespace

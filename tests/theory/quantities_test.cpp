@@ -4,6 +4,7 @@
 #include "theory/design.hpp"
 #include "theory/sensitivity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,84 @@ RC_GTEST_PROP(EnergyBalance, WorkOfTheTroughIsLossesAndLift, ()) {
     RC_ASSERT(std::abs(energy.residual()) < 1e-9 * motion.motion.period_cycles);
     RC_ASSERT(energy.friction_loss >= -1e-12);
     RC_ASSERT(energy.impact_loss >= 0);
+}
+
+// The same balance for the plastic point mass over its whole range. Above Gamma = 3.297 the mass takes off
+// again at once, so that a period may last thousands of cycles, most of them in flight. Tolerance: 1e-9 of
+// the largest energy; at 1e5 rad a time is rounded to 1e-11, which changes a velocity by as much. Beside 1 /
+// Gamma, the energy that gravity has in one cycle.
+RC_GTEST_PROP(EnergyBalance, HoldsForThePlasticMassWithFlightsOfAnyLength, ()) {
+    double const mu = std::pow(10, between(-3, 1));
+    Conveyor conveyor{};
+    conveyor.point = {std::pow(10, between(-1, 4)), std::pow(10, between(-2, 1)), between(-0.9, 0.9) * mu,
+                      mu};
+    ConveyorMotion const motion = solve_plastic(conveyor, Detail::pieces);
+    RC_PRE(motion.motion.converged);
+    EnergyBalance const energy = energy_balance(motion);
+    PointMass const& p = conveyor.point;
+    RC_LOG() << "Gamma " << p.throw_number << " tan(beta) " << p.tan_vibration_angle << " tan(alpha) "
+             << p.tan_inclination << " mu " << p.friction << " mode " << motion.motion.mode << " cycles "
+             << motion.motion.period_cycles << " work " << energy.trough_work << " friction "
+             << energy.friction_loss << " impacts " << energy.impact_loss << " lift " << energy.lift;
+    double const scale = std::max({energy.trough_work, energy.friction_loss, energy.impact_loss,
+                                   std::abs(energy.lift), 1 / p.throw_number});
+    RC_ASSERT(std::abs(energy.residual()) < 1e-9 * scale);
+    std::size_t flights = 0;
+    for (Phase const& phase : motion.motion.phases) flights += phase.kind == PhaseKind::flight ? 1 : 0;
+    RC_ASSERT(motion.impacts.size() == flights);
+    double moved = 0;
+    for (Piece const& piece : motion.pieces) moved += piece.displacement;
+    double const length = motion.pieces.back().end - motion.pieces.front().start;
+    RC_ASSERT(std::abs(moved / length - motion.motion.velocity_efficiency) <
+              1e-9 * (1 + std::abs(motion.motion.velocity_efficiency)));
+}
+
+// A flight of 3183 cycles, with which the energies of a part of it were shown: all of them were 0.
+TEST(EnergyBalance, DoesNotEndWithinAFlight) {
+    Conveyor conveyor{};
+    conveyor.point = {1e4, 0.25, 0.05, 0.3};
+    ConveyorMotion const motion = solve_plastic(conveyor, Detail::pieces);
+    EXPECT_EQ(motion.half_width, 0) << "the motion is periodic";
+    EXPECT_GT(motion.motion.flight_number, 3000);
+    EngineerQuantities const q = engineer_quantities(motion, {.amplitude = 4.575});
+    EXPECT_GT(q.impact_energy, 0);
+    EXPECT_GT(q.trough_work, q.impact_energy);
+    EXPECT_GT(q.impact_speed, 0);
+    EXPECT_GT(q.largest_normal_force, 0);
+    EXPECT_NEAR(q.impacts_per_cycle * motion.motion.period_cycles, 5, 1e-9);
+}
+
+// Where no period is found, the energies are those of the cycles of which the speed is the mean: the balance
+// closes with the energy of the mass at their end minus that at their begin, E = u^2 / 2 + g x + (w^2 / 2 + g
+// y), in the units of the two directions. Tolerance: as above, and 1e-12 for each rebound below
+// slowest_rebound.
+RC_GTEST_PROP(EnergyBalance, HoldsOverTheCyclesThatAreAveraged, ()) {
+    double const mu = between(0.1, 0.8);
+    Conveyor conveyor{};
+    conveyor.point = {std::pow(10, between(0.5, 4)), std::tan(between(5, 70) * pi / 180),
+                      between(-0.8, 0.8) * mu, mu};
+    conveyor.restitution = between(0.3, 0.95);
+    ConveyorMotion const motion = solve(conveyor);
+    RC_PRE(motion.motion.outcome == Outcome::unsettled);
+    double const tangent = conveyor.point.tan_vibration_angle, weight = 1 / conveyor.point.throw_number;
+    double const along = 1 / (1 + tangent * tangent), normal = 1 - along;
+    double const gravity = conveyor.point.tan_inclination * tangent * weight;
+    auto const samples = trace(motion, 2);
+    auto const stored = [&](TraceSample const& s) {
+        return along * (s.mass_vx * s.mass_vx / 2 + gravity * std::sin(s.t)) +
+               normal * (s.mass_vy * s.mass_vy / 2 + weight * (std::sin(s.t) + s.gap));
+    };
+    double const cycles = (samples[1].t - samples[0].t) / (2 * pi);
+    double const change = (stored(samples[1]) - stored(samples[0])) / cycles;
+    EnergyBalance const energy = energy_balance(motion);
+    RC_LOG() << "Gamma " << conveyor.point.throw_number << " tan(beta) " << tangent << " tan(alpha) "
+             << conveyor.point.tan_inclination << " mu " << mu << " e " << conveyor.restitution << " cycles "
+             << cycles << " work " << energy.trough_work << " change " << change << " residual "
+             << energy.residual() << " impacts " << motion.impacts.size();
+    double const scale =
+        std::max({std::abs(energy.trough_work), energy.impact_loss, std::abs(energy.lift), 1.0});
+    RC_ASSERT(std::abs(energy.residual() - change) < 1e-9 * scale);
+    RC_ASSERT(motion.impacts.size() >= 8u);
 }
 
 // The trace agrees with the motion: its slip velocity integrates to eta, and the gap is open during flight.
@@ -123,6 +202,19 @@ TEST(Quantities, AreInSiUnits) {
     }
     EXPECT_NEAR(impulse / (2 * pi), 1 / 2.0, 1e-3);  // in omega^2 r sin(beta): 1/Gamma
     EXPECT_GT(q.impact_speed, q.normal_impact_speed * 0.999);
+}
+
+// The trough carries the weight of a resting mass at any vibration angle: N = g cos(alpha) and more while it
+// accelerates upwards. The square of the tangent underflows.
+TEST(Quantities, TheWeightDoesNotVanishWithTheVibrationAngle) {
+    for (double const tangent : {1e-3, 1e-160, 1e-300}) {
+        Conveyor conveyor{};
+        conveyor.point = {4 * tangent, tangent, 0, 0.3};  // K = 4
+        EngineerQuantities const q = engineer_quantities(solve_plastic(conveyor, Detail::pieces),
+                                                         {.amplitude = 0.006, .gravity = 9.81});
+        EXPECT_NEAR(q.largest_normal_force, 9.81 * (1 + 4 * tangent), 1e-2 * 9.81 * 4 * tangent + 1e-9);
+        EXPECT_NEAR(q.largest_tangential_force, 0.3 * q.largest_normal_force, 1e-9 + 1e-2 * tangent);
+    }
 }
 
 // Without a layer there is no mass flow, which is not the same as a mass flow of zero.

@@ -4,11 +4,13 @@
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/schedule/policy.hpp"
-#include "campaign/state/campaign_folder.hpp"
+#include "core/own_folder.hpp"
 #include "core/shell.hpp"
+#include "deck/deck_folder.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -24,8 +26,26 @@ struct Options {
     std::string output;
 };
 
+/// Writes the scenario of a case, the files that it names, and the decks of its packings.
+void write_case(fs::path const& folder, prepare::PreparedCase const& prepared,
+                std::vector<deck::PackingPlan> const& packings) {
+    std::map<std::string, std::string> files{{"scenario.toml", scenario::to_toml(prepared.scenario)}};
+    for (scenario::NamedFile const& file : scenario::named_files(prepared.scenario))
+        files[file.name] = file.content;
+    std::map<std::string, deck::Deck> decks;
+    for (deck::PackingPlan const& packing : packings) {
+        std::string const name = fmt::format("packing-{}", packing.number);
+        decks[name] = deck::make_deck(prepared, packing);
+        for (auto const& [file, content] : decks[name].files) files[name + "/" + file] = content;
+    }
+    deck::write_case(folder, files);
+    for (auto const& [name, deck] : decks) deck::make_frame_folder(deck, folder / name);
+}
+
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
+    core::make_folder(options.output);
+    core::OwnFolder const own(options.output);
     int number = 0;
     prepare::CasePreparer preparer;
     auto const policy = campaign::make_policy();
@@ -35,11 +55,7 @@ int run(Options const& options) {
         prepare::PreparedCase const& prepared = *planned.prepared;
         fs::path const folder = fs::path(options.output) / fmt::format("case-{:03}", ++number);
         auto const first_round = policy->decide({&planned, {}, {}, {}}).wanted;
-        for (deck::PackingPlan const& packing : first_round) {
-            deck::write_deck(deck::make_deck(prepared, packing),
-                             folder / fmt::format("packing-{}", packing.number));
-        }
-        campaign::write_scenario(scenario, folder);
+        write_case(folder, prepared, first_round);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
                    folder.string(), prepared.throw_number, prepared.machine_number, scenario.layer.grains,
                    first_round.size());
@@ -66,7 +82,7 @@ void add_deck(CLI::App& program, int& exit_code) {
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
 run one by hand. The packings are those with which 'vibrotrough run' begins, with the same starts and numbers of cycles;
 by hand they give the same numbers. The file control.in says after which cycle a run ends. The command does not need
-LIGGGHTS.
+LIGGGHTS. It replaces the files of an earlier call, but none that you wrote or edited.
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");

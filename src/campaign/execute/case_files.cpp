@@ -2,7 +2,6 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/checkpoint.hpp"
-#include "campaign/state/file_lock.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -76,6 +75,10 @@ void record_failure(PlannedCase const& planned, int packing, core::Outcome outco
     auto const before = read_failure(planned);
     int const attempts = std::max(attempts_before, before ? before->attempts : 0);
     write_failure(planned, {outcome, message, packing, attempts + 1});
+}
+
+std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing) {
+    return FileLock::take(planned.folder / fmt::format(".packing-{}.lock", packing));
 }
 
 }  // namespace vibrotrough::campaign

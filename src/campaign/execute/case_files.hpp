@@ -1,6 +1,7 @@
 #pragma once
 
 #include "campaign/execute/packing_run.hpp"
+#include "campaign/state/file_lock.hpp"
 #include "campaign/state/plan.hpp"
 #include "evaluate/packing.hpp"
 
@@ -32,5 +33,9 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
 /// @throws core::MissingError when the disk refuses
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
                     std::string const& message, int attempts_before = 0);
+
+/// The lock of whoever runs a packing: a driver or a task of a cluster. None when another process has it.
+/// @throws core::MissingError when the file cannot be made
+std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing);
 
 }  // namespace vibrotrough::campaign

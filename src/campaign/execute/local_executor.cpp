@@ -1,5 +1,6 @@
 #include "campaign/execute/local_executor.hpp"
 
+#include "campaign/execute/case_files.hpp"
 #include "campaign/execute/failure_cause.hpp"
 #include "campaign/execute/packing_run.hpp"
 #include "campaign/execute/ranks.hpp"
@@ -12,6 +13,8 @@
 #include <deque>
 #include <list>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
@@ -31,6 +34,7 @@ struct Running {
     long memory_kills = 0;      ///< of the machine, when it started
     bool is_over_time = false;  ///< run.time_limit has passed
     Clock::time_point start = Clock::now();
+    std::optional<FileLock> lock = {};  ///< of the packing, as a task of a cluster takes it
     std::unique_ptr<PackingRun> run = {};
 
     double elapsed() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -131,6 +135,14 @@ class LocalExecutor : public Executor {
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
+            auto lock = lock_packing(planned, order.packing.number);
+            if (!lock) {
+                throw core::MissingError(fmt::format(
+                    "another process runs packing {} of case {} (a task of a cluster, or 'vibrotrough "
+                    "work'); wait for it, or end it",
+                    order.packing.number, planned.id));
+            }
+            place->lock.emplace(std::move(*lock));
             place->run =
                 std::make_unique<PackingRun>(context_, engine_with(ranks), settled_, planned, order.packing,
                                              [this, place](PackingEnd const& end) { ended(place, end); });

@@ -140,7 +140,7 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
     engine::Engine engine = same_engine(campaign_folder);
     engine.ranks = limits.ranks;
     PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);
-    auto const lock = FileLock::take(planned.folder / fmt::format(".packing-{}.lock", id.packing));
+    auto const lock = lock_packing(planned, id.packing);
     if (!lock) {
         return {WorkResult::busy,
                 fmt::format("another process runs packing {} of case {}", id.packing, planned.id)};

@@ -4,9 +4,11 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/time.hpp"
 #include "deck/commands.hpp"
 #include "engine/binary_watch.hpp"
 #include "engine/run_report.hpp"
+#include "engine/sole_writer.hpp"
 
 #include <cmath>
 #include <optional>
@@ -133,7 +135,7 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
         return;
     }
     auto settling = std::make_unique<Settling>();
-    settling->folder = folder_ / fmt::format("{}.settling-{}", key, ::getpid());
+    settling->folder = folder_ / fmt::format("{}.settling-{}-{}", key, core::host_name(), ::getpid());
     settling->deck = deck;
     settling->weight = weight;
     settling->waiting.push_back(std::move(ready));
@@ -149,11 +151,14 @@ void SettledPackings::remove_leftovers() {
     std::vector<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        // 12 hexadecimal digits and a process number; "making" up to version 0.1.
-        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-[0-9]+");
+        // 12 hexadecimal digits, machine and process number; "making" and no machine up to version 0.1.
+        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-(.+-)?[0-9]+");
         if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
     }
-    for (fs::path const& leftover : leftovers) core::remove_tree(leftover);
+    for (fs::path const& leftover : leftovers) {
+        // A task of a cluster may be settling there now.
+        if (!engine::has_writer(leftover)) core::remove_tree(leftover);
+    }
 }
 
 void SettledPackings::interrupt() {

@@ -35,6 +35,7 @@ class ConveyorModel {
     double trough_y(double t) const { return y_(t); }
     double trough_vx(double t) const { return vx_(t); }
     double trough_vy(double t) const { return vy_(t); }
+    double trough_vx_bound() const { return vx_.bound(); }  ///< it is never faster
     double trough_ax(double t) const { return ax_(t); }
     double trough_ay(double t) const { return ay_(t); }
 

@@ -22,6 +22,7 @@ void keep_piece(Passage& passage, Walk::Keep keep, Piece const& piece) {
 
 void Walk::advance(WalkState& s, double end, Passage& passage, Keep keep) const {
     for (int i = 0; s.t < end; ++i) {
+        ++passage.events;
         if (i > most_events) throw PhaseError("the motion has more phases than can be followed");
         if (s.flying) {
             fly(s, end, passage, keep);

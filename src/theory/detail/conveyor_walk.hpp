@@ -24,6 +24,7 @@ struct Passage {
     std::vector<Piece> pieces;
     std::vector<Impact> impacts;
     double displacement = 0;
+    int events = 0;        ///< ends of phases
     bool stopped = false;  ///< whether the slip velocity was zero at least once
 };
 
