@@ -7,7 +7,6 @@
 #include "engine/binary_watch.hpp"
 #include "engine/sole_writer.hpp"
 
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -240,10 +239,6 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
                       bp::extend::on_error([](auto&, std::error_code const& failure) {
                           throw bp::process_error(failure, "no new process");
                       }));
-        // With vfork, Boost 1.74 gives an empty child and no error when no process can be made.
-        if (!state_->process.valid())
-            throw bp::process_error(std::error_code(errno != 0 ? errno : EAGAIN, std::system_category()),
-                                    "vfork");
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
