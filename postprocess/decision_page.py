@@ -39,8 +39,11 @@ def svg_of(figure: Figure, title: str) -> Any:
     return inline_svg(drawing, 1, title)
 
 
-def span(low: float, high: float, unit: str) -> str:
-    return f"{low:.4g} {unit}".rstrip() if low == high else f"{low:.4g} to {high:.4g} {unit}".rstrip()
+def allowed(low: float, high: float, unit: str) -> str:
+    """What a quantity of the machine may be."""
+    if low == high:
+        return "fixed"
+    return f"allowed {low:.4g} to {high:.4g}{'' if unit == DEGREE else ' '}{unit}"
 
 
 def draw_flow(data: Data) -> Any:
@@ -53,12 +56,12 @@ def draw_flow(data: Data) -> Any:
                   color=COLOURS[number % len(COLOURS)], linewidth=2, label=model["model"])
     wanted = data["mass_flow_wanted_t_per_h"]
     axes.axvline(wanted, color=GREY, linewidth=1)
-    axes.annotate(f"asked: {wanted:.4g} t/h", (wanted, 3), xytext=(4, 0), textcoords="offset points", fontsize=9, color=GREY)
+    axes.annotate(f"asked: {wanted:.4g} t/h", (wanted, 1), xytext=(4, 2), textcoords="offset points", fontsize=9, color=GREY)
     axes.axhline(100 * data["confidence"], color=GREY, linewidth=1, linestyle=":")
     axes.set_ylim(0, 100)
     axes.set_xlabel("mass flow  [t/h]")
     axes.set_ylabel("probability of so much\nor more  [%]")
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, loc="lower left", bbox_to_anchor=(0.02, 0.08))
     figure.tight_layout()
     return svg_of(figure, "Probability of a mass flow or more")
 
@@ -68,17 +71,17 @@ def design_page(data: Data) -> Page:
     power = f"{data['power_w']:.3g} W" if "power_w" in data else f"{data['power_w_per_m']:.3g} W/m"
     landing = task["max_landing_speed_m_per_s"]
     machine = [
-        ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; allowed {span(*task['stroke_mm'], 'mm')}"),
-        ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; allowed {span(*task['rpm'], '1/min')}"),
-        ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"allowed {span(*task['vibration_angle_deg'], DEGREE)}"),
-        ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; allowed {span(*task['inclination_deg'], DEGREE)}"),
-        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"allowed {span(1e3 * task['depth_m'][0], 1e3 * task['depth_m'][1], 'mm')}"),
+        ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; {allowed(*task['stroke_mm'], 'mm')}"),
+        ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(*task['rpm'], '1/min')}"),
+        ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"{allowed(*task['vibration_angle_deg'], DEGREE)}"),
+        ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; {allowed(*task['inclination_deg'], DEGREE)}"),
+        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"{allowed(1e3 * task['depth_m'][0], 1e3 * task['depth_m'][1], 'mm')}"),
         ("throw number \u0393", f"{data['throw_number']:.3g}", f"at most {task['max_throw_number']:.4g}"),
         ("machine number K", f"{data['machine_number']:.3g}", f"at most {task['max_machine_number']:.4g}"),
         ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
          (f"at most {landing:.4g} m/s, " if landing is not None else "") + f"for frictions of {data['friction_low']:.3g} to {data['friction_high']:.3g}"),
         ("power", power, "given to the material (point mass)"),
-        ("held back by", "", ", ".join(data["active_limits"]) or "nothing"),
+        ("held back by", "", ", ".join(data["active_limits"]).replace("<=", "\u2264").replace(">=", "\u2265") or "nothing"),
     ]
     asked = [
         ("mass flow", f"{data['mass_flow_wanted_t_per_h']:.4g} t/h", f"with {100 * data['confidence']:.4g} %; {data['objective'].replace('-', ' ')}"),

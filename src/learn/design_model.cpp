@@ -18,7 +18,7 @@ namespace vibrotrough::learn {
 namespace {
 
 constexpr double least_friction = 0.01;  // a normal distribution is cut here
-constexpr int value_count = 15;          // that stand for a distribution of the friction
+constexpr int value_count = 9;           // that stand for a distribution of the friction
 constexpr double in_the_tail = 0.0015;   // of the distribution, on each side, in which limits are not kept
 constexpr std::size_t least_draws = 100;
 
@@ -39,9 +39,19 @@ KnownFriction normal_friction(double median, double sd) {
             fmt::format("a friction of {:g} +- {:g} makes no sense: it must be at least {:g}", median, sd,
                         least_friction));
     KnownFriction known{median, std::max(least_friction, median - 3 * sd), median + 3 * sd, {}, {}};
-    int const count = sd > 0 ? value_count : 1;
-    for (int i = 0; i < count; ++i)
-        known.values.push_back(std::max(least_friction, median + sd * normal_quantile((i + 0.5) / count)));
+    if (sd == 0) {
+        known.values.push_back(median);
+        return known;
+    }
+    // The middles of equally likely parts, spread so that they have the standard uncertainty of the whole.
+    std::vector<double> middles;
+    double squares = 0;
+    for (int i = 0; i < value_count; ++i) {
+        middles.push_back(normal_quantile((i + 0.5) / value_count));
+        squares += middles.back() * middles.back() / value_count;
+    }
+    for (double const middle : middles)
+        known.values.push_back(std::max(least_friction, median + sd * middle / std::sqrt(squares)));
     return known;
 }
 
@@ -61,7 +71,7 @@ KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<do
     };
     KnownFriction known{at(0.5), at(in_the_tail), at(1 - in_the_tail), {}, {}};
     // Each value is the middle of a group of equally many neighbouring draws.
-    for (std::size_t i = 0; i < value_count; ++i) {
+    for (std::size_t i = 0; i < std::size_t{value_count}; ++i) {
         known.values.push_back(at((static_cast<double>(i) + 0.5) / value_count));
         if (discrepancy.empty()) continue;
         std::size_t const first = i * order.size() / value_count, last = (i + 1) * order.size() / value_count;
@@ -74,7 +84,7 @@ KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<do
 
 DesignModel point_mass_design_model(double discrepancy) {
     auto const solver = std::make_shared<theory::EfficiencySolver>();
-    DesignModel model{"the point mass", discrepancy, {}, {}, {}, true, false, {}};
+    DesignModel model{"the point mass", discrepancy, {}, {}, {}, true, false, false, {}};
     model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
         double const eta = (*solver)(point_of(d, friction)).velocity_efficiency;
         if (!std::isfinite(eta)) return {};
@@ -87,12 +97,13 @@ DesignModel point_mass_design_model(double discrepancy) {
 
 DesignModel rolling_layer_design_model(theory::RollingLaw const& law, double discrepancy) {
     auto const solver = std::make_shared<theory::RollingLayerSolver>(law);
-    DesignModel model{"the rolling-layer law", discrepancy, {}, {}, {}, false, false, {}};
+    DesignModel model{"the rolling-layer law", discrepancy, {}, {}, {}, false, false, false, {}};
     model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
         double const eta = (*solver)(point_of(d, friction)).motion.velocity_efficiency;
         if (!std::isfinite(eta)) return {};
         return ModelEfficiency{eta, 0};
     };
+    model.is_rolling = true;
     model.narrowed = theory::within_tested_range;
     // The largest throw number is a limit of the narrowed space; the least one is 1.25.
     model.excess = [](theory::Drive const& d) { return 1 - d.throw_number() / 1.25; };

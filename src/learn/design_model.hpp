@@ -48,6 +48,7 @@ struct DesignModel {
     bool is_point_mass = false;  ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
+    bool is_rolling = false;           ///< whether it is the law of rolling layers
     std::vector<std::string> remarks;  ///< what speaks against it, in whole sentences
 };
 

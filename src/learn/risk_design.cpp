@@ -57,7 +57,9 @@ std::optional<theory::Drive> best_at_every_friction(RiskSearch& search, Objectiv
 double on_grid(double value, theory::Range const& r, double step, bool above) {
     if (r.low == r.high) return value;
     double const count = above ? std::ceil(value / step - 1e-9) : std::floor(value / step + 1e-9);
-    double const rounded = count * step;
+    double rounded = count * step;
+    if (std::abs(rounded - r.high) < 1e-9 * step) rounded = r.high;
+    if (std::abs(rounded - r.low) < 1e-9 * step) rounded = r.low;
     return rounded >= r.low && rounded <= r.high ? rounded : std::clamp(value, r.low, r.high);
 }
 
@@ -134,6 +136,13 @@ std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d
             *factor >= 1 ? "The mass flow is then on the safe side, but the layer is thinner than printed."
                          : "The mass flow may then not be reached."));
     }
+    bool const rolling = std::ranges::any_of(task.models, [](DesignModel const& m) { return m.is_rolling; });
+    if (rolling) {
+        auto const untested =
+            theory::outside_tested_range({d.throw_number, std::tan(d.drive.vibration_angle),
+                                          std::tan(d.drive.inclination), task.friction.median});
+        if (untested) warnings.push_back(*untested);
+    }
     for (DesignModel const& model : task.models)
         warnings.insert(warnings.end(), model.remarks.begin(), model.remarks.end());
     return warnings;
@@ -200,7 +209,8 @@ RiskDesign design_with_risk(DesignTask const& task) {
     bool const reaches = search.sure_speed(*drive) >= search.needed();
     Objective const objective = reaches ? task.objective : Objective::fastest;
     if (objective != Objective::fastest) {
-        if (auto const better = best_at_every_friction(search, objective, true)) drive = better;
+        auto const better = best_at_every_friction(search, objective, true);
+        if (better && search.merit(*better, objective) > search.merit(*drive, objective)) drive = better;
     }
     return described(task, search, rounded(search, *drive, objective, reaches));
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int landings_looked_at = 65;
-constexpr theory::DriveSearchSettings settings{.global_evaluations = 8000, .local_evaluations = 2000};
+constexpr int global_evaluations = 2000, local_evaluations = 500;  // per quantity that may be chosen
 
 double normal_share_above(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
@@ -156,6 +156,12 @@ std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_rea
     if (must_reach)
         excesses.emplace_back(
             [this](theory::Drive const& drive) { return 1 - sure_speed(drive) / needed(); });
+    int free = 0;
+    for (theory::Range const& range :
+         {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})
+        free += range.low < range.high ? 1 : 0;
+    theory::DriveSearchSettings const settings{.global_evaluations = global_evaluations * std::max(1, free),
+                                               .local_evaluations = local_evaluations * std::max(1, free)};
     return theory::best_drive(
         space_, [&](theory::Drive const& drive) { return merit(drive, objective); }, excesses, settings);
 }

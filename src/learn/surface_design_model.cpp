@@ -61,7 +61,10 @@ class SurfaceAtDrives {
   public:
     SurfaceAtDrives(std::shared_ptr<Surface const> surface, CampaignTheory theory,
                     std::vector<Source> sources)
-        : surface_(std::move(surface)), theory_(std::move(theory)), sources_(std::move(sources)) {
+        : surface_(std::move(surface)),
+          theory_(std::move(theory)),
+          sources_(std::move(sources)),
+          varies_friction_(std::ranges::any_of(sources_, &Source::is_friction)) {
         Place middle;
         for (std::size_t k = 0; k < sources_.size(); ++k) {
             SurfaceInput const& input = surface_->inputs()[k];
@@ -76,16 +79,12 @@ class SurfaceAtDrives {
     scenario::Trough const& trough() const { return scenario_->trough; }
 
     std::optional<ModelEfficiency> at(theory::Drive const& drive, double friction) {
-        Place place;
-        for (Source const& source : sources_) {
-            place.push_back(source.machine != nullptr ? source.machine->value(drive)
-                            : source.is_friction      ? friction
-                                                      : source.value);
-        }
-        auto const theory = theory_at(place, drive, friction);
-        if (!theory) return {};
-        SurfaceValue const value = surface_->at(place, *theory);
-        return ModelEfficiency{value.efficiency, value.half_width / 1.959964};
+        std::vector<double> const asked{drive.frequency, drive.amplitude, drive.vibration_angle,
+                                        drive.inclination, varies_friction_ ? friction : 0};
+        if (asked == last_asked_) return last_;
+        last_asked_ = asked;
+        last_ = compute(drive, friction);
+        return last_;
     }
 
     /// How far the machine's inputs are outside the range of the surface, over its width.
@@ -101,10 +100,23 @@ class SurfaceAtDrives {
     }
 
   private:
+    std::optional<ModelEfficiency> compute(theory::Drive const& drive, double friction) {
+        Place place;
+        for (Source const& source : sources_) {
+            place.push_back(source.machine != nullptr ? source.machine->value(drive)
+                            : source.is_friction      ? friction
+                                                      : source.value);
+        }
+        auto const theory = theory_at(place, drive, friction);
+        if (!theory) return {};
+        SurfaceValue const value = surface_->at(place, *theory);
+        return ModelEfficiency{value.efficiency, value.half_width / 1.959964};
+    }
+
     /// The theory at a place: fast for a plain sinusoid, else by the case itself.
     std::optional<double> theory_at(Place const& place, theory::Drive const& drive, double friction) {
         if (!is_plain_) return theory_.efficiency_at(place);
-        double const mu = std::ranges::any_of(sources_, &Source::is_friction) ? friction : trough().friction;
+        double const mu = varies_friction_ ? friction : trough().friction;
         double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
                                     std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
                                .velocity_efficiency;
@@ -115,7 +127,9 @@ class SurfaceAtDrives {
     CampaignTheory theory_;
     std::vector<Source> sources_;
     std::optional<scenario::Scenario> scenario_;
-    bool is_plain_ = false;
+    bool is_plain_ = false, varies_friction_;
+    std::vector<double> last_asked_;  ///< drive and friction
+    std::optional<ModelEfficiency> last_;
     theory::EfficiencySolver solver_;
 };
 
@@ -175,7 +189,7 @@ DesignModel surface_design_model(std::shared_ptr<Surface const> surface, Campaig
             "nothing "
             "to choose; vary one of them");
     }
-    DesignModel model{"the simulated layer", discrepancy, {}, {}, {}, false, false, surface->doubts()};
+    DesignModel model{"the simulated layer", discrepancy, {}, {}, {}, false, false, false, surface->doubts()};
     auto const drives = std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given));
     scenario::Trough const trough = drives->trough();
     check_friction(inputs, trough.friction, friction, model.remarks);

@@ -59,7 +59,7 @@ double tried_probability(DesignTask const& task, double sd, RiskDesign const& d)
     return static_cast<double>(reached) / tries;
 }
 
-// The probability that is printed is that of trying: 15 values of the friction know it to about 0.01. The
+// The probability that is printed is that of trying: nine values of the friction know it to about 0.01. The
 // depth is rounded up to 0.1 mm, which here raises it by up to 0.01 more.
 TEST(RiskDesign, ProbabilityIsThatOfTrying) {
     DesignTask task = pellets();
