@@ -39,8 +39,9 @@ def svg_of(figure: Figure, title: str) -> Any:
     return inline_svg(drawing, 1, title)
 
 
-def allowed(low: float, high: float, unit: str) -> str:
+def allowed(ends: list[float], unit: str) -> str:
     """What a quantity of the machine may be."""
+    low, high = ends
     if low == high:
         return "fixed"
     return f"allowed {low:.4g} to {high:.4g}{'' if unit == DEGREE else ' '}{unit}"
@@ -71,11 +72,11 @@ def design_page(data: Data) -> Page:
     power = f"{data['power_w']:.3g} W" if "power_w" in data else f"{data['power_w_per_m']:.3g} W/m"
     landing = task["max_landing_speed_m_per_s"]
     machine = [
-        ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; {allowed(*task['stroke_mm'], 'mm')}"),
-        ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(*task['rpm'], '1/min')}"),
-        ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"{allowed(*task['vibration_angle_deg'], DEGREE)}"),
-        ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; {allowed(*task['inclination_deg'], DEGREE)}"),
-        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"{allowed(1e3 * task['depth_m'][0], 1e3 * task['depth_m'][1], 'mm')}"),
+        ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; {allowed(task['stroke_mm'], 'mm')}"),
+        ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(task['rpm'], '1/min')}"),
+        ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"{allowed(task['vibration_angle_deg'], DEGREE)}"),
+        ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; {allowed(task['inclination_deg'], DEGREE)}"),
+        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"{allowed([1e3 * depth for depth in task['depth_m']], 'mm')}"),
         ("throw number \u0393", f"{data['throw_number']:.3g}", f"at most {task['max_throw_number']:.4g}"),
         ("machine number K", f"{data['machine_number']:.3g}", f"at most {task['max_machine_number']:.4g}"),
         ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
