@@ -50,17 +50,22 @@ struct Source {
     MachineKey const* machine;
 };
 
+Place place_from(std::vector<Source> const& sources, std::span<double const> values,
+                 MeasuredSpeed const& measured) {
+    Place place;
+    for (Source const& source : sources)
+        place.push_back(source.parameter ? values[*source.parameter]
+                                         : source.machine->value(drive_of(measured)));
+    return place;
+}
+
 class SurfaceModel {
   public:
     SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources)
         : surface_(std::move(surface)), theory_(std::move(theory)), sources_(std::move(sources)) {}
 
     Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
-        Place place;
-        for (Source const& source : sources_)
-            place.push_back(source.parameter ? values[*source.parameter]
-                                             : source.machine->value(drive_of(measured)));
-        return place;
+        return place_from(sources_, values, measured);
     }
 
     std::optional<ModelSpeed> operator()(std::span<double const> values,
@@ -142,6 +147,22 @@ SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseM
         }
     }
     return model;
+}
+
+std::vector<Place> posterior_places(std::vector<SurfaceInput> const& inputs,
+                                    std::vector<std::string> const& free, Calibration const& calibration,
+                                    std::vector<MeasuredSpeed> const& speeds) {
+    constexpr std::size_t most_draws = 40;
+    auto const sources = sources_of(inputs, free);
+    std::size_t const draws = calibration.parameters.front().draws.size();
+    std::size_t const step = std::max<std::size_t>(1, draws / most_draws);
+    std::vector<Place> places;
+    for (std::size_t i = step / 2; i < draws; i += step) {
+        std::vector<double> values;
+        for (Estimate const& e : calibration.parameters) values.push_back(e.draws[i]);
+        for (MeasuredSpeed const& measured : speeds) places.push_back(place_from(sources, values, measured));
+    }
+    return places;
 }
 
 }  // namespace vibrotrough::learn
