@@ -113,7 +113,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
                                                       ? "nothing"
                                                       : fmt::format("{}", fmt::join(d.active_limits, ", ")));
     std::string const sure = fmt::format("{:.4g} %", 100 * t.confidence);
-    text += fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "by", "speed", sure, "mass flow",
+    text += fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "model", "speed", sure, "mass flow",
                         "95 % interval", "probability");
     text += fmt::format("{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "", "m/s", "m/s", "t/h", "t/h",
                         fmt::format("of {:.4g} t/h", tonnes_per_hour * t.mass_flow));
@@ -127,7 +127,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
     double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
     text += fmt::format(
         "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "
-        "practice: {:.3g} to {:.3g} m/s (v = 3.81 N S; {})\n",
+        "practice: {:.3g} to {:.3g} m/s (v = 3.81 N S;\n  {})\n",
         daesung, 0.7 * daesung, 0.8 * daesung, source_of_daesung);
     text += no_slip > 0 ? fmt::format("  {:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})\n",
                                       no_slip, source_of_vdi)

@@ -13,7 +13,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int landings_looked_at = 65;
-constexpr int global_evaluations = 2000, local_evaluations = 500;  // per quantity that may be chosen
+/// Drives looked at per quantity that may be chosen. A rolling layer takes a hundred times as long as a point
+/// mass.
+constexpr int global_evaluations = 2000, local_evaluations = 500;
+constexpr int global_evaluations_of_rolling = 700, local_evaluations_of_rolling = 300;
 
 double normal_share_above(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
@@ -160,8 +163,11 @@ std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_rea
     for (theory::Range const& range :
          {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})
         free += range.low < range.high ? 1 : 0;
-    theory::DriveSearchSettings const settings{.global_evaluations = global_evaluations * std::max(1, free),
-                                               .local_evaluations = local_evaluations * std::max(1, free)};
+    free = std::max(1, free);
+    bool const is_rolling = std::ranges::any_of(task_.models, &DesignModel::is_rolling);
+    theory::DriveSearchSettings const settings{
+        free * (is_rolling ? global_evaluations_of_rolling : global_evaluations),
+        free * (is_rolling ? local_evaluations_of_rolling : local_evaluations)};
     return theory::best_drive(
         space_, [&](theory::Drive const& drive) { return merit(drive, objective); }, excesses, settings);
 }

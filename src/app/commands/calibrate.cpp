@@ -111,7 +111,7 @@ int run(Options& options) {
         return print(options, calibrate_on(campaign::open_plan(folder), maker, options, speeds));
     RunOptions running;
     running.campaign_file = options.campaign;
-    running.output = folder;
+    running.output = folder.string();
     running.engine = options.engine;
     running.quiet = options.quiet;
     running.accept_findings = options.accept_findings;
