@@ -11,7 +11,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
 import numpy as np  # noqa: E402
 
-from campaign_program import Row, campaign_table, campaign_text, run_campaign  # noqa: E402
+from campaign_program import Row, campaign_text, run_campaign  # noqa: E402
 from figure_style import COLOURS, MARKERS, plain_axes, plt  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
@@ -26,8 +26,7 @@ DOMAINS = {
     "rolling": {"trough.throw_number": (1.0, 3.0), "grains.rolling_friction": (0.0, 0.3)},
     "angle": {"trough.throw_number": (1.0, 3.0), "trough.tan_vibration_angle": (0.25, 1.0)},
 }
-HALF_WIDTH, BUDGET = 0.06, "0.3 core-hours"  # of the surface of each domain
-HELD_OUT = 60  # simulated points of each domain that the surface does not see
+DESIGN, HELD_OUT = 24, 60  # simulated points of each domain: that make the surface, and that it does not see
 INPUTS = ["throw_number", "tan_vibration_angle", "rolling_friction"]
 POINTS = ["domain", *INPUTS, "efficiency", "half_width", "theory", "outcome"]
 PREDICTIONS = [*POINTS, "predicted", "predicted_half_width"]
@@ -63,12 +62,6 @@ def calibrate_many(run: ValidationCase) -> None:
     run.write_table("calibrations.csv", CALIBRATIONS, rows)
 
 
-def places(domain: str, section: str, beginning: str) -> str:
-    """The section of a campaign file that spreads cases over a domain."""
-    ranges = "".join(f'"{key}" = {{ from = {low}, to = {high} }}\n' for key, (low, high) in DOMAINS[domain].items())
-    return f"[{section}]\n{beginning}{ranges}"
-
-
 def rows_of(domain: str, folder: pathlib.Path, answers: list[Row]) -> list[list[object]]:
     """Rows of POINTS from those of `compare`, without bistable and unsteady cases."""
     table: list[list[object]] = []
@@ -82,33 +75,20 @@ def rows_of(domain: str, folder: pathlib.Path, answers: list[Row]) -> list[list[
     return table
 
 
-def learn_surface(run: ValidationCase, domain: str) -> list[list[object]]:
-    """Lets the program learn the surface of a domain; its cases as rows of POINTS."""
-    folder = run.runs / f"{domain}-design"
-    file = folder.with_suffix(".toml")
-    file.parent.mkdir(parents=True, exist_ok=True)
-    text = campaign_text(run.sections(), {"campaign.name": f"{domain}-design"}, {}).replace("[sweep]\n", "")
-    file.write_text(text + places(domain, "domain", ""), encoding="utf-8")
-    words = [run.program, "learn", str(file), "--output", str(folder), "--jobs", str(run.jobs), "--half-width", str(HALF_WIDTH),
-             "--budget", "1 core-seconds" if run.quick else BUDGET]
-    if subprocess.run(words, check=False).returncode not in (0, 1):
-        raise SystemExit(f"{' '.join(words)} failed")
-    return rows_of(domain, folder, campaign_table(run.program, folder))
-
-
-def simulate_held_out(run: ValidationCase, domain: str) -> list[list[object]]:
-    """Simulates points that the surface does not see; rows of POINTS."""
-    folder = run.runs / f"{domain}-held-out"
-    text = campaign_text(run.sections(), {"campaign.name": f"{domain}-held-out"}, {}).replace("[sweep]\n", "")
-    text += places(domain, "sample", f'method = "sobol"\ncount = {2 if run.quick else HELD_OUT}\nseed = 11\n')
+def simulate(run: ValidationCase, domain: str, name: str, count: int, seed: int) -> list[list[object]]:
+    """Simulates points that fill a domain; rows of POINTS."""
+    folder = run.runs / f"{domain}-{name}"
+    text = campaign_text(run.sections(), {"campaign.name": f"{domain}-{name}"}, {}).replace("[sweep]\n", "")
+    text += f'[sample]\nmethod = "sobol"\ncount = {count}\nseed = {seed}\n'
+    text += "".join(f'"{key}" = {{ from = {low}, to = {high} }}\n' for key, (low, high) in DOMAINS[domain].items())
     return rows_of(domain, folder, run_campaign(run.program, folder, text, run.jobs))
 
 
 def predict_held_out(run: ValidationCase) -> None:
     design, held_out = [], []
     for domain, keys in DOMAINS.items():
-        design += learn_surface(run, domain)
-        for row in simulate_held_out(run, domain):
+        design += simulate(run, domain, "design", 4 if run.quick else DESIGN, 1)
+        for row in simulate(run, domain, "held-out", 2 if run.quick else HELD_OUT, 11):
             values = dict(zip(POINTS, row))
             place = ",".join(f"{name}={values[name]}" for name in (key.split(".")[1] for key in keys))
             words = [run.program, "predict", str(run.runs / f"{domain}-design"), "--at", place, "--json"]
@@ -170,7 +150,7 @@ def draw(run: ValidationCase, rows: list[Row]) -> None:
     left.plot([0.1, 0.9], [0.1, 0.9], color="black", linewidth=0.8)
     left.set_xlabel("true friction  [-]")
     left.set_ylabel("95 % interval of the calibration  [-]")
-    left.legend()
+    left.legend(loc="upper left")
     plain_axes(right)
     measured, predicted = (np.array([float(row[key]) for row in rows]) for key in ("efficiency", "predicted"))
     right.errorbar(measured, predicted, xerr=[float(row["half_width"]) for row in rows],
