@@ -138,10 +138,12 @@ std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d
     }
     bool const rolling = std::ranges::any_of(task.models, [](DesignModel const& m) { return m.is_rolling; });
     if (rolling) {
-        auto const untested =
-            theory::outside_tested_range({d.throw_number, std::tan(d.drive.vibration_angle),
-                                          std::tan(d.drive.inclination), task.friction.median});
-        if (untested) warnings.push_back(*untested);
+        auto untested = theory::outside_tested_range({d.throw_number, std::tan(d.drive.vibration_angle),
+                                                      std::tan(d.drive.inclination), task.friction.median});
+        if (untested) {
+            untested->front() = 'T';  // "the rolling-layer law has not been tested at ..."
+            warnings.push_back(*untested + ".");
+        }
     }
     for (DesignModel const& model : task.models)
         warnings.insert(warnings.end(), model.remarks.begin(), model.remarks.end());

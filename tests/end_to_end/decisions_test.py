@@ -2,8 +2,8 @@
 sure is that, and what friction do the speeds say that I measured on the old machine? The researcher: how fast is the layer over throw
 number and rolling friction, how sure is that, and what would it cost to know it better?
 
-The measured speeds are those of the Krakow laboratory (validation/krakow); the simulated campaign is stored beside this file, as
-`vibrotrough learn` left it.
+The measured speeds are those of the Krakow laboratory (validation/krakow); the simulated campaign of six cases of a tiny layer is stored
+beside this file, as `vibrotrough run` left it.
 """
 
 import csv
@@ -140,29 +140,36 @@ class Researcher(EndToEndTest):
         return json.loads(answer.stdout)
 
     def test_the_surface_says_how_sure_it_is(self):
-        easy, hard = self.predict("throw_number=1.7,rolling_friction=0.01", "throw_number=1.7,rolling_friction=0.28")
-        for one in (easy, hard):
+        easy, hard, case = self.predict("throw_number=1.7,rolling_friction=0.03", "throw_number=1.7,rolling_friction=0.24",
+                                        "throw_number=1.75,rolling_friction=0.02")
+        for one in (easy, hard, case):
             self.assertTrue(one["inside"])
+            self.assertEqual(one["points"], 6)
             self.assertGreater(one["half_width"], 0)
-            self.assertLess(one["half_width"], 0.2)
         # The more easily the grains roll, the more they outrun the theory between throw numbers 1.5 and 2.
-        self.assertGreater(easy["efficiency"] - easy["half_width"], hard["efficiency"] + hard["half_width"])
-        self.assertGreater(easy["efficiency"], easy["efficiency_theory"])
+        self.assertGreater(easy["efficiency"], hard["efficiency"])
+        self.assertGreater(easy["efficiency"], easy["efficiency_theory"] + 0.1)
+        # At a case that was simulated, the surface says what was measured there, within both intervals.
+        row = next(row for row in self.table() if row["throw_number"] == 1.75 and row["grains.rolling_friction"] == 0.02)
+        self.assertLess(abs(case["efficiency"] - row["efficiency_dem"]), math.hypot(case["half_width"], row["efficiency_dem_half_width"]))
+        outside = self.predict("throw_number=2.8,rolling_friction=0.1")
+        self.assertFalse(outside["inside"])
+        self.assertGreater(outside["half_width"], easy["half_width"])
 
     def test_a_machine_is_designed_by_it(self):
-        answer = self.call("design", "--mass-flow", "5 t/h", *TROUGH, "--friction", "0.23", "--machine-number", "8", "--surface",
+        answer = self.call("design", "--mass-flow", "2 t/h", *TROUGH, "--friction", "0.23", "--machine-number", "8", "--surface",
                            self.output, "--at", "rolling_friction=0.02", "--model", "surface,point-mass", "--json")
         self.assertEqual(answer.returncode, 0, answer.stderr)
         design = json.loads(answer.stdout)
         self.assertEqual([model["model"] for model in design["models"]], ["the simulated layer", "the point mass"])
         self.assertAlmostEqual(design["stroke_mm"], 12, 9)  # the machine that was simulated
-        self.assertLessEqual(design["throw_number"], 3)
+        self.assertTrue(1.5 <= design["throw_number"] <= 2, design)
 
     def test_speeds_of_the_layer_give_its_rolling_friction(self):
-        # Speeds that the surface itself predicts for a rolling friction of 0.03, at three throw numbers.
-        gammas, beta, amplitude = (1.5, 1.75, 2.0), math.atan(0.5), 0.006
+        # Speeds that the surface itself predicts for a rolling friction of 0.05, at three throw numbers.
+        gammas, beta, amplitude = (1.55, 1.75, 1.95), math.atan(0.5), 0.006
         lines = ["amplitude_mm,frequency_hz,vibration_angle_deg,speed_m_per_s,uncertainty_m_per_s"]
-        for gamma, one in zip(gammas, self.predict(*(f"throw_number={gamma},rolling_friction=0.03" for gamma in gammas))):
+        for gamma, one in zip(gammas, self.predict(*(f"throw_number={gamma},rolling_friction=0.05" for gamma in gammas))):
             omega = math.sqrt(gamma * 9.81 / (amplitude * math.sin(beta)))
             speed = one["efficiency"] * omega * amplitude * math.cos(beta)
             lines.append(f"6,{omega / (2 * math.pi)!r},{math.degrees(beta)!r},{speed!r},0.004")
@@ -172,9 +179,9 @@ class Researcher(EndToEndTest):
         self.assertEqual(answer.returncode, 0, answer.stderr)
         found = json.loads(answer.stdout)["parameters"][0]
         self.assertEqual(found["name"], "grains.rolling_friction")
-        self.assertLessEqual(found["low"], 0.03)
-        self.assertGreaterEqual(found["high"], 0.03)
-        self.assertLess(found["high"], 0.3)
+        self.assertLessEqual(found["low"], 0.05)
+        self.assertGreaterEqual(found["high"], 0.05)
+        self.assertLessEqual(found["high"], 0.25)
 
 
 if __name__ == "__main__":
