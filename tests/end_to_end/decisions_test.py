@@ -2,14 +2,15 @@
 sure is that, and what friction do the speeds say that I measured on the old machine? The researcher: how fast is the layer over throw
 number and rolling friction, how sure is that, and what would it cost to know it better?
 
-The measured speeds are those of the Krakow laboratory (validation/krakow); the simulated campaign of six cases of a tiny layer is stored
-beside this file, as `vibrotrough run` left it.
+The measured speeds are those of the Krakow laboratory (validation/krakow). The researcher's campaign, six cases of a tiny layer, is
+simulated once, with the real engine, and each test has a copy of its results.
 """
 
 import csv
 import json
 import math
 import shutil
+import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -17,7 +18,10 @@ from pathlib import Path
 from trough_program import EndToEndTest
 
 KRAKOW = Path(__file__).parent.parent.parent / "validation" / "krakow" / "reference.csv"
-STORED = Path(__file__).parent / "learnt_campaign"
+# Six cases: two inputs, and each packing short.
+PLAN = {"trough.amplitude": "6 mm", "grains.rotation": "rolling", "grains.rolling_friction": 0.1, "measure.packings": 3,
+        "measure.half_width": 0.15, "measure.max_cycles": 40, "measure.max_packings": 4}
+SWEEP = {"trough.throw_number": [1.5, 1.75, 2.0], "grains.rolling_friction": [0.02, 0.25]}
 TROUGH = ["--bulk-density", "600 kg/m3", "--width", "300 mm", "--length", "3 m", "--layer-depth", "5 mm to 60 mm"]
 
 
@@ -127,11 +131,22 @@ class Engineer(EndToEndTest):
         self.assertIn("t/h", answer.stderr)
 
 
-@unittest.skipUnless(STORED.exists(), "there is no stored campaign")
 class Researcher(EndToEndTest):
+    simulated = None  # the folder of the results, once they are there
+
+    @classmethod
+    def tearDownClass(cls):
+        if cls.simulated:
+            cls.simulated.cleanup()
+
     def setUp(self):
         super().setUp()
-        shutil.copytree(STORED, self.output)
+        if not Researcher.simulated:
+            self.run_campaign(self.write_campaign(PLAN, SWEEP), wanted=None)
+            Researcher.simulated = tempfile.TemporaryDirectory()
+            shutil.copytree(self.output, Path(Researcher.simulated.name) / "runs")
+        else:
+            shutil.copytree(Path(Researcher.simulated.name) / "runs", self.output)
 
     def predict(self, *places):
         words = [word for place in places for word in ("--at", place)]
