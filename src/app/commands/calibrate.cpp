@@ -162,7 +162,8 @@ void add_calibrate(CLI::App& program, int& exit_code) {
 
 Example:
   vibrotrough calibrate runs/krakow --measured speeds.csv --free trough.friction
-  vibrotrough calibrate domain.toml --measured speeds.csv --free trough.friction --budget "1 core-hours")");
+  vibrotrough calibrate domain.toml --measured speeds.csv --free trough.friction \
+      --budget "1 core-hours")");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

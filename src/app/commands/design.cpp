@@ -55,16 +55,19 @@ int run(Options const& options) {
 constexpr char const* help =
     R"(Answers: which stroke, speed and angle carry this mass flow on this trough, and how sure is that?
 
-  1. The friction is never known exactly. Give it with its standard uncertainty, or give the speeds that you
-     measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
-  2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
-     distribution, and the layer is made so deep that the mass flow is reached with the stated confidence.
-  3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
-     every friction in the central 99.7 % of its distribution (three standard deviations on each side).
-  4. Three models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
-     2.3, layers of grains that roll are conveyed up to twice as fast as it says: the rolling-layer law
-     describes these. A surface is what your own simulated campaign says, with its own uncertainty. Landing
-     speed, power and mode are always those of the point mass.
+1. The friction is never known exactly. Give it with its standard uncertainty, or give the speeds that you
+measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
+
+2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
+distribution, and the layer is made so deep that the mass flow is reached with the stated confidence.
+
+3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
+every friction in the central 99.7 % of its distribution (three standard deviations on each side).
+
+4. Three models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
+2.3, layers of grains that roll are conveyed up to twice as fast as it says: the rolling-layer law describes
+these. A surface is what your own simulated campaign says, with its own uncertainty. Landing speed, power and
+mode are always those of the point mass.
 
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains; its grains are assumed, so put in what you know of yours.
@@ -78,8 +81,9 @@ Exit codes:
     3  something is missing: Python with its modules, for --page
 
 Examples:
-  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" --length "3 m" \
-      --friction 0.3 --friction-uncertainty 0.03 --machine-number 4 --layer-depth "5 mm to 40 mm"
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+      --length "3 m" --friction 0.3 --friction-uncertainty 0.03 --machine-number 4 \
+      --layer-depth "5 mm to 40 mm"
   vibrotrough theory calibrate speeds.csv --free friction --posterior friction.json
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
       --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \
