@@ -42,6 +42,8 @@ void add_convergence(CLI::App& program, int& exit_code);
 void add_learn(CLI::App& program, int& exit_code);
 /// Finds inputs of a simulated layer from measured speeds.
 void add_calibrate(CLI::App& program, int& exit_code);
+/// Finds a machine for a mass flow, and how sure it is.
+void add_design(CLI::App& program, int& exit_code);
 /// Predicts the velocity efficiency between the cases of a campaign.
 void add_predict(CLI::App& program, int& exit_code);
 /// Writes files for ParaView.

@@ -27,8 +27,9 @@ the point-mass theory of vibratory conveying
 
 What do you want to do?
 
-  size a trough, by the theory, in a second:
-      vibrotrough theory design --friction 0.3 --machine-number 4 --stroke "2 mm to 16 mm"
+  size a trough for a mass flow, and know how sure that is:
+      vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+          --friction 0.3 --friction-uncertainty 0.03
   know the speed of a machine, by the theory:
       vibrotrough theory point --frequency "800 rpm" --stroke "12 mm" \
           --vibration-angle "30 deg" --friction 0.3
@@ -64,6 +65,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_learn(program, exit_code);
     add_predict(program, exit_code);
     add_calibrate(program, exit_code);
+    add_design(program, exit_code);
     add_export(program, exit_code);
     add_plot(program, exit_code);
     add_report(program, exit_code);

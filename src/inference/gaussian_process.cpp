@@ -194,7 +194,8 @@ Vector GaussianProcess::covariances_with_data(Vector const& inputs, Vector const
 
 ProcessValue GaussianProcess::predict(Vector const& inputs, Vector const& trend) const {
     Vector const k = covariances_with_data(inputs, trend);
-    double const variance = prior_covariance(inputs, trend, inputs, trend) - k.dot(factor_.solve(k));
+    double const variance =
+        prior_covariance(inputs, trend, inputs, trend) - factor_.matrixL().solve(k).squaredNorm();
     return {trend.dot(prior_.mean) + k.dot(weights_), std::sqrt(std::max(0.0, variance))};
 }
 

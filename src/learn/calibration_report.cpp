@@ -153,7 +153,7 @@ std::string calibration_text(Calibration const& c, ModelName const& model) {
 }
 
 nlohmann::ordered_json calibration_json(Calibration const& c, ModelName const& model) {
-    Json json{{"parameters", Json::array()}};
+    Json json{{"model", model.whole}, {"parameters", Json::array()}};
     for (Estimate const& e : c.parameters) json["parameters"].push_back(as_json(e));
     json["model_discrepancy"] = c.discrepancy ? as_json(*c.discrepancy) : Json();
     json["measurements"] = Json::array();

@@ -93,6 +93,16 @@ std::vector<Learner::DomainPoint> Learner::make_domain() const {
     return domain;
 }
 
+void Learner::concentrate_on(std::vector<Place> const& places) {
+    domain_.clear();
+    for (Place const& place : places) {
+        if (auto const theory = theory_.efficiency_at(place)) domain_.push_back({place, *theory});
+    }
+    if (domain_.empty())
+        throw core::InputError(
+            "the theory has no mean speed where the posterior lies; free other quantities");
+}
+
 double Learner::first_half_width(scenario::Scenario const& scenario) const {
     return std::max(goal_.half_width, scenario.measure.half_width);
 }

@@ -68,6 +68,10 @@ class Learner {
     /// @param plan  its domain must have at least one number; @throws core::InputError when the campaign file
     /// has no [domain]
     Learner(campaign::Plan const& plan, scenario::CaseMaker const& maker, LearnGoal goal);
+    /// Looks at these places alone instead of the whole domain, such as those at which a posterior lies.
+    /// @param places  at least one at which the theory has a mean speed; @throws core::InputError when there
+    /// is none
+    void concentrate_on(std::vector<Place> const& places);
 
     /// Of the surface.
     std::vector<SurfaceInput> const& inputs() const { return points_.inputs; }

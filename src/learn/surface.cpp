@@ -1,9 +1,13 @@
 #include "learn/surface.hpp"
 
 #include "core/error.hpp"
+#include "inference/sampler.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -20,15 +24,36 @@ constexpr double significant = 0.01;
 constexpr double least_q2 = 0.5;
 /// Smallest standard deviation of a point: two packings that happen to agree do not make it exact.
 constexpr double least_noise = 1e-4;
+/// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
+constexpr inference::Bounds deviation_prior{0.005, 1}, length_prior{0.05, 5}, extra_noise_prior{1e-3, 1};
+/// Every 25th draw of the posterior is used: 24 of four chains.
+constexpr int thinning = 25;
 
-SurfaceQuality judge(inference::GaussianProcess const& process) {
-    auto const left_out = process.leave_one_out();
-    auto const& values = process.data().values;
+inference::Bounds logs_of(inference::Bounds const& b) {
+    return {std::log(b.low), std::log(b.high)};
+}
+
+/// The mean and the standard deviation of a mixture of normal distributions that are equally likely.
+inference::ProcessValue mixture(std::vector<inference::ProcessValue> const& parts) {
+    double mean = 0, squares = 0;
+    for (auto const& [m, sd] : parts) mean += m;
+    mean /= static_cast<double>(parts.size());
+    for (auto const& [m, sd] : parts) squares += sd * sd + (m - mean) * (m - mean);
+    return {mean, std::sqrt(squares / static_cast<double>(parts.size()))};
+}
+
+SurfaceQuality judge(std::vector<inference::GaussianProcess> const& processes, double extra_noise,
+                     double extra_noise_p) {
+    std::vector<std::vector<inference::ProcessValue>> left_out;
+    for (auto const& process : processes) left_out.push_back(process.leave_one_out());
+    auto const& values = processes.front().data().values;
     double const mean = values.mean();
     double errors = 0, about_mean = 0;
-    SurfaceQuality q{static_cast<int>(values.size()), 0, 0, 0, 0, process.hyperparameters().extra_noise, 1};
+    SurfaceQuality q{static_cast<int>(values.size()), 0, 0, 0, 0, extra_noise, extra_noise_p};
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-        auto const& [predicted, sd] = left_out[static_cast<std::size_t>(i)];
+        std::vector<inference::ProcessValue> parts;
+        for (auto const& one : left_out) parts.push_back(one[static_cast<std::size_t>(i)]);
+        auto const [predicted, sd] = mixture(parts);
         double const error = values(i) - predicted;
         errors += error * error;
         about_mean += std::pow(values(i) - mean, 2);
@@ -44,7 +69,10 @@ SurfaceQuality judge(inference::GaussianProcess const& process) {
 }  // namespace
 
 Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend)
-    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit()) {}
+    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit()) {
+    draw_others();
+    quality_ = judge(others_, process_.hyperparameters().extra_noise, quality_.extra_noise_p);
+}
 
 inference::GaussianProcess Surface::fit() {
     auto const n = static_cast<Eigen::Index>(points_.size());
@@ -74,9 +102,36 @@ inference::GaussianProcess Surface::fit() {
     double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
     double const p = 0.5 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(1), ratio));
     if (p < significant) process = noisy;
-    quality_ = judge(process);
     quality_.extra_noise_p = p;
     return process;
+}
+
+void Surface::draw_others() {
+    Eigen::Index const d = process_.data().inputs.cols();
+    bool const is_noisy = process_.hyperparameters().extra_noise > 0;
+    auto const from_logs = [&](std::span<double const> logs) {
+        inference::Hyperparameters h{std::exp(logs[0]), Eigen::VectorXd(d),
+                                     is_noisy ? std::exp(logs.back()) : 0};
+        for (Eigen::Index j = 0; j < d; ++j) h.lengths(j) = std::exp(logs[static_cast<std::size_t>(1 + j)]);
+        return h;
+    };
+    auto const density = [&](std::span<double const> logs) {
+        try {
+            return inference::GaussianProcess(process_.data(), prior(), from_logs(logs)).log_likelihood();
+        } catch (std::invalid_argument const&) {
+            return -std::numeric_limits<double>::infinity();  // numerically singular
+        }
+    };
+    std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
+    for (Eigen::Index j = 0; j < d; ++j) bounds.push_back(logs_of(length_prior));
+    if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));
+    inference::SamplerSettings const settings{
+        .chains = 4, .warm_up = 200, .draws = 150, .most_draws = 150, .points_per_start = 150};
+    inference::Sample const sample = inference::sample(density, bounds, settings);
+    for (int chain = 0; chain < sample.chains; ++chain) {
+        for (int draw = thinning - 1; draw < sample.draws; draw += thinning)
+            others_.emplace_back(process_.data(), prior(), from_logs(sample.draw(chain, draw)));
+    }
 }
 
 Eigen::VectorXd Surface::scaled(Place const& place) const {
@@ -96,7 +151,10 @@ Eigen::VectorXd Surface::trend_at(double theory) const {
 }
 
 SurfaceValue Surface::at(Place const& place, double theory) const {
-    auto const [mean, sd] = process_.predict(scaled(place), trend_at(theory));
+    Eigen::VectorXd const x = scaled(place), h = trend_at(theory);
+    std::vector<inference::ProcessValue> parts;
+    for (inference::GaussianProcess const& process : others_) parts.push_back(process.predict(x, h));
+    auto const [mean, sd] = mixture(parts);
     return {mean, deviations_in_half_width * sd};
 }
 
@@ -121,7 +179,9 @@ void Surface::believe(SurfacePoint const& point) {
     data.trend.row(n) = trend_at(point.theory);
     data.values(n) = point.efficiency;
     data.noise(n) = std::max(least_noise, point.half_width / deviations_in_half_width);
-    process_ = inference::GaussianProcess(std::move(data), prior(), process_.hyperparameters());
+    process_ = inference::GaussianProcess(data, prior(), process_.hyperparameters());
+    for (inference::GaussianProcess& process : others_)
+        process = inference::GaussianProcess(data, prior(), process.hyperparameters());
     points_.push_back(point);
 }
 

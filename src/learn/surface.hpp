@@ -54,7 +54,12 @@ struct SurfaceQuality {
 
 /// The velocity efficiency of a layer over the inputs of a campaign, and how sure it is: a Gaussian process
 /// (inference/gaussian_process.hpp) with the trend beta_0 + beta_1 theory, beta_0 ~ N(0, 1), beta_1 ~ N(1,
-/// 1), the noise of every point from its own interval, and hyperparameters of the largest likelihood.
+/// 1), and the noise of every point from its own interval.
+///
+/// Few points do not tell the hyperparameters well, and those of the largest likelihood give intervals that
+/// are too narrow. What the surface says of a place is therefore the mean and the variance over 24 draws from
+/// the posterior of the hyperparameters (equally likely in their logarithm within wide bounds). The process
+/// of the largest likelihood decides about extra noise and what to simulate next.
 ///
 /// If the points scatter by more than their intervals say (likelihood ratio test, p < 0.01), extra noise is
 /// estimated and kept, so that the surface does not pretend to be sure.
@@ -68,7 +73,7 @@ class Surface {
     SurfaceValue at(Place const& place, double theory) const;
 
     /// By how much a further value at `where`, with so wide a 95 % interval, would lower the variance of the
-    /// efficiency at `place`.
+    /// efficiency at `place`, by the process of the largest likelihood.
     double variance_reduction(Place const& place, double theory, Place const& where, double theory_there,
                               double half_width) const;
 
@@ -82,12 +87,13 @@ class Surface {
 
     std::vector<SurfaceInput> const& inputs() const { return inputs_; }     ///< of the surface
     std::vector<SurfacePoint> const& points() const { return points_; }     ///< on which it rests
-    inference::GaussianProcess const& process() const { return process_; }  ///< behind it
+    inference::GaussianProcess const& process() const { return process_; }  ///< of the largest likelihood
     /// The place scaled to [0, 1] where the ranges lie.
     Eigen::VectorXd scaled(Place const& place) const;
 
   private:
     inference::GaussianProcess fit();
+    void draw_others();
     Eigen::VectorXd trend_at(double theory) const;
     inference::TrendPrior prior() const;
 
@@ -96,6 +102,7 @@ class Surface {
     Trend trend_;
     SurfaceQuality quality_{};
     inference::GaussianProcess process_;
+    std::vector<inference::GaussianProcess> others_;  ///< with hyperparameters drawn from their posterior
 };
 
 }  // namespace vibrotrough::learn

@@ -1,12 +1,11 @@
 #include "learn/surface_model.hpp"
 
 #include "core/error.hpp"
+#include "learn/machine_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -17,39 +16,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Inputs that a measurement gives: each from the setting of the machine.
-struct MachineKey {
-    std::string_view key;
-    double (*value)(MeasuredSpeed const&);
-};
-
-double omega(MeasuredSpeed const& m) {
-    return 2 * std::numbers::pi * m.frequency;
-}
-double alpha(MeasuredSpeed const& m) {
-    return m.inclination.value_or(0);
-}
-double machine_number(MeasuredSpeed const& m) {
-    return omega(m) * omega(m) * m.amplitude / scenario::gravity;
-}
-
-constexpr std::array<MachineKey, 8> machine_keys{{
-    {"trough.frequency", [](MeasuredSpeed const& m) { return m.frequency; }},
-    {"trough.amplitude", [](MeasuredSpeed const& m) { return m.amplitude; }},
-    {"trough.vibration_angle", [](MeasuredSpeed const& m) { return *m.vibration_angle; }},
-    {"trough.tan_vibration_angle", [](MeasuredSpeed const& m) { return std::tan(*m.vibration_angle); }},
-    {"trough.inclination", [](MeasuredSpeed const& m) { return alpha(m); }},
-    {"trough.tan_inclination", [](MeasuredSpeed const& m) { return std::tan(alpha(m)); }},
-    {"trough.machine_number", [](MeasuredSpeed const& m) { return machine_number(m); }},
-    {"trough.throw_number",
-     [](MeasuredSpeed const& m) {
-         return machine_number(m) * std::sin(*m.vibration_angle) / std::cos(alpha(m));
-     }},
-}};
-
-MachineKey const* machine_key(std::string const& key) {
-    auto const found = std::ranges::find(machine_keys, key, &MachineKey::key);
-    return found == machine_keys.end() ? nullptr : &*found;
+/// The machine as it was set for a measurement whose vibration angle is known.
+theory::Drive drive_of(MeasuredSpeed const& m) {
+    return {m.frequency, m.amplitude, *m.vibration_angle, m.inclination.value_or(0)};
 }
 
 /// The machine of a case must be that of the measurement.
@@ -61,12 +30,12 @@ void check_machine(scenario::Scenario const& scenario, MeasuredSpeed const& m) {
     };
     scenario::Trough const& t = scenario.trough;
     // A quarter of a degree, and two percent: as well as machines are usually known.
-    for (Quantity const& q :
-         {Quantity{"amplitude", t.amplitude, m.amplitude, 0.02 * m.amplitude, 1e3, "mm"},
-          Quantity{"frequency", t.frequency, m.frequency, 0.02 * m.frequency, 1, "Hz"},
-          Quantity{"vibration angle", t.vibration_angle, *m.vibration_angle, degree / 4, 1 / degree,
-                   "degrees"},
-          Quantity{"inclination", t.inclination, alpha(m), degree / 4, 1 / degree, "degrees"}}) {
+    for (Quantity const& q : {Quantity{"amplitude", t.amplitude, m.amplitude, 0.02 * m.amplitude, 1e3, "mm"},
+                              Quantity{"frequency", t.frequency, m.frequency, 0.02 * m.frequency, 1, "Hz"},
+                              Quantity{"vibration angle", t.vibration_angle, *m.vibration_angle, degree / 4,
+                                       1 / degree, "degrees"},
+                              Quantity{"inclination", t.inclination, m.inclination.value_or(0), degree / 4,
+                                       1 / degree, "degrees"}}) {
         if (std::abs(q.campaign - q.measured) <= q.tolerance) continue;
         throw core::InputError(
             fmt::format("line {}: the {} is {:.4g} {} and that of the campaign {:.4g} {}; simulate the "
@@ -81,16 +50,22 @@ struct Source {
     MachineKey const* machine;
 };
 
+Place place_from(std::vector<Source> const& sources, std::span<double const> values,
+                 MeasuredSpeed const& measured) {
+    Place place;
+    for (Source const& source : sources)
+        place.push_back(source.parameter ? values[*source.parameter]
+                                         : source.machine->value(drive_of(measured)));
+    return place;
+}
+
 class SurfaceModel {
   public:
     SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources)
         : surface_(std::move(surface)), theory_(std::move(theory)), sources_(std::move(sources)) {}
 
     Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
-        Place place;
-        for (Source const& source : sources_)
-            place.push_back(source.parameter ? values[*source.parameter] : source.machine->value(measured));
-        return place;
+        return place_from(sources_, values, measured);
     }
 
     std::optional<ModelSpeed> operator()(std::span<double const> values,
@@ -99,8 +74,7 @@ class SurfaceModel {
         auto const theory = theory_.efficiency_at(at);
         if (!theory) return {};
         auto const [efficiency, half_width] = surface_->at(at, *theory);
-        double const trough_speed =
-            omega(measured) * measured.amplitude * std::cos(*measured.vibration_angle);
+        double const trough_speed = drive_of(measured).trough_speed();
         return ModelSpeed{efficiency * trough_speed, half_width / 1.959964 * trough_speed, trough_speed};
     }
 
@@ -173,6 +147,22 @@ SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseM
         }
     }
     return model;
+}
+
+std::vector<Place> posterior_places(std::vector<SurfaceInput> const& inputs,
+                                    std::vector<std::string> const& free, Calibration const& calibration,
+                                    std::vector<MeasuredSpeed> const& speeds) {
+    constexpr std::size_t most_draws = 40;
+    auto const sources = sources_of(inputs, free);
+    std::size_t const draws = calibration.parameters.front().draws.size();
+    std::size_t const step = std::max<std::size_t>(1, draws / most_draws);
+    std::vector<Place> places;
+    for (std::size_t i = step / 2; i < draws; i += step) {
+        std::vector<double> values;
+        for (Estimate const& e : calibration.parameters) values.push_back(e.draws[i]);
+        for (MeasuredSpeed const& measured : speeds) places.push_back(place_from(sources, values, measured));
+    }
+    return places;
 }
 
 }  // namespace vibrotrough::learn

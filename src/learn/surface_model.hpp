@@ -23,4 +23,11 @@ std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& i
 SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseMaker const& maker,
                          std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds);
 
+/// The places on the surface at which a posterior lies: for each measurement those of up to 40 of its draws.
+/// That is where a finer surface would help the calibration.
+/// @param free  as for surface_model()
+std::vector<Place> posterior_places(std::vector<SurfaceInput> const& inputs,
+                                    std::vector<std::string> const& free, Calibration const& calibration,
+                                    std::vector<MeasuredSpeed> const& speeds);
+
 }  // namespace vibrotrough::learn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "theory/drive_search.hpp"
 #include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
 #include "theory/sensitivity.hpp"
@@ -9,11 +10,6 @@
 #include <vector>
 
 namespace vibrotrough::theory {
-
-/// The values that a quantity may take.
-struct Range {
-    double low, high;  ///< ends of the range, both included
-};
 
 /// The limits within which a machine may be chosen.
 struct DesignLimits {
@@ -31,6 +27,9 @@ struct DesignLimits {
     /// The law of rolling layers; nothing: a point mass. The throw number is then kept within [1.25, 2.6] and
     /// tan(beta) and tan(alpha) within the law's tested range.
     std::optional<RollingLaw> rolling = {};
+
+    /// The drives among which the search may choose.
+    DriveSpace space() const;
 };
 
 /// A machine within the limits and its conveying speed.
@@ -45,11 +44,22 @@ struct Design {
     std::vector<std::string> active_limits;
 };
 
+/// The largest |tan(alpha)| / mu that a design uses: beyond it, the speed depends on the last digit of the
+/// friction coefficient, and beyond mu it is unbounded.
+inline constexpr double max_friction_used = 0.95;
+
+/// The inclinations of a range at which |tan(alpha)| <= 0.95 mu.
+/// @throws std::invalid_argument when there are none
+Range with_friction_margin(Range inclination, double friction);
+
+/// The drives of a space at which the law of rolling layers has been tested (outside_tested_range()).
+/// @throws std::invalid_argument when there are none
+DriveSpace within_tested_range(DriveSpace space);
+
 /// Finds the machine with the highest conveying speed of the plastic point mass, or of a rolling layer,
-/// within the limits: a global search by NLopt's ISRES over frequency, amplitude, vibration angle and
-/// inclination, with machine number and throw number as constraints, refined by COBYLA.
+/// within the limits, by best_drive().
 ///
-/// The search is random with a fixed seed. Other machines with a speed within 0.1 % of the optimum may exist.
+/// Other machines with a speed within 0.1 % of the optimum may exist.
 /// The inclination is kept within |tan(alpha)| <= 0.95 mu; beyond this the mass is close to running away.
 /// A limit is called active when the optimum lies within 0.1 % of it.
 ///

@@ -2,6 +2,7 @@
 
 #include "random_number.hpp"
 #include "theory/design.hpp"
+#include "theory/plastic_quantities.hpp"
 #include "theory/sensitivity.hpp"
 
 #include <algorithm>
@@ -230,6 +231,24 @@ TEST(Quantities, WithoutALayerThereIsNoMassFlow) {
 }
 
 // K = omega^2 r / g with omega = 2 pi f and r = stroke / 2. Tolerance: rounding.
+// The closed forms are those of the general quantities: impact speed, and work of the trough over time.
+// Tolerance: the general solver finds its period to 1e-9 and integrates the energies to 1e-12; its power per
+// cycle is divided by the energy (omega r)^2, the natural unit, so that small powers are compared absolutely.
+RC_GTEST_PROP(PlasticQuantities, AreThoseOfTheGeneralSolver, ()) {
+    double const mu = between(0.05, 1);
+    PointMass const point{between(0.2, 5), std::tan(between(5, 70) * pi / 180), between(-0.9, 0.9) * mu, mu};
+    Machine const machine{between(0.5e-3, 15e-3)};
+    Motion const motion = solve(point);
+    RC_PRE(motion.converged && motion.period_cycles == 1);
+    Conveyor conveyor{};
+    conveyor.point = point;
+    EngineerQuantities const expected = engineer_quantities(solve_plastic(conveyor, Detail::pieces), machine);
+    PlasticQuantities const found = plastic_quantities(motion, point, machine);
+    double const speed = expected.angular_frequency * machine.amplitude;
+    RC_ASSERT(std::abs(found.impact_speed - expected.impact_speed) <= 1e-6 * speed);
+    RC_ASSERT(std::abs(found.mean_power - expected.mean_power) <= 1e-6 * speed * speed * expected.frequency);
+}
+
 TEST(Inputs, TakeFrequencyAndStroke) {
     auto const inputs = [](Input length, double value) {
         Inputs in;
@@ -304,6 +323,29 @@ TEST(Design, IsNotBeatenByAGrid) {
     }
     EXPECT_GE(design.conveying_speed, best * 0.999);
     EXPECT_LE(design.conveying_speed, best * 1.05);
+}
+
+// Every drive that the search gives keeps every limit, without any tolerance, whatever the limits are.
+RC_GTEST_PROP(DriveSearch, KeepsEveryLimit, ()) {
+    DriveSpace space;
+    space.frequency = {between(2, 10), between(15, 60)};
+    space.amplitude = {between(0.2e-3, 1e-3), between(2e-3, 15e-3)};
+    space.vibration_angle = {between(0.05, 0.4), between(0.5, 1.4)};
+    space.inclination = {between(-0.2, 0), between(0, 0.2)};
+    space.max_machine_number = between(1, 6);
+    space.max_throw_number = between(0.9, 3.3);
+    double const most = between(0.05, 0.5);  // m/s, a further limit
+    auto const drive = best_drive(space, [](Drive const& d) { return d.frequency * d.amplitude; },
+                                  {[&](Drive const& d) { return d.trough_speed() / most - 1; }},
+                                  {.global_evaluations = 2000, .local_evaluations = 500});
+    RC_ASSERT(drive.has_value());
+    auto const within = [](double value, Range const& r) { return value >= r.low && value <= r.high; };
+    RC_ASSERT(within(drive->frequency, space.frequency) && within(drive->amplitude, space.amplitude));
+    RC_ASSERT(within(drive->vibration_angle, space.vibration_angle));
+    RC_ASSERT(within(drive->inclination, space.inclination));
+    RC_ASSERT(drive->machine_number(space.gravity) <= space.max_machine_number);
+    RC_ASSERT(drive->throw_number(space.gravity) <= space.max_throw_number);
+    RC_ASSERT(drive->trough_speed() <= most);
 }
 
 TEST(Design, SaysWhenTheFlowIsNotReached) {

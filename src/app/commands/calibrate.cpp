@@ -1,6 +1,9 @@
 #include "app/commands.hpp"
 #include "app/commands/calibration_options.hpp"
+#include "app/commands/common_options.hpp"
+#include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/learning.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -9,6 +12,7 @@
 #include "learn/surface_model.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -21,7 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-    std::string campaign, output, measured;
+    std::string campaign, output, measured, engine;
+    Text budget, jobs;
+    bool quiet = false, accept_findings = false;
     CalibrationOptions shared;
 };
 
@@ -32,22 +38,85 @@ fs::path folder_of(Options const& options) {
     return options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
 }
 
-int run(Options& options) {
-    fs::path const folder = folder_of(options);
-    campaign::Plan const plan = campaign::open_plan(folder);
-    scenario::CaseMaker const maker(folder / "campaign.toml");
-    core::TextFile const table = core::read_text_file(options.measured);
-    auto const speeds =
-        learn::read_speeds(table.content, options.measured, options.shared.relative_uncertainty());
-    for (std::string& name : options.shared.free) name = maker.full_key(name);
+/// A calibration on the surface that the results of a campaign give.
+struct OnSurface {
+    std::shared_ptr<learn::Surface const> surface;
+    learn::Calibration calibration;
+};
+
+OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& maker, Options const& options,
+                       std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
     auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
     learn::SpeedModel const model = learn::surface_model(surface, maker, options.shared.free, speeds);
     auto const parameters = options.shared.parameters(learn::surface_parameters(points.inputs));
-    auto const calibration = learn::calibrate(model, parameters, speeds, options.shared.settings());
-    print_calibration(options.shared, calibration, {"the simulated layer"});
-    for (std::string const& doubt : surface->doubts()) tell("surface: {}\n", doubt);
-    return calibration.converged ? all_well : some_cases_failed;
+    return {surface, learn::calibrate(model, parameters, speeds, options.shared.settings())};
+}
+
+int print(Options const& options, OnSurface const& found) {
+    print_calibration(options.shared, found.calibration, {"the simulated layer"});
+    for (std::string const& doubt : found.surface->doubts()) tell("surface: {}\n", doubt);
+    return found.calibration.converged ? all_well : some_cases_failed;
+}
+
+/// The half-width of the surface below which it adds little to the uncertainty of the measurements: half of
+/// theirs, in velocity efficiency.
+double useful_half_width(std::vector<learn::MeasuredSpeed> const& speeds) {
+    double least = 1;
+    for (learn::MeasuredSpeed const& m : speeds) {
+        theory::Drive const drive{m.frequency, m.amplitude, m.vibration_angle.value_or(0), 0};
+        least = std::min(least, 0.5 * 1.96 * m.uncertainty / drive.trough_speed());
+    }
+    return std::clamp(least, 1e-4, 1.0);
+}
+
+/// Simulates where the posterior lies until the surface is precise there, or the budget is spent.
+int refine(Options const& options, std::vector<learn::MeasuredSpeed> const& speeds, RunOptions const& running,
+           double budget) {
+    ReadyCampaign ready = prepare_run(running);
+    if (ready.is_interrupted) return interrupted;
+    scenario::CaseMaker const maker(running.campaign_file);
+    learn::LearnGoal const goal{useful_half_width(speeds), budget, std::max(4, running.jobs)};
+    auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
+    while (true) {
+        if (!simulate(running, ready, wanted)) return interrupted;
+        OnSurface const found = calibrate_on(ready.plan, maker, options, speeds);
+        learn::Learner learner(ready.plan, maker, goal);
+        learner.concentrate_on(
+            learn::posterior_places(found.surface->inputs(), options.shared.free, found.calibration, speeds));
+        learn::LearnStatus const status = learner.look();
+        if (!options.quiet)
+            tell(
+                "calibrate: {} cases; half-width of the surface where the posterior lies: {:.4f} (useful: "
+                "{:.4f}); {:.3g} of {:.3g} core-hours spent\n",
+                status.cases, status.certainty.at_worst.half_width, goal.half_width, status.core_time / 3600,
+                budget / 3600);
+        bool const is_precise = status.certainty.at_worst.half_width <= goal.half_width;
+        auto const steps = is_precise ? std::vector<learn::LearnStep>{} : learner.choose();
+        if (steps.empty()) return print(options, found);
+        take_steps(steps, ready.plan, wanted);
+    }
+}
+
+int run(Options& options) {
+    core::TextFile const table = core::read_text_file(options.measured);
+    auto const speeds =
+        learn::read_speeds(table.content, options.measured, options.shared.relative_uncertainty());
+    if (options.budget && fs::is_directory(options.campaign))
+        throw core::InputError("--budget: simulates, and needs the campaign file instead of its folder");
+    fs::path const folder = folder_of(options);
+    scenario::CaseMaker const maker(options.budget ? fs::path(options.campaign) : folder / "campaign.toml");
+    for (std::string& name : options.shared.free) name = maker.full_key(name);
+    if (!options.budget)
+        return print(options, calibrate_on(campaign::open_plan(folder), maker, options, speeds));
+    RunOptions running;
+    running.campaign_file = options.campaign;
+    running.output = folder.string();
+    running.engine = options.engine;
+    running.quiet = options.quiet;
+    running.accept_findings = options.accept_findings;
+    if (options.jobs) running.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
+    return refine(options, speeds, running, read_core_time(*options.budget));
 }
 
 }  // namespace
@@ -68,6 +137,18 @@ void add_calibrate(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("FILE");
     options->shared.add_to(*command);
+    command
+        ->add_option(
+            "--budget", options->budget,
+            "Core time, for example \"1 core-hours\": simulate further cases where the posterior lies "
+            "until it is spent, or the surface is twice as precise there as the measurements; needs "
+            "CAMPAIGN.toml with a [domain]")
+        ->type_name("TIME");
+    add_engine(*command, options->engine);
+    command->add_option("--jobs", options->jobs, "Cores to use with --budget; default: all");
+    command->add_flag("--quiet", options->quiet, "Show no progress of the simulations");
+    command->add_flag("--accept-findings", options->accept_findings,
+                      "Simulate although the check of the campaign found errors");
     command->footer(
         "The cases of the campaign give a surface of the velocity efficiency (see 'vibrotrough predict "
         "--help'). What the "
@@ -80,7 +161,9 @@ void add_calibrate(CLI::App& program, int& exit_code) {
         R"(
 
 Example:
-  vibrotrough calibrate runs/krakow --measured speeds.csv --free trough.friction)");
+  vibrotrough calibrate runs/krakow --measured speeds.csv --free trough.friction
+  vibrotrough calibrate domain.toml --measured speeds.csv --free trough.friction \
+      --budget "1 core-hours")");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

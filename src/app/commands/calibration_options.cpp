@@ -2,6 +2,7 @@
 
 #include "app/commands/common_options.hpp"
 #include "app/commands/theory/options.hpp"
+#include "app/decision_page.hpp"
 #include "app/python.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -31,7 +32,7 @@ Exit codes:
     0  all well
     1  the chains have not converged
     2  the input is wrong
-    3  something is missing: Python with its modules, for --plot)";
+    3  something is missing: Python with its modules, for --plot and --page)";
 
 void CalibrationOptions::add_to(CLI::App& command) {
     command.add_option("--free", free, "Quantities to find, separated by commas")
@@ -56,6 +57,13 @@ void CalibrationOptions::add_to(CLI::App& command) {
     command
         .add_option("--plot", plot,
                     "Draw the distributions of all pairs (corner plot) into this PNG or SVG file")
+        ->type_name("FILE");
+    command.add_option("--page", page, "Write a page of one screen about the result into this HTML file")
+        ->type_name("FILE");
+    command
+        .add_option(
+            "--posterior", posterior,
+            "Write the draws of the result into this JSON file, for 'vibrotrough design --posterior FILE'")
         ->type_name("FILE");
     add_python(command, python);
     command.add_flag("--json", json, "Print JSON");
@@ -132,6 +140,12 @@ void print_calibration(CalibrationOptions const& options, learn::Calibration con
         run_script("corner.py", {data.string(), "--output", std::filesystem::absolute(options.plot).string()},
                    options.python, {"numpy", "matplotlib"});
     }
+    if (!options.posterior.empty())
+        core::write_file_atomically(options.posterior,
+                                    learn::corner_plot_data(calibration, model).dump() + "\n");
+    if (!options.page.empty())
+        write_decision_page(learn::corner_plot_data(calibration, model), "calibration", options.page,
+                            options.python);
     if (options.json) {
         fmt::print("{}\n", learn::calibration_json(calibration, model).dump(2));
     } else {

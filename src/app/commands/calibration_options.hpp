@@ -24,6 +24,7 @@ struct CalibrationOptions {
     std::optional<std::string> uncertainty;  ///< relative, of speeds that have none
     std::optional<std::string> seed;         ///< of the random numbers
     std::string plot, python;                ///< file of the corner plot, and the Python that draws it
+    std::string page, posterior;             ///< file of the page, and of the draws for `design`
     bool exact = false;                      ///< without model discrepancy
     bool json = false;                       ///< print JSON
 

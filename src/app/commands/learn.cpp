@@ -1,15 +1,10 @@
-#include "app/campaign_run.hpp"
 #include "app/commands.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/learning.hpp"
 #include "app/progress_log.hpp"
-#include "campaign/schedule/until_precise.hpp"
-#include "campaign/state/added_cases.hpp"
-#include "campaign/state/overview.hpp"
 #include "core/error.hpp"
-#include "core/quantity.hpp"
 #include "core/shell.hpp"
-#include "learn/learner.hpp"
 
 #include <memory>
 
@@ -23,13 +18,6 @@ struct Options {
     RunOptions shared;
     Text half_width, budget, batch;
 };
-
-/// "4 core-hours" in core-seconds.
-double read_core_time(std::string const& text) {
-    std::string plain = text;
-    if (auto const at = plain.find("core-"); at != std::string::npos) plain.erase(at, 5);
-    return read_positive_quantity("--budget", plain, "s", "4 core-hours");
-}
 
 learn::LearnGoal read_goal(Options const& options) {
     learn::LearnGoal goal{};
@@ -56,19 +44,6 @@ std::string describe(learn::LearnStatus const& s, std::vector<learn::SurfaceInpu
         s.cases, s.apart > 0 ? fmt::format(" ({} more kept apart)", s.apart) : "",
         s.certainty.at_worst.half_width, place_text(s.certainty.worst, inputs), s.certainty.mean_half_width,
         s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600);
-}
-
-/// Adds the cases of a batch to the plan, and remembers what is wanted of them and of those that go on.
-void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
-                std::map<std::string, double>& wanted) {
-    for (learn::LearnStep const& step : steps) {
-        if (!step.added) {
-            wanted[step.case_id] = step.half_width;
-        } else if (campaign::PlannedCase const* const added = campaign::add_case(plan, *step.added)) {
-            wanted[added->id] = step.half_width;
-        }
-    }
-    learn::write_wanted_half_widths(plan.folder, wanted);
 }
 
 /// Says how learning ended. @return the exit code
@@ -100,18 +75,7 @@ int run(Options const& options) {
         wanted.emplace(planned.id, learner.first_half_width(planned.scenario()));
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
     while (true) {
-        {
-            auto const shown = options.shared.make_observer();
-            LoggingObserver observer(*shown, ready.plan.folder);
-            campaign::Summary const summary = campaign::run_campaign(
-                ready.plan, options.shared.campaign_file, campaign::UntilPrecise(wanted), *ready.kind,
-                ready.inputs, campaign::Until::done, observer);
-            if (summary.interrupted) {
-                fmt::print("interrupted; the same command continues it\n");
-                return interrupted;
-            }
-        }
-        campaign::write_campaign_file(ready.plan);
+        if (!simulate(options.shared, ready, wanted)) return interrupted;
         learn::LearnStatus const status = learner.look();
         std::string const line = describe(status, learner.inputs());
         CampaignLog(ready.plan.folder).info("learn: " + line);

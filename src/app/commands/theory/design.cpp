@@ -26,21 +26,6 @@ struct Options {
     bool json = false;
 };
 
-/// "LOW to HIGH", or one value for both.
-theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
-                         auto const& read_one) {
-    auto const middle = text.find(" to ");
-    if (middle == std::string::npos) {
-        double const value = read_one(text);
-        return {value, value};
-    }
-    theory::Range const range{read_one(text.substr(0, middle)), read_one(text.substr(middle + 4))};
-    if (range.low <= range.high) return range;
-    throw core::InputError(
-        fmt::format("{} {}: the first value is above the second; write for example {} \"{}\"", option, text,
-                    option, example));
-}
-
 theory::DesignLimits read(Options const& o) {
     theory::DesignLimits l{};
     l.friction =

@@ -68,6 +68,20 @@ double read_positive_quantity(std::string const& option, std::string const& text
         fmt::format("{} {}: must be above zero; write for example {} \"{}\"", option, text, option, example));
 }
 
+theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
+                         std::function<double(std::string const&)> const& read_one) {
+    auto const middle = text.find(" to ");
+    if (middle == std::string::npos) {
+        double const value = read_one(text);
+        return {value, value};
+    }
+    theory::Range const range{read_one(text.substr(0, middle)), read_one(text.substr(middle + 4))};
+    if (range.low <= range.high) return range;
+    throw core::InputError(
+        fmt::format("{} {}: the first value is above the second; write for example {} \"{}\"", option, text,
+                    option, example));
+}
+
 double read_angle(std::string const& option, std::string const& text, std::string const& example,
                   double low_deg, double high_deg) {
     double const angle = read_quantity(option, text, "radian", example);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "theory/conveyor.hpp"
+#include "theory/drive_search.hpp"
 #include "theory/inputs.hpp"
 #include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +37,11 @@ int read_count(std::string const& option, std::string const& text, std::string c
 /// read_number
 double read_positive_quantity(std::string const& option, std::string const& text, std::string const& unit,
                               std::string const& example);
+
+/// Reads "LOW to HIGH", or one value for both. @param read_one  reads one value
+/// @throws core::InputError as read_one does, and when the first value is above the second
+theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
+                         std::function<double(std::string const&)> const& read_one);
 
 /// Reads an angle with its unit and converts it to rad. The bounds are in degrees.
 /// @throws core::InputError as read_number

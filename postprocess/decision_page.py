@@ -1,0 +1,211 @@
+#!/usr/bin/python3
+"""Writes the page of one screen about a design or a calibration: one HTML file that needs no network and no other file.
+
+    decision_page.py DATA.json --output FILE.html
+
+DATA.json is what `vibrotrough design --page`, `theory calibrate --page` and `calibrate --page` hand over. The texts are escaped
+by the template (decision.html).
+"""
+
+import argparse
+import io
+import json
+import pathlib
+import sys
+from typing import Any
+
+import jinja2
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from corner import draw_one, label
+from drawn_figures import drawing_of, read_note, write_file
+from figure_style import COLOURS, DASHES, GREY, MARKERS, Problem, new_figure, plain, plain_axes
+from report import inline_svg
+
+Data = dict[str, Any]
+Page = dict[str, Any]
+
+DEGREE = "\u00b0"
+RULES = {"v = 3.81 N S, of which 70 to 80 % are used in practice": "v = 3.81 N S; 70 to 80 % of it in practice",
+         "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)": "no slip: v = g n\u00b2 cot \u03b2 / (2 f)"}
+
+
+def svg_of(figure: Figure, title: str) -> Any:
+    content = io.BytesIO()
+    figure.savefig(content, format="svg", metadata={"Date": None})
+    drawing = drawing_of(content.getvalue())
+    assert drawing is not None  # matplotlib only draws
+    return inline_svg(drawing, 1, title)
+
+
+def allowed(ends: list[float], unit: str) -> str:
+    """What a quantity of the machine may be."""
+    low, high = ends
+    if low == high:
+        return "fixed"
+    return f"allowed {low:.3g} to {high:.4g}{'' if unit == DEGREE else ' '}{unit}"
+
+
+def draw_flow(data: Data) -> Any:
+    """The probability of each mass flow or more, by each model."""
+    figure, axes = new_figure(size=(7.0, 3.3))
+    plain_axes(axes)
+    probability = 1 - np.array(data["quantile_shares"])
+    for number, model in enumerate(data["models"]):
+        axes.plot(model["mass_flow_quantiles_t_per_h"], 100 * probability, DASHES[number % len(DASHES)],
+                  color=COLOURS[number % len(COLOURS)], linewidth=2, label=model["model"])
+    wanted = data["mass_flow_wanted_t_per_h"]
+    axes.axvline(wanted, color=GREY, linewidth=1)
+    axes.annotate(f"asked: {wanted:.4g} t/h", (wanted, 1), xytext=(4, 2), textcoords="offset points", fontsize=9, color=GREY)
+    axes.axhline(100 * data["confidence"], color=GREY, linewidth=1, linestyle=":")
+    axes.set_ylim(0, 100)
+    axes.set_xlabel("mass flow  [t/h]")
+    axes.set_ylabel("probability of so much\nor more  [%]")
+    axes.legend(frameon=False, loc="upper right", bbox_to_anchor=(1.0, 0.94))
+    figure.tight_layout()
+    return svg_of(figure, "Probability of a mass flow or more")
+
+
+def design_page(data: Data) -> Page:
+    task = data["task"]
+    power = f"{data['power_w']:.3g} W" if "power_w" in data else f"{data['power_w_per_m']:.3g} W/m"
+    landing = task["max_landing_speed_m_per_s"]
+    machine = [
+        ("stroke", f"{data['stroke_mm']:.4g} mm", f"amplitude {data['stroke_mm'] / 2:.4g} mm; {allowed(task['stroke_mm'], 'mm')}"),
+        ("speed of the drive", f"{data['rpm']:.4g} 1/min", f"{data['frequency_hz']:.4g} Hz; {allowed(task['rpm'], '1/min')}"),
+        ("vibration angle", f"{data['vibration_angle_deg']:.4g}\u00b0", f"{allowed(task['vibration_angle_deg'], DEGREE)}"),
+        ("inclination", f"{data['inclination_deg']:.4g}\u00b0", f"uphill positive; {allowed(task['inclination_deg'], DEGREE)}"),
+        ("layer depth", f"{data['layer_depth_mm']:.4g} mm", f"{allowed([1e3 * depth for depth in task['depth_m']], 'mm')}"),
+        ("throw number \u0393", f"{data['throw_number']:.3g}", f"at most {task['max_throw_number']:.4g}"),
+        ("machine number K", f"{data['machine_number']:.3g}", f"at most {task['max_machine_number']:.4g}"),
+        ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
+         (f"at most {landing:.4g} m/s, " if landing is not None else "") + f"for frictions of {data['friction_low']:.3g} to {data['friction_high']:.3g}"),
+        ("power", power, "given to the material (point mass)"),
+        ("held back by", "", ", ".join(data["active_limits"]).replace("<=", "\u2264").replace(">=", "\u2265") or "nothing"),
+    ]
+    asked = [
+        ("mass flow", f"{data['mass_flow_wanted_t_per_h']:.4g} t/h", f"with {100 * data['confidence']:.4g} %; {data['objective'].replace('-', ' ')}"),
+        ("trough", f"{1e3 * task['width_m']:.4g} mm wide", f"{task['length_m']:.4g} m long" if task["length_m"] else ""),
+        ("material", f"{task['bulk_density_kg_per_m3']:.4g} kg/m\u00b3",
+         f"friction {data['friction_median']:.3g}" + (
+             f" ({data['friction_low']:.3g} to {data['friction_high']:.3g})" if data["friction_low"] < data["friction_high"] else ", taken as exact")),
+    ]
+    sure = f"{100 * data['confidence']:.4g} %"
+    models = [[model["model"], f"{model['median_speed_m_per_s']:.3g}", f"{model['sure_speed_m_per_s']:.3g}", f"{model['mass_flow_t_per_h']:.3g}",
+               f"{model['mass_flow_low_t_per_h']:.3g} to {model['mass_flow_high_t_per_h']:.3g}", f"{100 * model['probability']:.1f} %"]
+              for model in data["models"]]
+    rules = [[f"{RULES.get(rule['rule'], rule['rule'])} ({rule['source']})", f"{rule['speed_m_per_s']:.3g}" if rule["speed_m_per_s"] else "no throw",
+              f"{rule['low_m_per_s']:.3g} to {rule['high_m_per_s']:.3g}" if rule["low_m_per_s"] else ""]
+             for rule in data["rules_of_thumb"]]
+    return {
+        "title": "Design of a vibrating trough",
+        "good": data["feasible"],
+        "conclusion": [data["sentence"],
+                       f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.4g} mm deep."],
+        "facts": [{"heading": "The machine", "rows": machine}, {"heading": "What was asked", "rows": asked}],
+        "svg": draw_flow(data),
+        "caption": "Probability of a mass flow or more at this layer depth; dotted: the confidence asked.",
+        "tables": [
+            {"heading": "What each model says",
+             "headings": ["", "speed, m/s", f"with {sure}, m/s", "mass flow, t/h", "95 % interval, t/h", "reaches what was asked"], "rows": models},
+            {"heading": "Rules of thumb, for comparison", "headings": ["rule", "m/s", "in practice, m/s"], "rows": rules}],
+        "warnings": data["warnings"],
+        "basis": "The friction has a distribution, and each model misses the truth by its discrepancy. Every limit is kept by the machine as it is printed, "
+                 "the landing speed at every friction in the central 99.7 % of its distribution.",
+        "command": "by vibrotrough design",
+    }
+
+
+def draw_speeds(axes: Axes, measurements: list[Data]) -> None:
+    places = np.arange(len(measurements))
+    column = {key: np.array([one[key] for one in measurements]) for key in (
+        "speed_m_per_s", "uncertainty_m_per_s", "model_m_per_s", "model_low_m_per_s", "model_high_m_per_s")}
+    axes.errorbar(places - 0.08, column["speed_m_per_s"], yerr=1.96 * column["uncertainty_m_per_s"], fmt=MARKERS[0], color=COLOURS[1],
+                  markersize=5, capsize=3, label="measured")
+    middle = column["model_m_per_s"]
+    below, above = (np.maximum(0, part) for part in (middle - column["model_low_m_per_s"], column["model_high_m_per_s"] - middle))
+    axes.errorbar(places + 0.08, middle, yerr=[below, above], fmt=MARKERS[1], color=COLOURS[0], markersize=5, capsize=3, label="model")
+    axes.set_xticks(places)
+    axes.set_xticklabels([f"{2e3 * one['amplitude_m']:.3g} mm\n{60 * one['frequency_hz']:.4g} 1/min" for one in measurements], fontsize=7)
+    axes.set_xlim(-0.5, len(measurements) - 0.5)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("speed  [m/s], 95 % intervals")
+    axes.legend(frameon=False, fontsize=8)
+
+
+def draw_calibration(data: Data, quantities: list[Data]) -> Any:
+    count = len(quantities)
+    figure, grid = new_figure(1, count + 1, size=(max(7.0, 2.3 * count + 3.6), 3.3), squeeze=False,
+                              gridspec_kw={"width_ratios": [1] * count + [1.6]})
+    for axes, quantity in zip(grid[0], quantities):
+        plain_axes(axes)
+        draw_one(axes, np.array(data["draws"][quantity["name"]]), quantity)
+        axes.set_xlabel(plain(label(quantity)), fontsize=9)
+        axes.tick_params(labelsize=7)
+    plain_axes(grid[0][-1])
+    draw_speeds(grid[0][-1], data["measurements"])
+    figure.tight_layout()
+    return svg_of(figure, "Distributions of the quantities, and measured speeds beside the model")
+
+
+def calibration_page(data: Data) -> Page:
+    quantities = list(data["parameters"]) + ([data["model_discrepancy"]] if data["model_discrepancy"] is not None else [])
+    found = [(plain(one["name"]), f"{one['median']:.3g}" + ("" if one["unit"] == "1" else f" {one['unit']}"),
+              f"{one['low']:.3g} to {one['high']:.3g} (95 %); " + (f"narrowed by {100 * (1 - one['remaining']):.0f} %" if one["identifiable"] else "not identifiable"))
+             for one in quantities]
+    fit = data["best_fit"]
+    trust = [
+        ("chains", "converged" if data["converged"] else "not converged",
+         f"R-hat up to {max(one['rhat'] for one in quantities):.3f}, effective sample size from {min(one['ess'] for one in quantities):.0f}"),
+        ("best fit of an exact model", f"\u03c7\u00b2 = {fit['chi_square']:.3g}",
+         f"{fit['degrees_of_freedom']} degrees of freedom, p = {fit['p_value']:.2g}" if fit["degrees_of_freedom"] > 0 else "too few speeds to judge it"),
+    ]
+    rows = [[one["line"], f"{2e3 * one['amplitude_m']:.4g}", f"{60 * one['frequency_hz']:.5g}", f"{one['speed_m_per_s']:.4g} \u00b1 {one['uncertainty_m_per_s']:.2g}",
+             f"{one['model_m_per_s']:.4g}", f"{one['model_low_m_per_s']:.4g} to {one['model_high_m_per_s']:.4g}", f"{one['misfit']:+.1f}"]
+            for one in data["measurements"]]
+    explained = fit["degrees_of_freedom"] <= 0 or fit["p_value"] >= 0.01
+    return {
+        "title": f"Calibration of {data['model']}",
+        "good": data["converged"] and explained,
+        "conclusion": data["verdict"],
+        "facts": [{"heading": "What the speeds say", "rows": found}, {"heading": "How far it can be trusted", "rows": trust}],
+        "svg": draw_calibration(data, quantities),
+        "caption": "Distribution of each quantity (solid: median, dashed: 95 % interval), and the measured speeds beside the calibrated model.",
+        "tables": [{"heading": "Measurements",
+                    "headings": ["line", "stroke, mm", "1/min", "measured, m/s", "model, m/s", "95 % interval, m/s", "misfit, in \u00b1"], "rows": rows}],
+        "warnings": [],
+        "basis": "\u00b1 is one standard uncertainty. The model discrepancy is the standard deviation of what the model misses from setting to setting, in velocity efficiency; "
+                 "it is estimated with the rest.",
+        "command": "by vibrotrough " + ("theory calibrate" if data["model"] == "the point mass" else "calibrate"),
+    }
+
+
+PAGES = {"design": design_page, "calibration": calibration_page}
+
+
+def render(data: Data) -> str:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(pathlib.Path(__file__).resolve().parent), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined)
+    return environment.get_template("decision.html").render(made=data["made"], **PAGES[data["kind"]](data))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("data", type=pathlib.Path)
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    page = render(json.loads(read_note(options.data)))
+    try:
+        write_file(options.output, page.encode())
+    except OSError as error:
+        raise Problem(f"cannot write {options.output} ({error.strerror}); choose another --page") from error
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Problem as problem:
+        sys.exit(f"decision_page.py: {problem}")

@@ -1,0 +1,115 @@
+#include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
+#include "app/commands/design_options.hpp"
+#include "app/decision_page.hpp"
+#include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
+#include "learn/design_report.hpp"
+
+#include <memory>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+struct Options {
+    DesignOptions task;
+    std::string campaign, page, python;
+    Text grain_diameter;
+    bool json = false;
+};
+
+int run(Options const& options) {
+    learn::DesignTask const task = options.task.task();
+    double const diameter =
+        options.grain_diameter
+            ? read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm")
+            : 0.003;
+    learn::RiskDesign design;
+    try {
+        design = learn::design_with_risk(task);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
+    }
+    if (!options.campaign.empty()) {
+        core::write_file_atomically(options.campaign, learn::design_campaign(task, design, diameter));
+        tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(options.campaign));
+    }
+    if (!options.page.empty())
+        write_decision_page(learn::design_page_data(task, design), "design", options.page, options.python);
+    if (options.json) {
+        fmt::print("{}\n", learn::design_json(task, design).dump(2));
+    } else {
+        fmt::print("{}", learn::design_text(task, design));
+    }
+    return design.feasible ? all_well : some_cases_failed;
+}
+
+constexpr char const* help =
+    R"(Answers: which stroke, speed and angle carry this mass flow on this trough, and how sure is that?
+
+1. The friction is never known exactly. Give it with its standard uncertainty, or give the speeds that you
+measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
+
+2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
+distribution, and the layer is made so deep that the mass flow is reached with the stated confidence.
+
+3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
+every friction in the central 99.7 % of its distribution (three standard deviations on each side).
+
+4. Three models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
+2.3, layers of grains that roll are conveyed up to twice as fast as it says: the rolling-layer law describes
+these. A surface is what your own simulated campaign says, with its own uncertainty. Landing speed, power and
+mode are always those of the point mass.
+
+The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
+checks the design with grains; its grains are assumed, so put in what you know of yours.
+
+A range is "LOW to HIGH"; a single value fixes the quantity.
+
+Exit codes:
+    0  the mass flow is reached
+    1  it is not: the fastest machine within the limits is printed
+    2  the input is wrong, or no machine keeps all limits
+    3  something is missing: Python with its modules, for --page
+
+Examples:
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+      --length "3 m" --friction 0.3 --friction-uncertainty 0.03 --machine-number 4 \
+      --layer-depth "5 mm to 40 mm"
+  vibrotrough theory calibrate speeds.csv --free friction --posterior friction.json
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+      --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \
+      --page design.html --campaign check_design.toml)";
+
+}  // namespace
+
+void add_design(CLI::App& program, int& exit_code) {
+    CLI::App* const command = program.add_subcommand(
+        "design", "Find stroke, speed, angle and layer depth for a mass flow, and how sure that is");
+    auto const options = std::make_shared<Options>();
+    options->task.add_to(*command);
+    command
+        ->add_option("--campaign", options->campaign,
+                     "Write the campaign that checks the design with grains into this file")
+        ->type_name("FILE");
+    command->add_option("--grain-diameter", options->grain_diameter,
+                        "Of the grains in this campaign; default: \"3 mm\"");
+    command
+        ->add_option("--page", options->page,
+                     "Write a page of one screen about the design into this HTML file")
+        ->type_name("FILE");
+    add_python(*command, options->python);
+    command->add_flag("--json", options->json, "Print JSON");
+    command->footer(help);
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,258 @@
+#include "app/commands/design_options.hpp"
+
+#include "app/commands/calibration_options.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "learn/posterior_file.hpp"
+#include "learn/surface_design_model.hpp"
+#include "scenario/reader/written_campaign.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+constexpr double usual_discrepancy = 0.05, usual_discrepancy_of_rolling = 0.055;
+
+std::map<std::string, learn::Objective> const objectives{
+    {"fastest", learn::Objective::fastest},
+    {"gentlest-landing", learn::Objective::gentlest_landing},
+    {"least-machine-number", learn::Objective::least_machine_number},
+    {"least-power", learn::Objective::least_power}};
+
+void refuse_both(char const* first, Text const& a, char const* second, Text const& b) {
+    if (!a || !b) return;
+    throw core::InputError(
+        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
+}
+
+theory::DriveSpace read_space(DesignOptions const& o) {
+    theory::DriveSpace space;
+    auto const quantity = [](char const* option, char const* unit, char const* example) {
+        return [=](std::string const& text) { return read_positive_quantity(option, text, unit, example); };
+    };
+    auto const angle = [](char const* option, char const* example, double low) {
+        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
+    };
+    refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
+    refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
+    if (o.rpm) {
+        space.frequency = read_range("--rpm", *o.rpm, "300 to 1500", [](std::string const& text) {
+            return read_number_within("--rpm", text, "300 to 1500", 1, 1e5) / 60;
+        });
+    }
+    if (o.frequency) {
+        char const* const example = "5 Hz to 25 Hz";
+        space.frequency =
+            read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
+    }
+    if (o.stroke) {
+        char const* const example = "2 mm to 16 mm";
+        space.amplitude = read_range("--stroke", *o.stroke, example, quantity("--stroke", "m", example));
+        space.amplitude = {space.amplitude.low / 2, space.amplitude.high / 2};
+    }
+    if (o.amplitude) {
+        char const* const example = "1 mm to 8 mm";
+        space.amplitude =
+            read_range("--amplitude", *o.amplitude, example, quantity("--amplitude", "m", example));
+    }
+    if (o.vibration_angle)
+        space.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, "20 deg to 40 deg",
+                                           angle("--vibration-angle", "30 deg", 0));
+    if (o.inclination)
+        space.inclination = read_range("--inclination", *o.inclination, "-5 deg to 0 deg",
+                                       angle("--inclination", "-5 deg", -90));
+    if (o.machine_number)
+        space.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
+    if (o.throw_number)
+        space.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+    return space;
+}
+
+/// Values of the surface's inputs that the user gave: numbers by whole key, and words.
+struct GivenPlace {
+    std::map<std::string, double> numbers;
+    std::map<std::string, scenario::Content> words;
+};
+
+GivenPlace read_places(std::vector<std::string> const& places, scenario::CaseMaker const& maker) {
+    GivenPlace given;
+    for (std::string const& text : places) {
+        auto const [name, value] = split_setting("--at", text, "rolling_friction=0.05");
+        try {
+            std::string const key = maker.full_key(name);
+            scenario::Content const content = maker.read_value(key, value);
+            if (auto const* number = std::get_if<double>(&content)) {
+                given.numbers[key] = *number;
+            } else {
+                given.words[key] = content;
+            }
+        } catch (core::InputError const& error) {
+            throw core::InputError(fmt::format("--at {}: {}", text, error.what()));
+        }
+    }
+    return given;
+}
+
+learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction const& known,
+                                double discrepancy) {
+    campaign::Plan const plan = campaign::open_plan(o.surface);
+    scenario::CaseMaker const maker(std::filesystem::path(o.surface) / "campaign.toml");
+    GivenPlace const given = read_places(o.places, maker);
+    learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
+    auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
+    return learn::surface_design_model(surface, learn::CampaignTheory(maker, points.inputs, given.words),
+                                       given.numbers, known, discrepancy);
+}
+
+}  // namespace
+
+void DesignOptions::add_to(CLI::App& command) {
+    add_material(command);
+    add_limits(command);
+    command.add_option("--objective", objective, "What the machine is to be best at")
+        ->check(CLI::IsMember({"fastest", "gentlest-landing", "least-machine-number", "least-power"}))
+        ->capture_default_str();
+    command.add_option("--confidence", confidence,
+                       "Probability with which the mass flow is to be reached; default: 0.95");
+    command
+        .add_option("--model", models,
+                    "By which model: point-mass (default), rolling-layer, surface, or several, separated by "
+                    "commas, which must then all reach the mass flow")
+        ->delimiter(',')
+        ->expected(1)
+        ->type_name("MODEL[,MODEL...]")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->check(CLI::IsMember({"point-mass", "rolling-layer", "surface"}));
+    command
+        .add_option("--surface", surface,
+                    "Folder of a campaign, whose cases are the model 'surface' (see 'vibrotrough predict')")
+        ->type_name("DIR");
+    command
+        .add_option("--at", places,
+                    "Value of another key that this campaign varies, for example rolling_friction=0.05; "
+                    "repeat the option for several")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option(
+        "--model-discrepancy", discrepancy,
+        "Standard deviation of what every model misses, in velocity efficiency; default: 0.05 "
+        "for the point mass or what --posterior says, 0.055 for the rolling-layer law, and the "
+        "surface's own uncertainty alone");
+}
+
+void DesignOptions::add_material(CLI::App& command) {
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command.add_option(name, text, help)->group("The task");
+    };
+    add("--mass-flow", mass_flow, "To be reached, for example \"12 t/h\"");
+    add("--bulk-density", bulk_density, "Of the material, for example \"600 kg/m3\"");
+    add("--width", width, "Of the trough, for example \"300 mm\"");
+    add("--length", length, "Of the trough, for power and time, for example \"3 m\"");
+    add("--layer-depth", depth, "Range of the layer's depth; default: \"2 mm to 100 mm\"");
+    add("--friction", friction, "mu, friction coefficient of the material on the trough");
+    add("--friction-uncertainty", friction_uncertainty,
+        "Its standard uncertainty (one standard deviation); default: 0");
+    add("--posterior", posterior,
+        "In place of both: the file that 'vibrotrough theory calibrate --posterior FILE' wrote, or what its "
+        "--json printed");
+}
+
+void DesignOptions::add_limits(CLI::App& command) {
+    auto const add = [&](char const* name, Text& text, char const* help) {
+        command.add_option(name, text, help)->group("The machine's limits");
+    };
+    add("--stroke", stroke, "Range of 2 r; default: \"1 mm to 30 mm\"");
+    add("--amplitude", amplitude, "Range of r, half the stroke, instead of --stroke");
+    add("--rpm", rpm, "Range of the drive's turns per minute; default: \"300 to 3600\"");
+    add("--frequency", frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
+    add("--vibration-angle", vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
+    add("--inclination", inclination, "Range of alpha, uphill positive; default: level");
+    add("--machine-number", machine_number,
+        "Largest machine number K = omega^2 r / g that the structure bears; default: 5");
+    add("--throw-number", throw_number,
+        "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
+    add("--landing-speed", landing_speed,
+        "Largest speed of the material relative to the trough at an impact, for example \"0.3 m/s\"");
+}
+
+learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model) const {
+    refuse_both("--posterior", posterior, "--friction", friction);
+    refuse_both("--posterior", posterior, "--friction-uncertainty", friction_uncertainty);
+    if (posterior) {
+        core::TextFile const file = core::read_text_file(*posterior);
+        auto const read = learn::read_posterior(file.content, *posterior);
+        calibrated_model = read.model;
+        return read.friction;
+    }
+    double const median =
+        read_number_within("--friction", required("--friction", friction, "0.3"), "0.3", 0.01, 10);
+    double const sd = friction_uncertainty
+                          ? read_number_within("--friction-uncertainty", *friction_uncertainty, "0.03", 0, 1)
+                          : 0;
+    return learn::normal_friction(median, sd);
+}
+
+std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction const& known) const {
+    std::optional<double> missed;
+    if (discrepancy) missed = read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
+    auto names = models;
+    if (names.empty()) names.emplace_back(surface.empty() ? "point-mass" : "surface");
+    bool const has_surface = std::ranges::find(names, "surface") != names.end();
+    if (has_surface && surface.empty())
+        throw core::InputError("--model surface: needs the folder of a campaign; write --surface DIR");
+    if (!has_surface && !surface.empty())
+        throw core::InputError("--surface: is not among the models; write --model surface");
+    if (surface.empty() && !places.empty())
+        throw core::InputError("--at: belongs to a surface; write --surface DIR, or leave it out");
+    std::vector<learn::DesignModel> all;
+    for (std::string const& name : names) {
+        if (name == "point-mass")
+            all.push_back(learn::point_mass_design_model(missed.value_or(usual_discrepancy)));
+        else if (name == "rolling-layer")
+            all.push_back(
+                learn::rolling_layer_design_model({}, missed.value_or(usual_discrepancy_of_rolling)));
+        else
+            all.push_back(read_surface(*this, known, missed.value_or(0)));
+    }
+    return all;
+}
+
+learn::DesignTask DesignOptions::task() const {
+    auto const quantity = [](char const* option, Text const& text, char const* unit, char const* example) {
+        return read_positive_quantity(option, required(option, text, fmt::format("\"{}\"", example)), unit,
+                                      example);
+    };
+    learn::DesignTask task{};
+    task.space = read_space(*this);
+    task.mass_flow = quantity("--mass-flow", mass_flow, "kg/s", "12 t/h");
+    task.bulk_density = quantity("--bulk-density", bulk_density, "kg/m3", "600 kg/m3");
+    task.width = quantity("--width", width, "m", "300 mm");
+    if (length) task.length = quantity("--length", length, "m", "3 m");
+    if (landing_speed) task.landing_speed = quantity("--landing-speed", landing_speed, "m/s", "0.3 m/s");
+    if (confidence) task.confidence = read_number_within("--confidence", *confidence, "0.95", 0.5, 0.999);
+    if (depth)
+        task.depth = read_range("--layer-depth", *depth, "5 mm to 60 mm", [](std::string const& text) {
+            return read_positive_quantity("--layer-depth", text, "m", "5 mm to 60 mm");
+        });
+    std::string calibrated_model;
+    task.friction = read_friction(calibrated_model);
+    task.models = read_models(task.friction);
+    task.objective = objectives.at(objective);
+    // What a calibration says of a model's error holds for the model that was calibrated.
+    if (!task.friction.discrepancies.empty() && !discrepancy) {
+        for (learn::DesignModel& model : task.models)
+            model.uses_calibrated_discrepancy = model.name == calibrated_model;
+    }
+    return task;
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "app/commands/theory/options.hpp"
+#include "learn/risk_design.hpp"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace vibrotrough::app {
+
+/// The options of `vibrotrough design` that describe its task.
+struct DesignOptions {
+    Text mass_flow, bulk_density, width, length, depth;                    ///< what is to be carried
+    Text friction, friction_uncertainty, posterior;                        ///< of the material
+    Text rpm, frequency, stroke, amplitude, vibration_angle, inclination;  ///< ranges of the drive
+    Text machine_number, throw_number, landing_speed;                      ///< largest values
+    Text confidence, discrepancy;                                          ///< of the answer
+    std::vector<std::string> models;    ///< point-mass, rolling-layer, surface
+    std::string surface;                ///< folder of the campaign of the surface
+    std::vector<std::string> places;    ///< KEY=VALUE of the surface's other inputs
+    std::string objective = "fastest";  ///< what to be best at
+
+    /// Declares the options of the command.
+    void add_to(CLI::App& command);
+    /// The task with its models. @throws core::InputError when an option is missing, wrong or contradicts
+    /// another
+    learn::DesignTask task() const;
+
+  private:
+    void add_material(CLI::App& command);
+    void add_limits(CLI::App& command);
+    learn::KnownFriction read_friction(std::string& calibrated_model) const;
+    std::vector<learn::DesignModel> read_models(learn::KnownFriction const& known) const;
+};
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,50 @@
+#include "app/learning.hpp"
+
+#include "app/commands/theory/options.hpp"
+#include "app/progress_log.hpp"
+#include "campaign/schedule/until_precise.hpp"
+#include "campaign/state/added_cases.hpp"
+#include "campaign/state/overview.hpp"
+
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+
+double read_core_time(std::string const& text) {
+    std::string plain = text;
+    if (auto const at = plain.find("core-"); at != std::string::npos) plain.erase(at, 5);
+    return read_positive_quantity("--budget", plain, "s", "4 core-hours");
+}
+
+bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted) {
+    for (campaign::PlannedCase const& planned : ready.plan.cases)
+        wanted.emplace(planned.id, planned.scenario().measure.half_width);
+    learn::write_wanted_half_widths(ready.plan.folder, wanted);
+    {
+        auto const shown = options.make_observer();
+        LoggingObserver observer(*shown, ready.plan.folder);
+        campaign::Summary const summary =
+            campaign::run_campaign(ready.plan, options.campaign_file, campaign::UntilPrecise(wanted),
+                                   *ready.kind, ready.inputs, campaign::Until::done, observer);
+        if (summary.interrupted) {
+            fmt::print("interrupted; the same command continues it\n");
+            return false;
+        }
+    }
+    campaign::write_campaign_file(ready.plan);
+    return true;
+}
+
+void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
+                std::map<std::string, double>& wanted) {
+    for (learn::LearnStep const& step : steps) {
+        if (!step.added) {
+            wanted[step.case_id] = step.half_width;
+        } else if (campaign::PlannedCase const* const added = campaign::add_case(plan, *step.added)) {
+            wanted[added->id] = step.half_width;
+        }
+    }
+    learn::write_wanted_half_widths(plan.folder, wanted);
+}
+
+}  // namespace vibrotrough::app

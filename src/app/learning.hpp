@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/campaign_run.hpp"
+#include "learn/learner.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::app {
+
+/// "4 core-hours" in core-seconds. @throws core::InputError naming the option --budget
+double read_core_time(std::string const& text);
+
+/// Simulates the cases of a campaign until each is as precise as wanted.
+/// @param wanted  half-widths by case; those of the plan that are missing get the campaign file's
+/// @return whether it came to its end; false when it was interrupted
+bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted);
+
+/// Adds the cases of a batch to the plan, and remembers what is wanted of them and of those that go on.
+void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
+                std::map<std::string, double>& wanted);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "theory/drive_search.hpp"
+#include "theory/rolling_layer.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+/// The friction of a material on the trough, and how sure it is.
+struct KnownFriction {
+    double median;               ///< of its distribution
+    double low, high;            ///< ends of its central 99.7 %, within which a design keeps every limit
+    std::vector<double> values;  ///< that are equally likely, in rising order
+    /// Standard deviation, in velocity efficiency, of what the calibrated model misses, beside each value;
+    /// empty when the friction comes from no calibration.
+    std::vector<double> discrepancies;
+};
+
+/// A friction that is distributed normally, cut at 0.01. @param sd  its standard uncertainty, >= 0
+/// @throws std::invalid_argument when the median is below 0.01 or sd is negative
+KnownFriction normal_friction(double median, double sd);
+
+/// The posterior of a calibration. @param friction  at least 100 draws
+/// @param discrepancy  the draws of the model discrepancy beside them, in velocity efficiency, or none
+/// @throws std::invalid_argument when there are too few draws or a friction is below 1e-3
+KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<double> const& discrepancy);
+
+/// What a model says of a drive.
+struct ModelEfficiency {
+    double efficiency;  ///< velocity efficiency
+    double sd;          ///< standard deviation of the model's own uncertainty; 0 for an exact theory
+};
+
+/// A model of the conveying speed, by which a machine can be designed.
+struct DesignModel {
+    std::string name;    ///< e.g. "the point mass"
+    double discrepancy;  ///< standard deviation of what it misses, in velocity efficiency, >= 0
+    /// The velocity efficiency at a drive and a friction; nothing when the material has no steady speed.
+    std::function<std::optional<ModelEfficiency>(theory::Drive const&, double friction)> at;
+    /// The drives of a space at which the model is known. @throws std::invalid_argument when there are none
+    std::function<theory::DriveSpace(theory::DriveSpace)> narrowed;
+    /// How far a drive is outside what the model knows, relatively; zero or less inside.
+    std::function<double(theory::Drive const&)> excess;
+    bool is_point_mass = false;  ///< whether it is the theory alone
+    /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
+    bool uses_calibrated_discrepancy = false;
+    bool is_rolling = false;           ///< whether it is the law of rolling layers
+    std::vector<std::string> remarks;  ///< what speaks against it, in whole sentences
+};
+
+/// The point-mass theory. Without rotation simulated layers follow it within 0.1
+/// (validation/why_theory_fails), which two standard deviations of 0.05 say.
+DesignModel point_mass_design_model(double discrepancy = 0.05);
+
+/// The law of rolling layers, where it has been tested. It missed the layers that it was not fitted to by
+/// 0.055 (root mean square, validation/rolling_layer).
+DesignModel rolling_layer_design_model(theory::RollingLaw const& law = {}, double discrepancy = 0.055);
+
+/// The speed of a material without slip on a level or inclined trough, as guidelines such as VDI 2333
+/// compute it: it moves with the trough while it touches it and flies for n cycles:
+/// v = g n^2 / (2 f) (cos(alpha) cot(beta) - sin(alpha)), with n from the throw number (at most one cycle).
+/// Zero when the material is not thrown. m/s. (vibrationsfoerdertechnik.de, on VDI 2333, says which
+/// assumptions are made.)
+double speed_without_slip(theory::Drive const& drive);
+
+/// m/s: the rule of Daesung Machinery for horizontal vibrating conveyors, v = 3.81 N S in m/min with N in
+/// cycles per minute and S, the amplitude, in m; 70 to 80 % of it are used in practice
+/// (dsv.co.kr/vibrating_machinery_vc_06.html; validation/daesung).
+double rule_of_daesung(theory::Drive const& drive);
+
+/// How many times as fast as the theory layers of spheres that roll were simulated at a throw number:
+/// validation/why_theory_fails and rolling_layer, level, tan(beta) = 0.5, friction 0.23. Nothing outside the
+/// throw numbers 1.2 to 2.3.
+std::optional<double> factor_of_rolling_layers(double throw_number);
+
+}  // namespace vibrotrough::learn

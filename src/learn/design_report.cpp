@@ -1,0 +1,243 @@
+#include "learn/design_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double tonnes_per_hour = 3.6;  // in one kg/s
+
+constexpr char const* source_of_daesung = "Daesung Machinery, dsv.co.kr/vibrating_machinery_vc_06.html";
+constexpr char const* source_of_vdi = "after VDI 2333, vibrationsfoerdertechnik.de";
+
+/// W, given to the material on the whole trough, or W per metre of it.
+double power(DesignTask const& t, RiskDesign const& d) {
+    return d.power_per_mass * t.bulk_density * t.width * d.depth * (t.length > 0 ? t.length : 1);
+}
+
+Json as_json(ModelForecast const& f) {
+    return {{"model", f.model},
+            {"median_speed_m_per_s", f.median_speed},
+            {"sure_speed_m_per_s", f.sure_speed},
+            {"mass_flow_t_per_h", tonnes_per_hour * f.median_flow},
+            {"mass_flow_low_t_per_h", tonnes_per_hour * f.low_flow},
+            {"mass_flow_high_t_per_h", tonnes_per_hour * f.high_flow},
+            {"probability", f.probability}};
+}
+
+Json rules_of_thumb(RiskDesign const& d) {
+    double const daesung = rule_of_daesung(d.drive);
+    return {{{"rule", "v = 3.81 N S, of which 70 to 80 % are used in practice"},
+             {"source", source_of_daesung},
+             {"speed_m_per_s", daesung},
+             {"low_m_per_s", 0.7 * daesung},
+             {"high_m_per_s", 0.8 * daesung}},
+            {{"rule", "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)"},
+             {"source", source_of_vdi},
+             {"speed_m_per_s", speed_without_slip(d.drive)},
+             {"low_m_per_s", nullptr},
+             {"high_m_per_s", nullptr}}};
+}
+
+/// The three frictions of a campaign that checks a design; fewer when they are the same to three digits.
+std::string frictions(KnownFriction const& known) {
+    std::set<std::string> texts;
+    for (double const mu : {known.low + (known.median - known.low) / 3, known.median,
+                            known.high - (known.high - known.median) / 3})
+        texts.insert(fmt::format("{:.3f}", mu));
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string machine_text(DesignTask const& t, RiskDesign const& d) {
+    theory::Drive const& m = d.drive;
+    std::string text = fmt::format("stroke            {:.4g} mm (amplitude {:.4g} mm)\n", 2e3 * m.amplitude,
+                                   1e3 * m.amplitude);
+    text += fmt::format("speed of drive    {:.4g} 1/min ({:.4g} Hz)\n", 60 * m.frequency, m.frequency);
+    text += fmt::format("vibration angle   {:.4g} degrees\ninclination       {:.4g} degrees\n",
+                        m.vibration_angle / degree, m.inclination / degree);
+    text += fmt::format("layer depth       {:.4g} mm\n", 1e3 * d.depth);
+    text +=
+        fmt::format("throw number      {:.3g}\nmachine number    {:.3g}\n", d.throw_number, d.machine_number);
+    text += fmt::format(
+        "landing speed     {:.3g} m/s at most, for frictions of {:.3g} to {:.3g} (point mass, mode {})\n",
+        d.landing_speed, t.friction.low, t.friction.high, d.mode);
+    text += fmt::format("power             {:.3g} W{} given to the material (point mass)\n", power(t, d),
+                        t.length > 0 ? "" : " per metre of trough");
+    if (t.length > 0 && d.sure_speed > 0)
+        text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
+                            100 * t.confidence);
+    return text;
+}
+
+}  // namespace
+
+std::string name_of(Objective objective) {
+    switch (objective) {
+        case Objective::fastest:
+            return "fastest";
+        case Objective::gentlest_landing:
+            return "gentlest-landing";
+        case Objective::least_machine_number:
+            return "least-machine-number";
+        case Objective::least_power:
+            return "least-power";
+    }
+    return "";
+}
+
+std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
+    double const wanted = tonnes_per_hour * t.mass_flow;
+    if (d.feasible)
+        return fmt::format("This trough carries {:.4g} t/h with a probability of {:.4g} % or more.", wanted,
+                           100 * t.confidence);
+    return fmt::format(
+        "No machine within the limits carries {:.4g} t/h with a probability of {:.4g} %; the fastest one "
+        "does "
+        "with {:.1f} %.",
+        wanted, 100 * t.confidence, 100 * d.probability);
+}
+
+std::string design_text(DesignTask const& t, RiskDesign const& d) {
+    std::string text = first_sentence(t, d) + "\n\n" + machine_text(t, d);
+    text += fmt::format("held back by      {}\n", d.active_limits.empty()
+                                                      ? "nothing"
+                                                      : fmt::format("{}", fmt::join(d.active_limits, ", ")));
+    std::string const sure = fmt::format("{:.4g} %", 100 * t.confidence);
+    text += fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "model", "speed", sure, "mass flow",
+                        "95 % interval", "probability");
+    text += fmt::format("{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "", "m/s", "m/s", "t/h", "t/h",
+                        fmt::format("of {:.4g} t/h", tonnes_per_hour * t.mass_flow));
+    for (ModelForecast const& f : d.forecasts) {
+        text += fmt::format(
+            "{:<24} {:>9.3g} {:>9.3g} {:>10.3g} {:>17} {:>10.1f} %\n", f.model, f.median_speed, f.sure_speed,
+            tonnes_per_hour * f.median_flow,
+            fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow, tonnes_per_hour * f.high_flow),
+            100 * f.probability);
+    }
+    double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
+    text += fmt::format(
+        "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "
+        "practice: {:.3g} to {:.3g} m/s (v = 3.81 N S;\n  {})\n",
+        daesung, 0.7 * daesung, 0.8 * daesung, source_of_daesung);
+    text += no_slip > 0 ? fmt::format("  {:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})\n",
+                                      no_slip, source_of_vdi)
+                        : fmt::format("  none for a trough that does not throw ({})\n", source_of_vdi);
+    for (std::string const& warning : d.warnings) text += "\n" + warning + "\n";
+    return text;
+}
+
+Json design_json(DesignTask const& t, RiskDesign const& d) {
+    theory::Drive const& m = d.drive;
+    Json json{{"feasible", d.feasible},
+              {"sentence", first_sentence(t, d)},
+              {"stroke_mm", 2e3 * m.amplitude},
+              {"amplitude_m", m.amplitude},
+              {"rpm", 60 * m.frequency},
+              {"frequency_hz", m.frequency},
+              {"vibration_angle_deg", m.vibration_angle / degree},
+              {"inclination_deg", m.inclination / degree},
+              {"layer_depth_mm", 1e3 * d.depth},
+              {"throw_number", d.throw_number},
+              {"machine_number", d.machine_number},
+              {"mode", d.mode},
+              {"velocity_efficiency_point_mass", d.efficiency},
+              {"landing_speed_m_per_s", d.landing_speed},
+              {"friction_low", t.friction.low},
+              {"friction_median", t.friction.median},
+              {"friction_high", t.friction.high},
+              {t.length > 0 ? "power_w" : "power_w_per_m", power(t, d)},
+              {"mass_flow_wanted_t_per_h", tonnes_per_hour * t.mass_flow},
+              {"confidence", t.confidence},
+              {"probability", d.probability},
+              {"sure_speed_m_per_s", d.sure_speed},
+              {"objective", name_of(t.objective)},
+              {"models", Json::array()},
+              {"active_limits", d.active_limits},
+              {"rules_of_thumb", rules_of_thumb(d)},
+              {"warnings", d.warnings}};
+    for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(f));
+    return json;
+}
+
+Json design_page_data(DesignTask const& t, RiskDesign const& d) {
+    Json json = design_json(t, d);
+    json["task"] = {
+        {"width_m", t.width},
+        {"length_m", t.length},
+        {"bulk_density_kg_per_m3", t.bulk_density},
+        {"depth_m", {t.depth.low, t.depth.high}},
+        {"rpm", {60 * t.space.frequency.low, 60 * t.space.frequency.high}},
+        {"stroke_mm", {2e3 * t.space.amplitude.low, 2e3 * t.space.amplitude.high}},
+        {"vibration_angle_deg",
+         {t.space.vibration_angle.low / degree, t.space.vibration_angle.high / degree}},
+        {"inclination_deg", {t.space.inclination.low / degree, t.space.inclination.high / degree}},
+        {"max_machine_number", t.space.max_machine_number},
+        {"max_throw_number", t.space.max_throw_number},
+        {"max_landing_speed_m_per_s", t.landing_speed ? Json(*t.landing_speed) : Json()}};
+    json["quantile_shares"] = quantile_shares();
+    for (std::size_t i = 0; i < d.forecasts.size(); ++i) {
+        Json& list = json["models"][i]["mass_flow_quantiles_t_per_h"] = Json::array();
+        for (double const flow : d.forecasts[i].flow_quantiles) list.push_back(tonnes_per_hour * flow);
+    }
+    return json;
+}
+
+std::string design_campaign(DesignTask const& t, RiskDesign const& d, double diameter) {
+    theory::Drive const& m = d.drive;
+    double const mm = 1e3 * diameter;
+    return fmt::format(
+        R"(# Checks a design of 'vibrotrough design' with grains: {:.4g} t/h on a trough {:.4g} m wide, layer {:.4g} mm deep.
+# The grains are assumed: spheres of {:.4g} mm that roll freely. Put in what you know of yours.
+#     vibrotrough check FILE
+#     vibrotrough run FILE
+#     vibrotrough compare runs/design_check        # mass flow in t/h with its interval
+
+[campaign]
+name = "design_check"
+
+[trough]
+inclination = "{:.6g} deg"
+vibration_angle = "{:.6g} deg"
+stroke = "{:.6g} mm"
+frequency = "{:.8g} 1/min"
+width = "{:.6g} m"
+friction = {:.3f}                 # the sweep below also has the ends of its uncertainty
+restitution = 0.5                 # assumed
+
+[grains]
+diameter = "{:.4g} mm"
+diameter_spread = 0.1             # assumed
+bulk_density = "{:.6g} kg/m3"
+youngs_modulus = "5 MPa"          # soft, so that time steps are long
+poisson_ratio = 0.35
+friction = 0.5                    # assumed
+restitution = 0.5                 # assumed
+
+[layer]
+length = "{:.4g} mm"              # of a part of the trough, continued periodically
+width = "{:.4g} mm"
+height = "{:.4g} mm"
+
+[measure]
+packings = 4
+half_width = 0.03
+
+[sweep]
+"trough.friction" = [{}]
+)",
+        tonnes_per_hour * t.mass_flow, t.width, 1e3 * d.depth, mm, m.inclination / degree,
+        m.vibration_angle / degree, 2e3 * m.amplitude, 60 * m.frequency, t.width, t.friction.median, mm,
+        t.bulk_density, 12 * mm, 6 * mm, std::max(1e3 * d.depth, 3 * mm), frictions(t.friction));
+}
+
+}  // namespace vibrotrough::learn

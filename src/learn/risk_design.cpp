@@ -1,0 +1,220 @@
+#include "learn/risk_design.hpp"
+
+#include "learn/risk_search.hpp"
+#include "theory/design.hpp"
+#include "theory/plastic_quantities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double near_limit = 0.01;     // relative: a limit so close counts as active
+constexpr double depth_step = 1e-4;     // m, to which the depth is rounded up
+constexpr double largest_loss = 0.005;  // of the merit, by rounding the drive
+constexpr int exchanges = 8;
+
+void check(DesignTask const& t) {
+    theory::check(t.space);
+    bool const material = !t.friction.values.empty() && t.friction.low > 0 && t.bulk_density > 0;
+    bool const trough = t.width > 0 && t.length >= 0 && t.mass_flow > 0 && t.depth.low > 0 &&
+                        t.depth.low <= t.depth.high && (!t.landing_speed || *t.landing_speed > 0);
+    bool const models = !t.models.empty() && std::ranges::all_of(t.models, [](DesignModel const& m) {
+        return m.discrepancy >= 0;
+    });
+    if (!material || !trough || !models || !(t.confidence >= 0.5 && t.confidence <= 0.999))
+        throw std::invalid_argument("a number of the design is out of range");
+}
+
+/// The drives that all limits allow, before any speed is looked at.
+theory::DriveSpace allowed_space(DesignTask const& task) {
+    theory::DriveSpace space = task.space;
+    space.inclination = theory::with_friction_margin(space.inclination, task.friction.low);
+    for (DesignModel const& model : task.models) space = model.narrowed(space);
+    return space;
+}
+
+/// The best drive that keeps the limit of the landing speed at every friction.
+std::optional<theory::Drive> best_at_every_friction(RiskSearch& search, Objective objective,
+                                                    bool must_reach) {
+    for (int i = 0; i < exchanges; ++i) {
+        auto const drive = search.best(objective, must_reach);
+        if (!drive || !search.task().landing_speed) return drive;
+        auto const worst = search.worst_landing(*drive);
+        if (worst.speed <= *search.task().landing_speed) return drive;
+        search.keep_landing_at(worst.friction, worst.speed);
+    }
+    return {};
+}
+
+/// A value on a grid of a step, below or above, within its range. A value that is fixed stays.
+double on_grid(double value, theory::Range const& r, double step, bool above) {
+    if (r.low == r.high) return value;
+    double const count = above ? std::ceil(value / step - 1e-9) : std::floor(value / step + 1e-9);
+    double rounded = count * step;
+    if (std::abs(rounded - r.high) < 1e-9 * step) rounded = r.high;
+    if (std::abs(rounded - r.low) < 1e-9 * step) rounded = r.low;
+    return rounded >= r.low && rounded <= r.high ? rounded : std::clamp(value, r.low, r.high);
+}
+
+theory::Drive rounded(theory::Drive const& d, theory::DriveSpace const& s, double scale, unsigned corner) {
+    auto const above = [&](unsigned bit) { return (corner >> bit & 1U) != 0; };
+    return {on_grid(d.frequency, s.frequency, scale / 60, above(0)),
+            on_grid(d.amplitude, s.amplitude, scale * 5e-5, above(1)),
+            on_grid(d.vibration_angle, s.vibration_angle, scale * degree / 2, above(2)),
+            on_grid(d.inclination, s.inclination, scale * degree / 2, above(3))};
+}
+
+/// The drive on the coarsest grid that costs little and keeps every limit.
+theory::Drive rounded(RiskSearch& search, theory::Drive const& drive, Objective objective, bool must_reach) {
+    double const merit = search.merit(drive, objective);
+    for (double scale : {1.0, 0.1, 0.01, 0.001}) {
+        std::optional<theory::Drive> best;
+        double best_merit = merit - largest_loss * std::abs(merit);
+        for (unsigned corner = 0; corner < 16; ++corner) {
+            theory::Drive const one = rounded(drive, search.space(), scale, corner);
+            double const value = search.merit(one, objective);
+            if (value < best_merit || !search.keeps_limits(one, must_reach)) continue;
+            best_merit = value;
+            best = one;
+        }
+        if (best) return *best;
+    }
+    return drive;
+}
+
+/// The limits that a design lies on, within one per cent.
+std::vector<std::string> limits_at(DesignTask const& t, theory::DriveSpace const& space,
+                                   RiskDesign const& d) {
+    std::vector<std::string> active;
+    auto const ends = [&](char const* name, double value, theory::Range const& r, double in_unit,
+                          char const* unit) {
+        double const slack = near_limit * (r.high - r.low);
+        if (r.high == r.low) return;
+        if (value > r.high - slack)
+            active.push_back(fmt::format("{} <= {:.4g}{}", name, in_unit * r.high, unit));
+        if (value < r.low + slack)
+            active.push_back(fmt::format("{} >= {:.4g}{}", name, in_unit * r.low, unit));
+    };
+    constexpr double close = 1 - near_limit;
+    if (d.machine_number > close * space.max_machine_number)
+        active.push_back(fmt::format("machine number <= {:.4g}", space.max_machine_number));
+    if (d.throw_number > close * space.max_throw_number)
+        active.push_back(fmt::format("throw number <= {:.4g}", space.max_throw_number));
+    if (t.landing_speed && d.landing_speed > close * *t.landing_speed)
+        active.push_back(fmt::format("landing speed <= {:.4g} m/s", *t.landing_speed));
+    ends("speed of the drive", d.drive.frequency, space.frequency, 60, " 1/min");
+    ends("stroke", d.drive.amplitude, space.amplitude, 2000, " mm");
+    ends("vibration angle", d.drive.vibration_angle, space.vibration_angle, 1 / degree, " degrees");
+    ends("inclination", d.drive.inclination, space.inclination, 1 / degree, " degrees");
+    if (d.depth > close * t.depth.high)
+        active.push_back(fmt::format("layer depth <= {:.4g} mm", 1e3 * t.depth.high));
+    for (DesignModel const& model : t.models) {
+        if (model.excess(d.drive) > -near_limit)
+            active.push_back(fmt::format("the range that {} knows", model.name));
+    }
+    return active;
+}
+
+std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d) {
+    std::vector<std::string> warnings;
+    bool const theory_alone =
+        std::ranges::all_of(task.models, [](DesignModel const& m) { return m.is_point_mass; });
+    if (auto const factor = factor_of_rolling_layers(d.throw_number); factor && theory_alone) {
+        warnings.push_back(fmt::format(
+            "If the grains can roll, the theory alone is wrong here: at throw number {:.2f} simulated layers "
+            "of spheres were conveyed {:.2g} times as fast as it says (level, tan(beta) 0.5, friction 0.23; "
+            "validation/why_theory_fails and rolling_layer). {} Use --model rolling-layer beside it, "
+            "and check the design with grains: --campaign FILE.",
+            d.throw_number, *factor,
+            *factor >= 1 ? "The mass flow is then on the safe side, but the layer is thinner than printed."
+                         : "The mass flow may then not be reached."));
+    }
+    bool const rolling = std::ranges::any_of(task.models, [](DesignModel const& m) { return m.is_rolling; });
+    if (rolling) {
+        auto untested = theory::outside_tested_range({d.throw_number, std::tan(d.drive.vibration_angle),
+                                                      std::tan(d.drive.inclination), task.friction.median});
+        if (untested) {
+            untested->front() = 'T';  // "the rolling-layer law has not been tested at ..."
+            warnings.push_back(*untested + ".");
+        }
+    }
+    for (DesignModel const& model : task.models)
+        warnings.insert(warnings.end(), model.remarks.begin(), model.remarks.end());
+    return warnings;
+}
+
+/// What the point mass does at the median of the friction.
+void describe_motion(DesignTask const& task, RiskDesign& d) {
+    theory::PointMass const point{d.throw_number, std::tan(d.drive.vibration_angle),
+                                  std::tan(d.drive.inclination), task.friction.median};
+    theory::Motion const motion = theory::solve(point);
+    d.efficiency = motion.velocity_efficiency;
+    d.mode = motion.mode;
+    d.power_per_mass =
+        theory::plastic_quantities(motion, point, {d.drive.amplitude, task.space.gravity}).mean_power;
+}
+
+RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive) {
+    RiskDesign d{};
+    d.drive = drive;
+    d.throw_number = drive.throw_number(task.space.gravity);
+    d.machine_number = drive.machine_number(task.space.gravity);
+    d.sure_speed = search.sure_speed(drive);
+    d.feasible = d.sure_speed >= search.needed();
+    double const per_depth = task.bulk_density * task.width;  // kg/s for each m of depth and m/s of speed
+    double const depth = d.sure_speed > 0 ? task.mass_flow / (per_depth * d.sure_speed) : task.depth.high;
+    d.depth = std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high);
+    double const flow = per_depth * d.depth;
+    d.probability = 1;
+    for (std::size_t i = 0; i < task.models.size(); ++i) {
+        SpeedDistribution const speeds = search.speeds(drive, i);
+        double const median = speeds.exceeded_with(0.5);
+        d.forecasts.push_back({task.models[i].name,
+                               median,
+                               speeds.exceeded_with(task.confidence),
+                               flow * speeds.exceeded_with(0.975),
+                               flow * speeds.exceeded_with(0.025),
+                               flow * median,
+                               speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
+                               {}});
+        for (double const share : quantile_shares())
+            d.forecasts.back().flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
+        d.probability = std::min(d.probability, d.forecasts.back().probability);
+    }
+    d.landing_speed = search.worst_landing(drive).speed;
+    describe_motion(task, d);
+    d.active_limits = limits_at(task, search.space(), d);
+    d.warnings = warnings_at(task, d);
+    return d;
+}
+
+}  // namespace
+
+std::vector<double> quantile_shares() {
+    std::vector<double> shares;
+    for (int i = 1; i < 40; ++i) shares.push_back(i / 40.0);
+    return shares;
+}
+
+RiskDesign design_with_risk(DesignTask const& task) {
+    check(task);
+    RiskSearch search(task, allowed_space(task));
+    auto drive = best_at_every_friction(search, Objective::fastest, false);
+    if (!drive) throw std::invalid_argument("no machine keeps all limits, whatever it carries");
+    bool const reaches = search.sure_speed(*drive) >= search.needed();
+    Objective const objective = reaches ? task.objective : Objective::fastest;
+    if (objective != Objective::fastest) {
+        auto const better = best_at_every_friction(search, objective, true);
+        if (better && search.merit(*better, objective) > search.merit(*drive, objective)) drive = better;
+    }
+    return described(task, search, rounded(search, *drive, objective, reaches));
+}
+
+}  // namespace vibrotrough::learn

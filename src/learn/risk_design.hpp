@@ -1,0 +1,88 @@
+#pragma once
+
+#include "learn/design_model.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+/// What a design is to be best at.
+enum class Objective {
+    fastest,               ///< the highest speed that is reached at the stated confidence
+    gentlest_landing,      ///< the lowest speed of an impact on the trough
+    least_machine_number,  ///< the least load of the structure
+    least_power,           ///< the least power that the trough gives to the material
+};
+
+/// What is known and wanted of a trough. The friction is not known exactly, and no model is exact.
+struct DesignTask {
+    theory::DriveSpace space;             ///< stroke, frequency, angles and the largest K and Gamma
+    std::vector<DesignModel> models;      ///< at least one; all of them must reach the mass flow
+    KnownFriction friction;               ///< of the material on the trough
+    double bulk_density;                  ///< kg/m^3, > 0
+    double width;                         ///< m, of the trough, > 0
+    double length = 0;                    ///< m, of the trough, for power and time; 0 when it is not known
+    double mass_flow;                     ///< kg/s, that is to be reached, > 0
+    theory::Range depth{0.002, 0.1};      ///< m, of the layer
+    std::optional<double> landing_speed;  ///< m/s, largest speed of an impact on the trough
+    double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
+    Objective objective = Objective::fastest;  ///< what to be best at
+};
+
+/// What one model says of a design.
+struct ModelForecast {
+    std::string model;           ///< its name
+    double median_speed;         ///< m/s
+    double sure_speed;           ///< m/s, reached with the stated confidence
+    double low_flow, high_flow;  ///< kg/s, central 95 % interval of the mass flow at the design's depth
+    double median_flow;          ///< kg/s
+    double probability;          ///< that the mass flow is reached
+    std::vector<double> flow_quantiles;  ///< kg/s, at the shares of `quantile_shares`
+};
+
+/// 2.5 %, 5 %, ..., 97.5 %: the shares of a distribution below the quantiles of a forecast.
+std::vector<double> quantile_shares();
+
+/// A machine for a task, and how sure it is.
+struct RiskDesign {
+    theory::Drive drive;                   ///< rounded to what a workshop sets
+    double throw_number, machine_number;   ///< Gamma and K
+    double depth;                          ///< m, of the layer that carries the mass flow at the confidence
+    std::vector<ModelForecast> forecasts;  ///< one per model, in their order
+    double sure_speed;                     ///< m/s, reached with the stated confidence by all models
+    double probability;                    ///< that the mass flow is reached; the least of the models'
+    double efficiency;  ///< velocity efficiency of the point mass at the median of the friction
+    std::string mode;   ///< letters of its phases
+    /// m/s, largest speed of an impact of the point mass on the trough at any friction within its central
+    /// 99.7 %; 0 without flight.
+    double landing_speed;
+    double power_per_mass;  ///< W/kg, that the trough gives to the point mass at the median of the friction
+    bool feasible;  ///< whether the mass flow can be reached within the limits at the stated confidence
+    std::vector<std::string> active_limits;  ///< what holds it back
+    std::vector<std::string> warnings;       ///< where a model is known to be wrong, in whole sentences
+};
+
+/// Finds the drive and the depth of the layer that carry a mass flow with a stated probability.
+///
+/// The speed is uncertain in three ways: the friction has a distribution, a model may know its own
+/// uncertainty (a learnt surface), and each model misses a normal error, its discrepancy. The speed that is
+/// reached with the stated confidence is a quantile of this distribution, the least of all models'.
+///
+/// The drive is searched for by theory::best_drive(): first the fastest; if that reaches the mass flow at the
+/// largest depth, the best one of those that do. It is then rounded to steps of 1/min, 0.1 mm of stroke
+/// and half a degree, or finer ones where these cost more than half a percent. Every limit is kept by
+/// the rounded drive, and that of the landing speed at every friction in the central 99.7 % of its
+/// distribution: the search keeps it at a few frictions, and adds the worst one until none is above the limit
+/// (exchange method of semi-infinite programming, J.W. Blankenship and J.E. Falk, J. Optim. Theory Appl. 19
+/// (1976) 261-281).
+///
+/// @throws std::invalid_argument when a limit is out of range, and when no drive keeps all of them
+RiskDesign design_with_risk(DesignTask const& task);
+
+/// m/s, the largest speed of an impact of the plastic point mass at a drive; 0 without flight, infinite when
+/// it runs away.
+double landing_speed(theory::Drive const& drive, double friction);
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,175 @@
+#include "learn/risk_search.hpp"
+
+#include "theory/plastic_quantities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boost/math/tools/minima.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int landings_looked_at = 65;
+/// Drives looked at per quantity that may be chosen. A rolling layer takes a hundred times as long as a point
+/// mass.
+constexpr int global_evaluations = 2000, local_evaluations = 500;
+constexpr int global_evaluations_of_rolling = 700, local_evaluations_of_rolling = 300;
+
+double normal_share_above(double z) {
+    return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+/// Impact speed and power of the plastic point mass; nothing when it runs away.
+std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, double friction) {
+    theory::PointMass const point{std::clamp(d.throw_number(), 1e-6, 1e4), std::tan(d.vibration_angle),
+                                  std::tan(d.inclination), friction};
+    theory::Motion const motion = theory::solve(point);
+    if (motion.outcome != theory::Outcome::periodic) return {};
+    return theory::plastic_quantities(motion, point, {d.amplitude});
+}
+
+}  // namespace
+
+double landing_speed(theory::Drive const& drive, double friction) {
+    if (drive.throw_number() <= 1) return 0;
+    auto const quantities = quantities_of(drive, friction);
+    return quantities ? quantities->impact_speed : infinity;
+}
+
+double SpeedDistribution::probability_above(double speed) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < means.size(); ++i)
+        sum += sds[i] > 0 ? normal_share_above((speed - means[i]) / sds[i]) : (means[i] >= speed ? 1 : 0);
+    return sum / static_cast<double>(means.size());
+}
+
+double SpeedDistribution::exceeded_with(double probability) const {
+    double low = infinity, high = -infinity;
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        low = std::min(low, means[i] - 6 * sds[i]);
+        high = std::max(high, means[i] + 6 * sds[i]);
+    }
+    for (int i = 0; i < 50; ++i) {
+        double const middle = (low + high) / 2;
+        (probability_above(middle) >= probability ? low : high) = middle;
+    }
+    return low;
+}
+
+RiskSearch::RiskSearch(DesignTask const& task, theory::DriveSpace space)
+    : task_(task), space_(space), landing_frictions_{task.friction.low} {
+    if (task.friction.high > task.friction.low) landing_frictions_.push_back(task.friction.high);
+}
+
+double RiskSearch::needed() const {
+    return task_.mass_flow / (task_.bulk_density * task_.width * task_.depth.high);
+}
+
+SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t number) const {
+    DesignModel const& model = task_.models[number];
+    SpeedDistribution d;
+    for (std::size_t i = 0; i < task_.friction.values.size(); ++i) {
+        auto const value = model.at(drive, task_.friction.values[i]);
+        double const missed = model.uses_calibrated_discrepancy && !task_.friction.discrepancies.empty()
+                                  ? task_.friction.discrepancies[i]
+                                  : model.discrepancy;
+        // A material that runs away has no speed that could be used.
+        d.means.push_back(value ? value->efficiency * drive.trough_speed() : -1e3);
+        d.sds.push_back(drive.trough_speed() * std::hypot(value ? value->sd : 0, missed));
+    }
+    return d;
+}
+
+double RiskSearch::sure_speed(theory::Drive const& drive) const {
+    double least = infinity;
+    for (std::size_t i = 0; i < task_.models.size(); ++i)
+        least = std::min(least, speeds(drive, i).exceeded_with(task_.confidence));
+    return least;
+}
+
+double RiskSearch::merit(theory::Drive const& drive, Objective objective) const {
+    switch (objective) {
+        case Objective::fastest:
+            return sure_speed(drive);
+        case Objective::gentlest_landing: {
+            double hardest = 0;
+            for (double const friction : landing_frictions_)
+                hardest = std::max(hardest, landing_speed(drive, friction));
+            return -hardest;
+        }
+        case Objective::least_machine_number:
+            return -drive.machine_number(space_.gravity);
+        case Objective::least_power: {
+            auto const quantities = quantities_of(drive, task_.friction.median);
+            if (!quantities) return -infinity;
+            // Of the layer that carries the mass flow.
+            return -quantities->mean_power / std::max(1e-9, sure_speed(drive));
+        }
+    }
+    return 0;
+}
+
+RiskSearch::Landing RiskSearch::worst_landing(theory::Drive const& drive) const {
+    double const low = task_.friction.low, high = task_.friction.high;
+    if (!(low < high)) return {low, landing_speed(drive, low)};
+    double const step = (high - low) / (landings_looked_at - 1);
+    Landing worst{low, -1};
+    for (int i = 0; i < landings_looked_at; ++i) {
+        double const friction = i + 1 == landings_looked_at ? high : low + step * i;
+        double const speed = landing_speed(drive, friction);
+        if (speed > worst.speed) worst = {friction, speed};
+    }
+    auto const [friction, minus] = boost::math::tools::brent_find_minima(
+        [&](double mu) { return -landing_speed(drive, mu); }, std::max(low, worst.friction - step),
+        std::min(high, worst.friction + step), 24);
+    if (-minus > worst.speed) worst = {friction, -minus};
+    return worst;
+}
+
+void RiskSearch::keep_landing_at(double friction, double speed) {
+    double const close = 1e-3 * (task_.friction.high - task_.friction.low);
+    bool const known = std::ranges::any_of(landing_frictions_,
+                                           [&](double one) { return std::abs(one - friction) <= close; });
+    if (known) aim_ *= std::min(0.999, *task_.landing_speed / speed);
+    landing_frictions_.push_back(friction);
+}
+
+bool RiskSearch::keeps_limits(theory::Drive const& drive, bool must_reach) const {
+    if (excess(space_, drive) > 0 || (must_reach && sure_speed(drive) < needed())) return false;
+    for (DesignModel const& model : task_.models)
+        if (model.excess(drive) > 0) return false;
+    return !task_.landing_speed || worst_landing(drive).speed <= *task_.landing_speed;
+}
+
+std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_reach) const {
+    std::vector<theory::DriveFunction> excesses;
+    for (DesignModel const& model : task_.models)
+        if (!model.is_point_mass) excesses.push_back(model.excess);
+    if (task_.landing_speed) {
+        excesses.emplace_back([this](theory::Drive const& drive) {
+            double hardest = 0;
+            for (double const friction : landing_frictions_)
+                hardest = std::max(hardest, landing_speed(drive, friction));
+            return hardest / (aim_ * *task_.landing_speed) - 1;
+        });
+    }
+    if (must_reach)
+        excesses.emplace_back(
+            [this](theory::Drive const& drive) { return 1 - sure_speed(drive) / needed(); });
+    int free = 0;
+    for (theory::Range const& range :
+         {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})
+        free += range.low < range.high ? 1 : 0;
+    free = std::max(1, free);
+    bool const is_rolling = std::ranges::any_of(task_.models, &DesignModel::is_rolling);
+    theory::DriveSearchSettings const settings{
+        free * (is_rolling ? global_evaluations_of_rolling : global_evaluations),
+        free * (is_rolling ? local_evaluations_of_rolling : local_evaluations)};
+    return theory::best_drive(
+        space_, [&](theory::Drive const& drive) { return merit(drive, objective); }, excesses, settings);
+}
+
+}  // namespace vibrotrough::learn

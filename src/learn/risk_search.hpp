@@ -1,0 +1,62 @@
+#pragma once
+
+#include "learn/risk_design.hpp"
+
+#include <optional>
+#include <vector>
+
+// Internal to the design with risk (risk_design.cpp).
+namespace vibrotrough::learn {
+
+/// The conveying speeds of a drive: a mixture of normal distributions, one per value of the friction.
+struct SpeedDistribution {
+    std::vector<double> means, sds;  ///< m/s; equally likely
+
+    /// Probability of a speed above one. @param speed  m/s
+    double probability_above(double speed) const;
+    /// The speed that is exceeded with a probability, m/s.
+    double exceeded_with(double probability) const;
+};
+
+/// The drives that a design looks at, and what is known of each.
+class RiskSearch {
+  public:
+    /// @param task   must live as long as the search
+    /// @param space  the drives that its limits allow
+    RiskSearch(DesignTask const& task, theory::DriveSpace space);
+
+    /// m/s, needed for the mass flow at the largest depth.
+    double needed() const;
+    /// Of one of the task's models, by its place in their list.
+    SpeedDistribution speeds(theory::Drive const& drive, std::size_t model) const;
+    /// m/s, reached with the task's confidence by all models; below zero when the material runs away.
+    double sure_speed(theory::Drive const& drive) const;
+    /// What is made as large as possible.
+    double merit(theory::Drive const& drive, Objective objective) const;
+
+    /// A landing at some friction.
+    struct Landing {
+        double friction, speed;  ///< -, m/s
+    };
+    /// The hardest landing at any friction in the central 99.7 % of its distribution, from 65 of them and a
+    /// search by Brent's method between those beside the worst.
+    Landing worst_landing(theory::Drive const& drive) const;
+    /// From now on best() keeps the landing speed at this friction, too, where it was found to be `speed`.
+    void keep_landing_at(double friction, double speed);
+    /// Whether a drive keeps every limit at every friction. @param must_reach  also the mass flow
+    bool keeps_limits(theory::Drive const& drive, bool must_reach) const;
+
+    /// The best drive that keeps the limits at the frictions looked at so far.
+    std::optional<theory::Drive> best(Objective objective, bool must_reach) const;
+
+    DesignTask const& task() const { return task_; }            ///< of the design
+    theory::DriveSpace const& space() const { return space_; }  ///< that the limits allow
+
+  private:
+    DesignTask const& task_;
+    theory::DriveSpace space_;
+    std::vector<double> landing_frictions_;  ///< at which best() keeps the landing speed
+    double aim_ = 1;  ///< of the landing speed, relative to its limit; lowered when a friction repeats
+};
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,213 @@
+#include "learn/surface_design_model.hpp"
+
+#include "core/error.hpp"
+#include "learn/machine_keys.hpp"
+#include "prepare/prepared_case.hpp"
+#include "scenario/reader/keys.hpp"
+#include "theory/efficiency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr char const* friction_key = "trough.friction";
+
+/// Where an input of the surface comes from: the drive, the friction, or the user.
+struct Source {
+    MachineKey const* machine;
+    bool is_friction;
+    double value;  ///< given by the user
+};
+
+std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
+                               std::map<std::string, double> const& given) {
+    std::vector<Source> sources;
+    for (SurfaceInput const& input : inputs) {
+        MachineKey const* const machine = machine_key(input.key);
+        bool const is_friction = input.key == friction_key;
+        auto const found = given.find(input.key);
+        if (machine == nullptr && !is_friction && found == given.end()) {
+            throw core::InputError(
+                fmt::format("the campaign varies {0}: say its value for this material, for "
+                            "example --at {0}={1:g}",
+                            input.key, (input.low + input.high) / 2));
+        }
+        if (found != given.end() && (machine != nullptr || is_friction))
+            throw core::InputError(fmt::format("--at {}: the design chooses it; leave it out", input.key));
+        sources.push_back({machine, is_friction, found == given.end() ? 0 : found->second});
+    }
+    for (auto const& [key, value] : given) {
+        if (std::ranges::find(inputs, key, &SurfaceInput::key) == inputs.end())
+            throw core::InputError(fmt::format("--at {}: the campaign does not vary it", key));
+    }
+    return sources;
+}
+
+/// Whether the campaign varies a key of a group, such as "amplitude" (trough.amplitude, trough.stroke).
+bool varies(std::vector<SurfaceInput> const& inputs, std::string_view group) {
+    return std::ranges::any_of(
+        inputs, [&](SurfaceInput const& input) { return scenario::find_key(input.key)->group == group; });
+}
+
+/// The surface at the drives of a design.
+class SurfaceAtDrives {
+  public:
+    SurfaceAtDrives(std::shared_ptr<Surface const> surface, CampaignTheory theory,
+                    std::vector<Source> sources)
+        : surface_(std::move(surface)),
+          theory_(std::move(theory)),
+          sources_(std::move(sources)),
+          varies_friction_(std::ranges::any_of(sources_, &Source::is_friction)) {
+        Place middle;
+        for (std::size_t k = 0; k < sources_.size(); ++k) {
+            SurfaceInput const& input = surface_->inputs()[k];
+            bool const chosen = sources_[k].machine != nullptr || sources_[k].is_friction;
+            middle.push_back(chosen ? (input.low + input.high) / 2 : sources_[k].value);
+        }
+        scenario_ = theory_.scenario_at(middle);
+        is_plain_ = prepare::prepare_case(*scenario_).point_mass.is_plain;
+    }
+
+    /// The campaign's case in the middle of its ranges.
+    scenario::Trough const& trough() const { return scenario_->trough; }
+
+    std::optional<ModelEfficiency> at(theory::Drive const& drive, double friction) {
+        std::vector<double> const asked{drive.frequency, drive.amplitude, drive.vibration_angle,
+                                        drive.inclination, varies_friction_ ? friction : 0};
+        if (asked == last_asked_) return last_;
+        last_asked_ = asked;
+        last_ = compute(drive, friction);
+        return last_;
+    }
+
+    /// How far the machine's inputs are outside the range of the surface, over its width.
+    double excess(theory::Drive const& drive) const {
+        double most = -1;
+        for (std::size_t k = 0; k < sources_.size(); ++k) {
+            if (sources_[k].machine == nullptr) continue;
+            SurfaceInput const& input = surface_->inputs()[k];
+            double const value = sources_[k].machine->value(drive), width = input.high - input.low;
+            most = std::max({most, (value - input.high) / width, (input.low - value) / width});
+        }
+        return most;
+    }
+
+  private:
+    std::optional<ModelEfficiency> compute(theory::Drive const& drive, double friction) {
+        Place place;
+        for (Source const& source : sources_) {
+            place.push_back(source.machine != nullptr ? source.machine->value(drive)
+                            : source.is_friction      ? friction
+                                                      : source.value);
+        }
+        auto const theory = theory_at(place, drive, friction);
+        if (!theory) return {};
+        SurfaceValue const value = surface_->at(place, *theory);
+        return ModelEfficiency{value.efficiency, value.half_width / 1.959964};
+    }
+
+    /// The theory at a place: fast for a plain sinusoid, else by the case itself.
+    std::optional<double> theory_at(Place const& place, theory::Drive const& drive, double friction) {
+        if (!is_plain_) return theory_.efficiency_at(place);
+        double const mu = varies_friction_ ? friction : trough().friction;
+        double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
+                                    std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
+                               .velocity_efficiency;
+        return std::isfinite(eta) ? std::optional(eta) : std::nullopt;
+    }
+
+    std::shared_ptr<Surface const> surface_;
+    CampaignTheory theory_;
+    std::vector<Source> sources_;
+    std::optional<scenario::Scenario> scenario_;
+    bool is_plain_ = false, varies_friction_;
+    std::vector<double> last_asked_;  ///< drive and friction
+    std::optional<ModelEfficiency> last_;
+    theory::EfficiencySolver solver_;
+};
+
+/// The range that is left where the campaign does not vary a quantity: its value, if it is allowed.
+theory::Range fixed_at(char const* name, theory::Range const& range, double value, double in_unit,
+                       char const* unit) {
+    double const slack = 1e-9 * std::max(std::abs(range.low), std::abs(range.high));
+    if (value >= range.low - slack && value <= range.high + slack) {
+        double const inside = std::clamp(value, range.low, range.high);
+        return {inside, inside};
+    }
+    throw std::invalid_argument(fmt::format(
+        "the campaign was simulated with a {} of {:.4g} {}, outside the range {:.4g} to {:.4g} {}", name,
+        in_unit * value, unit, in_unit * range.low, in_unit * range.high, unit));
+}
+
+/// The friction of the material must be one that the campaign has.
+void check_friction(std::vector<SurfaceInput> const& inputs, double campaign, KnownFriction const& known,
+                    std::vector<std::string>& remarks) {
+    auto const input = std::ranges::find(inputs, friction_key, &SurfaceInput::key);
+    if (input == inputs.end()) {
+        if (campaign < known.low - 0.005 || campaign > known.high + 0.005) {
+            throw core::InputError(fmt::format(
+                "the campaign was simulated with trough.friction = {:g} and the material has {:g}; "
+                "vary trough.friction in the campaign",
+                campaign, known.median));
+        }
+        if (known.low < known.high)
+            remarks.push_back(fmt::format(
+                "The campaign does not vary trough.friction: the surface holds for {:g} alone, and "
+                "its mass flow does not know the uncertainty of the friction.",
+                campaign));
+        return;
+    }
+    if (known.median < input->low || known.median > input->high) {
+        throw core::InputError(fmt::format(
+            "the friction {:g} of the material lies outside the range {:g} to {:g} of the campaign; simulate "
+            "it, too",
+            known.median, input->low, input->high));
+    }
+    if (known.values.front() < input->low || known.values.back() > input->high)
+        remarks.push_back(
+            fmt::format("The friction may lie outside the range {:g} to {:g} of the campaign, where the "
+                        "surface only continues what it knows.",
+                        input->low, input->high));
+}
+
+}  // namespace
+
+DesignModel surface_design_model(std::shared_ptr<Surface const> surface, CampaignTheory const& theory,
+                                 std::map<std::string, double> const& given, KnownFriction const& friction,
+                                 double discrepancy) {
+    auto const inputs = surface->inputs();
+    if (!varies(inputs, scenario::find_key("trough.frequency")->group)) {
+        throw core::InputError(
+            "the campaign varies neither throw number, machine number nor frequency, so that there is "
+            "nothing "
+            "to choose; vary one of them");
+    }
+    DesignModel model{"the simulated layer", discrepancy, {}, {}, {}, false, false, false, surface->doubts()};
+    auto const drives = std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given));
+    scenario::Trough const trough = drives->trough();
+    check_friction(inputs, trough.friction, friction, model.remarks);
+    model.at = [drives](theory::Drive const& drive, double mu) { return drives->at(drive, mu); };
+    model.excess = [drives](theory::Drive const& drive) { return drives->excess(drive); };
+    model.narrowed = [=](theory::DriveSpace space) {
+        auto const group = [](char const* key) { return scenario::find_key(key)->group; };
+        if (!varies(inputs, group("trough.amplitude")))
+            space.amplitude = fixed_at("stroke", space.amplitude, trough.amplitude, 2000, "mm");
+        if (!varies(inputs, group("trough.vibration_angle")))
+            space.vibration_angle = fixed_at("vibration angle", space.vibration_angle, trough.vibration_angle,
+                                             1 / degree, "degrees");
+        if (!varies(inputs, group("trough.inclination")))
+            space.inclination =
+                fixed_at("inclination", space.inclination, trough.inclination, 1 / degree, "degrees");
+        return space;
+    };
+    return model;
+}
+
+}  // namespace vibrotrough::learn

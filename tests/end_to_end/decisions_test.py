@@ -1,0 +1,203 @@
+"""Two people's questions from beginning to end. The engineer: which stroke, speed and angle carry 12 t/h of pellets on my trough, how
+sure is that, and what friction do the speeds say that I measured on the old machine? The researcher: how fast is the layer over throw
+number and rolling friction, how sure is that, and what would it cost to know it better?
+
+The measured speeds are those of the Krakow laboratory (validation/krakow). The researcher's campaign, six cases of a tiny layer, is
+simulated once, with the real engine, and each test has a copy of its results.
+"""
+
+import csv
+import json
+import math
+import shutil
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+from trough_program import EndToEndTest
+
+KRAKOW = Path(__file__).parent.parent.parent / "validation" / "krakow" / "reference.csv"
+# Six cases: two inputs, and each packing short.
+PLAN = {"trough.amplitude": "6 mm", "grains.rotation": "rolling", "grains.rolling_friction": 0.1, "measure.packings": 3,
+        "measure.half_width": 0.15, "measure.max_cycles": 40, "measure.max_packings": 4}
+SWEEP = {"trough.throw_number": [1.5, 1.75, 2.0], "grains.rolling_friction": [0.02, 0.25]}
+TROUGH = ["--bulk-density", "600 kg/m3", "--width", "300 mm", "--length", "3 m", "--layer-depth", "5 mm to 60 mm"]
+
+
+def rows_of(path):
+    return list(csv.DictReader(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")))
+
+
+class Engineer(EndToEndTest):
+    def write_speeds(self):
+        """The three speeds as an engineer has them: with decimal commas, and the columns in any order."""
+        lines = ["rpm;stroke_mm;vibration_angle_deg;inclination_deg;speed_m_per_s;uncertainty_m_per_s"]
+        for row in rows_of(KRAKOW):
+            lines.append(f"{row['revolutions']};2,5;30;2;{row['speed']};{row['speed_error']}".replace(".", ","))
+        path = self.folder / "speeds.csv"
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return path
+
+    def design(self, *words, wanted=0):
+        answer = self.call("design", "--mass-flow", "12 t/h", *TROUGH, *words, "--json")
+        self.assertEqual(answer.returncode, wanted, answer.stderr)
+        return json.loads(answer.stdout)
+
+    def assert_is_a_page(self, path, *words):
+        text = path.read_text(encoding="utf-8")
+        for word in (*words, "<svg", "default-src 'none'"):
+            self.assertIn(word, text)
+        for outside in ("src=\"http", "href=\"http", "<script"):
+            self.assertNotIn(outside, text)
+
+    def test_from_measured_speeds_to_a_machine_and_the_campaign_that_checks_it(self):
+        posterior, page = self.folder / "friction.json", self.folder / "calibration.html"
+        answer = self.call("theory", "calibrate", self.write_speeds(), "--free", "friction", "--posterior", posterior, "--page", page,
+                           "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        calibration = json.loads(answer.stdout)
+        # No friction explains these three speeds exactly (validation/krakow); the discrepancy says by how much.
+        self.assertLess(calibration["best_fit"]["p_value"], 0.01)
+        self.assertGreater(calibration["model_discrepancy"]["low"], 0.01)
+        self.assert_is_a_page(page, "Calibration of the point mass", "No friction")
+
+        campaign, page = self.folder / "check design.toml", self.folder / "design.html"
+        design = self.design("--posterior", posterior, "--machine-number", "4", "--objective", "least-machine-number",
+                             "--campaign", campaign, "--page", page)
+        self.assertTrue(design["feasible"])
+        self.assertGreaterEqual(design["probability"], 0.95)
+        self.assertLessEqual(design["machine_number"], 4)
+        model = design["models"][0]
+        self.assertLess(model["mass_flow_low_t_per_h"], 12)
+        self.assertGreater(model["mass_flow_high_t_per_h"], model["mass_flow_t_per_h"])
+        # v = Q / (rho w h): what is printed is consistent with itself.
+        flow = 3.6 * 600 * 0.3 * design["layer_depth_mm"] / 1000 * model["median_speed_m_per_s"]
+        self.assertAlmostEqual(flow, model["mass_flow_t_per_h"], 6)
+        self.assertAlmostEqual(design["rules_of_thumb"][0]["speed_m_per_s"],
+                               3.81 * design["rpm"] * design["stroke_mm"] / 2000 / 60, 9)
+        self.assert_is_a_page(page, "Design of a vibrating trough", "12 t/h", "Daesung")
+
+        checked = self.call("check", campaign)
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        trough = tomllib.loads(campaign.read_text(encoding="utf-8"))["trough"]
+        self.assertAlmostEqual(float(trough["stroke"].split()[0]), design["stroke_mm"], 4)
+        self.assertAlmostEqual(float(trough["frequency"].split()[0]), design["rpm"], 4)
+
+    def test_several_models_and_limits(self):
+        limits = ["--friction", "0.3", "--friction-uncertainty", "0.03", "--machine-number", "4.5", "--stroke", "2 mm to 14 mm",
+                  "--rpm", "200 to 1500", "--landing-speed", "0.6 m/s"]
+        one = self.design(*limits)
+        both = self.design(*limits, "--model", "point-mass,rolling-layer")
+        self.assertEqual([model["model"] for model in both["models"]], ["the point mass", "the rolling-layer law"])
+        for design in (one, both):
+            self.assertLessEqual(design["landing_speed_m_per_s"], 0.6)
+            self.assertLessEqual(design["machine_number"], 4.5)
+            self.assertTrue(2 <= design["stroke_mm"] <= 14 and 200 <= design["rpm"] <= 1500, design)
+            for model in design["models"]:
+                self.assertGreaterEqual(model["probability"], 0.95)
+        self.assertLessEqual(both["sure_speed_m_per_s"], one["sure_speed_m_per_s"] * 1.01)
+
+    def test_every_campaign_that_it_writes_passes_the_check(self):
+        campaign = self.folder / "check.toml"
+        for words in (["--objective", "gentlest-landing"], ["--objective", "least-power", "--grain-diameter", "6 mm"],
+                      ["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"]):
+            self.design("--friction", "0.35", *words, "--campaign", campaign)
+            checked = self.call("check", campaign)
+            self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_what_cannot_be_reached_is_said(self):
+        answer = self.call("design", "--mass-flow", "900 t/h", *TROUGH, "--friction", "0.3")
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertIn("No machine within the limits carries 900 t/h", answer.stdout)
+        self.assertIn("layer depth <= 60 mm", answer.stdout)
+
+    def test_what_is_wrong_is_refused(self):
+        task = ["design", "--mass-flow", "12 t/h", *TROUGH]
+        not_a_calibration = self.folder / "no.json"
+        not_a_calibration.write_text('{"parameters": []}', encoding="utf-8")
+        for words, message in (
+            ([], "--friction is missing"),
+            (["--friction", "0.3", "--posterior", "friction.json"], "both given"),
+            (["--posterior", str(not_a_calibration)], "holds no calibrated friction"),
+            (["--friction", "0.3", "--model", "surface"], "--surface DIR"),
+            (["--friction", "0.3", "--inclination", "20 deg"], "no machine fits"),
+        ):
+            answer = self.call(*task, *words)
+            self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
+            self.assertIn(message, answer.stderr)
+        answer = self.call("design", "--mass-flow", "12 tons/h", *TROUGH, "--friction", "0.3")
+        self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
+        self.assertIn("t/h", answer.stderr)
+
+
+class Researcher(EndToEndTest):
+    simulated = None  # the folder of the results, once they are there
+
+    @classmethod
+    def tearDownClass(cls):
+        if cls.simulated:
+            cls.simulated.cleanup()
+
+    def setUp(self):
+        super().setUp()
+        if not Researcher.simulated:
+            self.run_campaign(self.write_campaign(PLAN, SWEEP), wanted=None)
+            Researcher.simulated = tempfile.TemporaryDirectory()
+            shutil.copytree(self.output, Path(Researcher.simulated.name) / "runs")
+        else:
+            shutil.copytree(Path(Researcher.simulated.name) / "runs", self.output)
+
+    def predict(self, *places):
+        words = [word for place in places for word in ("--at", place)]
+        answer = self.call("predict", self.output, *words, "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return json.loads(answer.stdout)
+
+    def test_the_surface_says_how_sure_it_is(self):
+        easy, hard, case = self.predict("throw_number=1.7,rolling_friction=0.03", "throw_number=1.7,rolling_friction=0.24",
+                                        "throw_number=1.75,rolling_friction=0.02")
+        for one in (easy, hard, case):
+            self.assertTrue(one["inside"])
+            self.assertEqual(one["points"], 6)
+            self.assertGreater(one["half_width"], 0)
+        # The more easily the grains roll, the more they outrun the theory between throw numbers 1.5 and 2.
+        self.assertGreater(easy["efficiency"], hard["efficiency"])
+        self.assertGreater(easy["efficiency"], easy["efficiency_theory"] + 0.1)
+        # At a case that was simulated, the surface says what was measured there, within both intervals.
+        row = next(row for row in self.table() if row["throw_number"] == 1.75 and row["grains.rolling_friction"] == 0.02)
+        self.assertLess(abs(case["efficiency"] - row["efficiency_dem"]), math.hypot(case["half_width"], row["efficiency_dem_half_width"]))
+        outside = self.predict("throw_number=2.8,rolling_friction=0.1")
+        self.assertFalse(outside["inside"])
+        self.assertGreater(outside["half_width"], easy["half_width"])
+
+    def test_a_machine_is_designed_by_it(self):
+        answer = self.call("design", "--mass-flow", "2 t/h", *TROUGH, "--friction", "0.23", "--machine-number", "8", "--surface",
+                           self.output, "--at", "rolling_friction=0.02", "--model", "surface,point-mass", "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        design = json.loads(answer.stdout)
+        self.assertEqual([model["model"] for model in design["models"]], ["the simulated layer", "the point mass"])
+        self.assertAlmostEqual(design["stroke_mm"], 12, 9)  # the machine that was simulated
+        self.assertTrue(1.5 <= design["throw_number"] <= 2, design)
+
+    def test_speeds_of_the_layer_give_its_rolling_friction(self):
+        # Speeds that the surface itself predicts for a rolling friction of 0.05, at three throw numbers.
+        gammas, beta, amplitude = (1.55, 1.75, 1.95), math.atan(0.5), 0.006
+        lines = ["amplitude_mm,frequency_hz,vibration_angle_deg,speed_m_per_s,uncertainty_m_per_s"]
+        for gamma, one in zip(gammas, self.predict(*(f"throw_number={gamma},rolling_friction=0.05" for gamma in gammas))):
+            omega = math.sqrt(gamma * 9.81 / (amplitude * math.sin(beta)))
+            speed = one["efficiency"] * omega * amplitude * math.cos(beta)
+            lines.append(f"6,{omega / (2 * math.pi)!r},{math.degrees(beta)!r},{speed!r},0.004")
+        speeds = self.folder / "speeds.csv"
+        speeds.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        answer = self.call("calibrate", self.output, "--measured", speeds, "--free", "rolling_friction", "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        found = json.loads(answer.stdout)["parameters"][0]
+        self.assertEqual(found["name"], "grains.rolling_friction")
+        self.assertLessEqual(found["low"], 0.05)
+        self.assertGreaterEqual(found["high"], 0.05)
+        self.assertLessEqual(found["high"], 0.25)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,104 @@
+#include "learn/surface_design_model.hpp"
+
+#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+#include "learn/risk_design.hpp"
+#include "scenario/example_campaign.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+/// A campaign over throw number and friction (r = 6 mm, 30 degrees, level) whose layer is faster than
+/// the theory by 0.1.
+class SurfaceDesign : public testing::Test {
+  protected:
+    SurfaceDesign() {
+        std::ofstream(file_) << with("friction = 0.23", "friction = 0.3")
+                             << "\n[sweep]\n\"trough.throw_number\" = [1, 3]\n"
+                             << "\"trough.friction\" = [0.2, 0.6]\n";
+        maker.emplace(file_);
+        CampaignTheory const theory(*maker, inputs, {});
+        std::vector<SurfacePoint> points;
+        for (double gamma = 1; gamma < 3.01; gamma += 0.25) {
+            for (double mu = 0.2; mu < 0.61; mu += 0.1) {
+                Place const place{gamma, mu};
+                double const eta = *theory.efficiency_at(place);
+                points.push_back({"case", place, eta, eta + 0.1, 0.004});
+            }
+        }
+        surface = std::make_shared<Surface const>(inputs, points);
+    }
+
+    DesignModel model(KnownFriction const& friction = normal_friction(0.35, 0.02)) const {
+        return surface_design_model(surface, CampaignTheory(*maker, inputs, {}), {}, friction);
+    }
+
+    std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"trough.friction", 0.2, 0.6}};
+    std::optional<scenario::CaseMaker> maker;
+    std::shared_ptr<Surface const> surface;
+
+  private:
+    core::TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "campaign.toml";
+};
+
+// At a drive of the campaign's machine the model is the surface there.
+TEST_F(SurfaceDesign, IsTheSurfaceAtTheDrive) {
+    double const beta = std::numbers::pi / 6, gamma = 1.8;
+    double const frequency = std::sqrt(gamma * 9.81 / (0.006 * std::sin(beta))) / (2 * std::numbers::pi);
+    theory::Drive const drive{frequency, 0.006, beta, 0};
+    auto const found = model().at(drive, 0.4);
+    ASSERT_TRUE(found);
+    double const theory = *CampaignTheory(*maker, inputs, {}).efficiency_at({gamma, 0.4});
+    EXPECT_NEAR(found->efficiency, surface->at({gamma, 0.4}, theory).efficiency, 1e-9);
+    EXPECT_NEAR(found->efficiency, theory + 0.1, 0.01);
+    EXPECT_GT(found->sd, 0);
+    EXPECT_LE(model().excess(drive), 0);
+    EXPECT_GT(model().excess({2 * frequency, 0.006, beta, 0}), 0);
+}
+
+// The design stays on the machine that was simulated, and within its range.
+TEST_F(SurfaceDesign, StaysOnTheSimulatedMachine) {
+    DesignTask task{};
+    task.space.max_machine_number = 20;
+    task.models = {model()};
+    task.friction = normal_friction(0.35, 0.02);
+    task.bulk_density = 600;
+    task.width = 0.3;
+    task.mass_flow = 5 / 3.6;
+    RiskDesign const d = design_with_risk(task);
+    EXPECT_TRUE(d.feasible);
+    EXPECT_DOUBLE_EQ(d.drive.amplitude, 0.006);
+    EXPECT_NEAR(d.drive.vibration_angle, std::numbers::pi / 6, 1e-12);
+    EXPECT_EQ(d.drive.inclination, 0);
+    EXPECT_LE(d.throw_number, 3);
+    task.space.amplitude = {0.001, 0.004};
+    EXPECT_THROW(design_with_risk(task), std::invalid_argument);
+}
+
+TEST_F(SurfaceDesign, WhatDoesNotFitIsRefused) {
+    auto const refused = [&](std::map<std::string, double> const& given, KnownFriction const& friction,
+                             char const* words) {
+        try {
+            surface_design_model(surface, CampaignTheory(*maker, inputs, {}), given, friction);
+            ADD_FAILURE() << words;
+        } catch (core::InputError const& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(words));
+        }
+    };
+    KnownFriction const usual = normal_friction(0.35, 0.02);
+    refused({{"trough.throw_number", 2}}, usual, "the design chooses it");
+    refused({{"grains.friction", 0.5}}, usual, "does not vary it");
+    refused({}, normal_friction(0.9, 0.02), "outside the range 0.2 to 0.6");
+    EXPECT_FALSE(model(normal_friction(0.25, 0.05)).remarks.empty());
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn

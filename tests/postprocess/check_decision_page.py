@@ -1,0 +1,142 @@
+"""The pages of a design and of a calibration: what they say, that they ask for nothing, and how they look in a browser.
+
+usage: check_decision_page.py POSTPROCESS WORK
+"""
+
+import html.parser
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+
+PLANTED = "<script>document.title = 'planted'</script>"
+MADE = {"program_version": "0.1.0", "git_commit": "0123456789ab", "written": "2026-11-22T13:00:00Z"}
+# A screen of a usual laptop; the pages are meant to be taken in at one look.
+SCREEN = (1300, 1000)
+
+
+def forecast(name, median):
+    shares = np.arange(1, 40) / 40
+    return {"model": name, "median_speed_m_per_s": median, "sure_speed_m_per_s": 0.8 * median, "mass_flow_t_per_h": 60 * median,
+            "mass_flow_low_t_per_h": 46 * median, "mass_flow_high_t_per_h": 74 * median, "probability": 0.962,
+            "mass_flow_quantiles_t_per_h": list(60 * median * (0.8 + 0.4 * shares))}
+
+
+def design():
+    return {
+        "kind": "design", "made": MADE, "feasible": True, "sentence": "This trough carries 12 t/h with a probability of 95 % or more.",
+        "stroke_mm": 12.4, "amplitude_m": 0.0062, "rpm": 742.0, "frequency_hz": 12.37, "vibration_angle_deg": 31.5, "inclination_deg": 0.0,
+        "layer_depth_mm": 38.7, "throw_number": 1.998, "machine_number": 3.82, "mode": "FN'", "velocity_efficiency_point_mass": 0.62,
+        "landing_speed_m_per_s": 0.291, "friction_low": 0.21, "friction_median": 0.3, "friction_high": 0.39, "power_w": 41.2,
+        "mass_flow_wanted_t_per_h": 12.0, "confidence": 0.95, "probability": 0.962, "sure_speed_m_per_s": 0.19,
+        "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
+        "active_limits": ["layer depth <= 40 mm", "landing speed <= 0.3 m/s"],
+        "rules_of_thumb": [
+            {"rule": "v = 3.81 N S, of which 70 to 80 % are used in practice", "source": "Daesung Machinery", "speed_m_per_s": 0.292,
+             "low_m_per_s": 0.204, "high_m_per_s": 0.234},
+            {"rule": "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)", "source": "after VDI 2333", "speed_m_per_s": 0.331,
+             "low_m_per_s": None, "high_m_per_s": None}],
+        "warnings": [f"If the grains can roll, the theory alone is wrong here. {PLANTED}"],
+        "task": {"width_m": 0.3, "length_m": 3.0, "bulk_density_kg_per_m3": 600.0, "depth_m": [0.005, 0.04], "rpm": [200.0, 1500.0],
+                 "stroke_mm": [2.0, 14.0], "vibration_angle_deg": [20.0, 40.0], "inclination_deg": [0.0, 0.0], "max_machine_number": 4.0,
+                 "max_throw_number": 3.29, "max_landing_speed_m_per_s": 0.3},
+        "quantile_shares": list(np.arange(1, 40) / 40)}
+
+
+def quantity(name, median, width, draws):
+    return {"name": name, "unit": "1", "median": median, "low": median - width, "high": median + width, "rhat": 1.002, "ess": 2400,
+            "remaining": 0.08, "identifiable": True, "ranges": [[median - width, median + width]], "prior": [0.02, 1.2]}, list(draws)
+
+
+def calibration():
+    random = np.random.default_rng(1)
+    friction, friction_draws = quantity("friction", 0.45, 0.06, random.normal(0.45, 0.03, 2000))
+    missed, missed_draws = quantity("model_discrepancy", 0.08, 0.05, np.exp(random.normal(np.log(0.08), 0.4, 2000)))
+    measured = [{"line": line, "amplitude_m": 0.00125, "frequency_hz": rpm / 60, "speed_m_per_s": speed, "uncertainty_m_per_s": 0.003,
+                 "model_m_per_s": 0.9 * speed, "model_low_m_per_s": 0.8 * speed, "model_high_m_per_s": 1.05 * speed, "misfit": 1.4}
+                for line, rpm, speed in ((2, 1269, 0.0601), (3, 1453, 0.099), (4, 1558, 0.1307))]
+    return {"kind": "calibration", "made": MADE, "model": "the point mass", "parameters": [friction], "model_discrepancy": missed,
+            "draws": {"friction": friction_draws, "model_discrepancy": missed_draws}, "measurements": measured,
+            "best_fit": {"values": [0.5], "chi_square": 31.2, "degrees_of_freedom": 2, "p_value": 1.7e-7}, "converged": True,
+            "verdict": [f"No friction explains these 3 speeds by the point mass. {PLANTED}"]}
+
+
+class Words(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.text, self.addresses, self.scripts = "", [], 0
+
+    def handle_starttag(self, tag, attributes):
+        self.scripts += tag == "script"
+        self.addresses += [value for name, value in attributes if name in ("src", "href", "xlink:href")]
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def check_words(page, expected):
+    words = Words()
+    words.feed(page)
+    text = " ".join(words.text.split())
+    for one in expected:
+        assert one in text, (one, text)
+    assert words.scripts == 0 and PLANTED in text, "texts are escaped"
+    assert all(address.startswith(("#", "data:")) for address in words.addresses), words.addresses
+    assert "Vibrotrough 0.1.0 (0123456789ab), written 2026-11-22T13:00:00Z" in text
+
+
+def check_in_browser(browser, page, work):
+    """The page is no wider than a narrow window, and on a usual screen no longer than it."""
+    common = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+              f"--user-data-dir={work / 'browser'}"]
+    probe = ("<script>document.title = JSON.stringify([innerWidth, document.documentElement.scrollWidth, "
+             "document.documentElement.scrollHeight]);</script></body>")
+    probed = page.with_name("probed-" + page.name)
+    probed.write_text(page.read_text(encoding="utf-8").replace("default-src 'none'", "script-src 'unsafe-inline'")
+                      .replace(PLANTED, "").replace("</body>", probe), encoding="utf-8")
+    for width, height in (SCREEN, (500, 900)):
+        done = subprocess.run([*common, f"--window-size={width},{height}", "--dump-dom", probed.as_uri()], capture_output=True, text=True,
+                              timeout=600)
+        found = re.search(r"<title>\[(\d+),(\d+),(\d+)\]</title>", done.stdout)
+        assert found, done.stderr[-2000:]
+        inner, wide, long = map(int, found.groups())
+        assert wide <= inner, f"{page.name} is {wide} pixels wide in a window of {inner}"
+        assert width != SCREEN[0] or long <= SCREEN[1], f"{page.name} is {long} pixels long"
+        picture = work / f"{page.stem}-{width}.png"
+        subprocess.run([*common, f"--window-size={width},{height}", f"--screenshot={picture}", page.as_uri()], capture_output=True,
+                       timeout=600, check=True)
+        assert picture.stat().st_size > 20000, picture
+
+
+def main(scripts, work):
+    work = pathlib.Path(work).resolve() / "decision_page"
+    work.mkdir(parents=True, exist_ok=True)
+    pages = {}
+    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung"]),
+                           (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):
+        path = work / f"{data['kind']}.html"
+        (work / "data.json").write_text(json.dumps(data), encoding="utf-8")
+        done = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output", path],
+                              capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        check_words(path.read_text(encoding="utf-8"), expected)
+        pages[data["kind"]] = path
+    failed = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output",
+                             work / "missing" / "x.html"], capture_output=True, text=True)
+    assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "--page" in failed.stderr, failed.stderr
+    browser = shutil.which("chromium")
+    if not browser:
+        print("SKIPPED: chromium is not installed")
+        sys.exit(77)
+    for path in pages.values():
+        check_in_browser(browser, path, work)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
+
+import numpy as np  # noqa: E402
+
+from campaign_program import Row, campaign_text, run_campaign  # noqa: E402
+from figure_style import COLOURS, MARKERS, plain_axes, plt  # noqa: E402
+from validation_case import ValidationCase  # noqa: E402
+
+SETS = 100  # synthetic data sets of each kind
+THROW_NUMBERS = [0.7, 1.1, 1.5, 1.9, 2.3, 2.7]
+AMPLITUDE, ANGLE, UNCERTAINTY, GRAVITY = 3e-3, 30.0, 0.005, 9.81
+KINDS = {"exact theory": 0.0, "theory wrong by 0.05": 0.05}
+CALIBRATIONS = ["kind", "options", "friction", "low", "high"]
+
+# The domains of two surfaces over the tiny layer of base.toml.
+DOMAINS = {
+    "rolling": {"trough.throw_number": (1.0, 3.0), "grains.rolling_friction": (0.0, 0.3)},
+    "angle": {"trough.throw_number": (1.0, 3.0), "trough.tan_vibration_angle": (0.25, 1.0)},
+}
+DESIGN, HELD_OUT = 24, 60  # simulated points of each domain: that make the surface, and that it does not see
+INPUTS = ["throw_number", "tan_vibration_angle", "rolling_friction"]
+POINTS = ["domain", *INPUTS, "efficiency", "half_width", "theory", "outcome"]
+PREDICTIONS = [*POINTS, "predicted", "predicted_half_width"]
+STEADY = ("finished", "not-precise")
+
+
+def data_set(run: ValidationCase, friction: float, discrepancy: float, random: np.random.Generator) -> str:
+    """speeds.csv of six settings of a machine: the theory's speeds with an error of the theory and of the measurement."""
+    columns = ["throw_number", "vibration_angle_deg", "friction"]
+    etas = run.efficiencies(columns, [(gamma, ANGLE, friction) for gamma in THROW_NUMBERS])
+    lines = ["amplitude_mm,frequency_hz,vibration_angle_deg,speed_m_per_s,uncertainty_m_per_s"]
+    for gamma, eta in zip(THROW_NUMBERS, etas):
+        omega = math.sqrt(gamma * GRAVITY / (AMPLITUDE * math.sin(math.radians(ANGLE))))
+        trough = omega * AMPLITUDE * math.cos(math.radians(ANGLE))
+        speed = (eta + discrepancy * random.standard_normal()) * trough + UNCERTAINTY * random.standard_normal()
+        lines.append(f"{1e3 * AMPLITUDE},{omega / (2 * math.pi)!r},{ANGLE},{speed!r},{UNCERTAINTY}")
+    return "\n".join(lines) + "\n"
+
+
+def calibrate_many(run: ValidationCase) -> None:
+    """Calibrates synthetic data sets with the program, with and without model discrepancy."""
+    rows = []
+    run.runs.mkdir(parents=True, exist_ok=True)
+    for kind, discrepancy in KINDS.items():
+        random = np.random.default_rng(20261122)
+        for _ in range(5 if run.quick else SETS):
+            friction = random.uniform(0.1, 0.9)
+            path = run.runs / "speeds.csv"
+            path.write_text(data_set(run, friction, discrepancy, random), encoding="utf-8")
+            for options in ((), ("--without-discrepancy",)):
+                answer = run.json("calibrate", path, "--free", "friction", *options)["parameters"][0]
+                rows.append([kind, " ".join(options), friction, answer["low"], answer["high"]])
+    run.write_table("calibrations.csv", CALIBRATIONS, rows)
+
+
+def rows_of(domain: str, folder: pathlib.Path, answers: list[Row]) -> list[list[object]]:
+    """Rows of POINTS from those of `compare`, without bistable and unsteady cases."""
+    table: list[list[object]] = []
+    for row in answers:
+        if row["outcome"] not in STEADY or not row["efficiency_dem"]:
+            continue
+        frozen = tomllib.loads((folder / "cases" / row["case"] / "scenario.toml").read_text(encoding="utf-8"))
+        trough, grains = frozen["trough"], frozen["grains"]
+        table.append([domain, trough["throw_number"], trough["tan_vibration_angle"], grains["rolling_friction"], row["efficiency_dem"],
+                      row["efficiency_dem_half_width"], row["efficiency_theory"], row["outcome"]])
+    return table
+
+
+def simulate(run: ValidationCase, domain: str, name: str, count: int, seed: int) -> list[list[object]]:
+    """Simulates points that fill a domain; rows of POINTS."""
+    folder = run.runs / f"{domain}-{name}"
+    text = campaign_text(run.sections(), {"campaign.name": f"{domain}-{name}"}, {}).replace("[sweep]\n", "")
+    text += f'[sample]\nmethod = "sobol"\ncount = {count}\nseed = {seed}\n'
+    text += "".join(f'"{key}" = {{ from = {low}, to = {high} }}\n' for key, (low, high) in DOMAINS[domain].items())
+    return rows_of(domain, folder, run_campaign(run.program, folder, text, run.jobs))
+
+
+def predict_held_out(run: ValidationCase) -> None:
+    design, held_out = [], []
+    for domain, keys in DOMAINS.items():
+        design += simulate(run, domain, "design", 4 if run.quick else DESIGN, 1)
+        for row in simulate(run, domain, "held-out", 2 if run.quick else HELD_OUT, 11):
+            values = dict(zip(POINTS, row))
+            place = ",".join(f"{name}={values[name]}" for name in (key.split(".")[1] for key in keys))
+            words = [run.program, "predict", str(run.runs / f"{domain}-design"), "--at", place, "--json"]
+            answer = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
+            held_out.append([*row, answer["efficiency"], answer["half_width"]])
+    run.write_table("design.csv", POINTS, design)
+    run.write_table("held_out.csv", PREDICTIONS, held_out)
+
+
+def band(count: int) -> tuple[int, int]:
+    """The central 95 % of the number of intervals among `count` that hold the truth."""
+    share = np.cumsum([math.comb(count, k) * 0.95**k * 0.05**(count - k) for k in range(count + 1)])
+    return int(np.searchsorted(share, 0.025)), int(np.searchsorted(share, 0.975))
+
+
+def judge_calibrations(run: ValidationCase) -> None:
+    """In how many data sets the interval of the friction holds the true one."""
+    options = "--without-discrepancy" if run.control else ""
+    for kind in KINDS:
+        rows = [row for row in run.table("calibrations.csv") if row["kind"] == kind and row["options"] == options]
+        covered = sum(float(row["low"]) <= float(row["friction"]) <= float(row["high"]) for row in rows)
+        run.between(f"{kind}: data sets of {len(rows)} whose interval holds the true friction", covered, 90, 99,
+                    because="95 % intervals; the issue's band, 97 % of the binomial distribution")
+
+
+def judge_surface(run: ValidationCase) -> list[Row]:
+    rows = run.table("held_out.csv")
+    if run.control:  # each prediction beside the simulation of another place
+        predictions = [(row["predicted"], row["predicted_half_width"]) for row in rows]
+        for row, (value, half_width) in zip(rows, predictions[1:] + predictions[:1]):
+            row["predicted"], row["predicted_half_width"] = value, half_width
+    for domain in DOMAINS:
+        mine = [row for row in rows if row["domain"] == domain]
+        if not mine:
+            continue
+        number = {key: np.array([float(row[key]) for row in mine]) for key in (
+            "efficiency", "half_width", "theory", "predicted", "predicted_half_width")}
+        error = number["efficiency"] - number["predicted"]
+        inside = int(np.sum(np.abs(error) <= np.hypot(number["predicted_half_width"], number["half_width"])))
+        low, high = band(len(mine))
+        run.between(f"{domain}: held-out points of {len(mine)} within the predicted interval", inside, low, high,
+                    because="central 95 % of the binomial distribution at 95 %; both intervals are combined in squares")
+        rms, theory = (math.sqrt(float(np.mean(np.square(values)))) for values in (error, number["efficiency"] - number["theory"]))
+        run.finding(f"{domain}: the surface predicts better than the theory alone", rms < theory,
+                    f"root mean square error {rms:.3f} against {theory:.3f} over {len(mine)} held-out points of the {HELD_OUT} wanted")
+    return rows
+
+
+def draw(run: ValidationCase, rows: list[Row]) -> None:
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
+    plain_axes(left)
+    options = "--without-discrepancy" if run.control else ""
+    calibrations = [row for row in run.table("calibrations.csv") if row["options"] == options]
+    for number, kind in enumerate(KINDS):
+        mine = sorted((float(row["friction"]), float(row["low"]), float(row["high"])) for row in calibrations if row["kind"] == kind)
+        friction, low, high = np.array(mine).T
+        left.errorbar(friction + 0.002 * number, (low + high) / 2, yerr=(high - low) / 2, fmt="none", ecolor=COLOURS[number],
+                      elinewidth=1, label=kind)
+    left.plot([0.1, 0.9], [0.1, 0.9], color="black", linewidth=0.8)
+    left.set_xlabel("true friction  [-]")
+    left.set_ylabel("95 % interval of the calibration  [-]")
+    left.legend(loc="upper left")
+    plain_axes(right)
+    measured, predicted = (np.array([float(row[key]) for row in rows]) for key in ("efficiency", "predicted"))
+    right.errorbar(measured, predicted, xerr=[float(row["half_width"]) for row in rows],
+                   yerr=[float(row["predicted_half_width"]) for row in rows], fmt=MARKERS[0], color=COLOURS[0], markersize=4,
+                   elinewidth=0.8, label="surface")
+    right.plot(measured, [float(row["theory"]) for row in rows], MARKERS[2], color=COLOURS[1], markersize=4, label="theory alone")
+    right.plot([0, 1], [0, 1], color="black", linewidth=0.8)
+    right.set_xlabel("velocity efficiency of held-out simulations  [-]")
+    right.set_ylabel("predicted  [-]")
+    right.legend()
+    figure.savefig(run.figure("coverage.png"), dpi=100)
+
+
+def main() -> None:
+    run = ValidationCase(FOLDER)
+    if run.long:
+        calibrate_many(run)
+        predict_held_out(run)
+    judge_calibrations(run)
+    draw(run, judge_surface(run))
+    run.finish()
+
+
+if __name__ == "__main__":
+    main()
