@@ -68,9 +68,10 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
 
 // An option may ask for resources, but name no file, no variable and no script.
 TEST(RunSection, OptionsThatDoMoreThanAskAreRefused) {
-    for (char const* option : {"", "qos=short", "-qshort", "--output=/home/me/.bashrc", "--wrap=id",
-                               "--export=LD_PRELOAD=x", "--chdir=/", "--array=0-9", "--qos=a b", "--qos=a'b",
-                               "--qos=a/b", "--qos=$(id)", "--qos=a\nb", "--qos short", "--"}) {
+    for (char const* option :
+         {"", "qos=short", "-qshort", "--output=/home/me/.bashrc", "--wrap=id", "--export=LD_PRELOAD=x",
+          "--chdir=/", "--array=0-9", "--clusters=other", "--qos=a b", "--qos=a'b", "--qos=a/b",
+          "--qos=$(id)", "--qos=a\nb", "--qos short", "--"}) {
         EXPECT_FALSE(scenario::SlurmOption::from(option)) << option;
     }
     for (char const* option :

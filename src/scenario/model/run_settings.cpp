@@ -13,11 +13,12 @@ bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// Names of options that ask for resources or for mail, and do nothing else.
-constexpr std::array<std::string_view, 19> allowed_options{
-    "clusters",      "comment", "constraint",  "cores-per-socket", "exclude",   "exclusive", "gpus",
-    "gres",          "hint",    "licenses",    "mail-type",        "mail-user", "nice",      "nodelist",
-    "oversubscribe", "qos",     "reservation", "spread-job",       "tmp"};
+/// Names of options that ask for resources or for mail, and do nothing else. --clusters is not among them:
+/// squeue and sacct would have to be told where the job went.
+constexpr std::array<std::string_view, 18> allowed_options{
+    "comment", "constraint",  "cores-per-socket", "exclude",   "exclusive", "gpus",     "gres",
+    "hint",    "licenses",    "mail-type",        "mail-user", "nice",      "nodelist", "oversubscribe",
+    "qos",     "reservation", "spread-job",       "tmp"};
 
 bool is_option_value(std::string_view text) {
     constexpr std::string_view others = "._,:@%+&|()[]*=-";
