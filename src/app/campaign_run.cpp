@@ -5,7 +5,9 @@
 #include "app/progress_log.hpp"
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
+#include "campaign/schedule/forecast.hpp"
 #include "campaign/state/folder_lock.hpp"
+#include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
@@ -108,6 +110,13 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     campaign::ExecutorInputs const inputs{folder, engine, campaign.run, options.jobs,
                                           fs::read_symlink("/proc/self/exe")};
     return {std::move(campaign), std::move(plan), &kind, inputs, is_interrupted};
+}
+
+void size_tasks(ReadyCampaign& ready, std::optional<int> minutes) {
+    if (!minutes) return;
+    auto const cases = campaign::survey(ready.plan, campaign::activity_in(ready.plan.folder));
+    ready.inputs.task_duration = *minutes * 60.0;
+    ready.inputs.speed = campaign::forecast(ready.plan, cases).speed;
 }
 
 }  // namespace vibrotrough::app

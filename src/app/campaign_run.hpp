@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -46,5 +47,9 @@ struct ReadyCampaign {
 /// @throws core::InputError when the campaign is wrong, core::MissingError when there is no usable engine,
 /// the disk refuses, or another process drives the campaign
 ReadyCampaign prepare_run(RunOptions const& options);
+
+/// Makes the tasks of a cluster take several packings each, so that a task lasts about `minutes`; the
+/// duration of a packing comes from the campaign's forecast. Nothing: one packing per task.
+void size_tasks(ReadyCampaign& ready, std::optional<int> minutes);
 
 }  // namespace vibrotrough::app

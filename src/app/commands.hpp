@@ -24,7 +24,9 @@ void add_init(CLI::App& program, int& exit_code);
 void add_run(CLI::App& program, int& exit_code);
 /// Lists the cases of a campaign and what they will cost.
 void add_plan(CLI::App& program, int& exit_code);
-/// Simulates one packing, for a scheduler.
+/// Writes a list of tasks for a scheduler.
+void add_prepare(CLI::App& program, int& exit_code);
+/// Simulates the packings of one task, for a scheduler.
 void add_work(CLI::App& program, int& exit_code);
 /// Prints the reference of the campaign file.
 void add_keys(CLI::App& program, int& exit_code);

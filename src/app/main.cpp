@@ -55,6 +55,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_init(program, exit_code);
     add_run(program, exit_code);
     add_plan(program, exit_code);
+    add_prepare(program, exit_code);
     add_work(program, exit_code);
     add_keys(program, exit_code);
     add_deck(program, exit_code);

@@ -20,7 +20,8 @@ class BatchTest : public testing::Test {
   protected:
     core::TemporaryFolder const own_folder;
     fs::path folder = own_folder.path();
-    std::vector<PackingId> tasks{{"0123456789ab", 1}, {"0123456789ab", 2}, {"ffffffffffff", 1000}};
+    std::vector<Task> tasks{
+        {{"0123456789ab", 1}}, {{"0123456789ab", 2}, {"ffffffffffff", 1}}, {{"ffffffffffff", 1000}}};
 };
 
 TEST_F(BatchTest, ComesBackAsWritten) {
@@ -43,7 +44,8 @@ TEST_F(BatchTest, DamagedListsAreRefused) {
     fs::path const list = folder / "tasks.txt";
     for (char const* line :
          {"", "0123456789ab", "0123456789ab 0", "0123456789ab 1001", "0123456789ag 1", "../../../etc 1",
-          "0123456789abc 1", "0123456789a 1", "0123456789AB 1", "$(id)      1"}) {
+          "0123456789abc 1", "0123456789a 1", "0123456789AB 1", "$(id)      1", "0123456789ab 1 0123456789ab",
+          "0123456789ab 1 0123456789ab x"}) {
         std::ofstream(list) << line << "\n";
         EXPECT_THROW(read_task(list, 0), core::InputError) << line;
     }

@@ -83,7 +83,7 @@ int work(int argc, char** argv) {
         if (std::string_view(argv[i]) == "--task-list") list = argv[i + 1];
         if (std::string_view(argv[i]) == "--index") index = argv[i + 1];
     }
-    campaign::PackingId const packing = campaign::read_task(list, std::stoi(index));
+    campaign::PackingId const packing = campaign::read_task(list, std::stoi(index)).at(0);
     auto const result = campaign::work(argv[2], packing, {}, GrowingPolicy());
     fmt::print("{}\n", result.message);
     return result.kind == campaign::WorkResult::interrupted ? 130 : 0;

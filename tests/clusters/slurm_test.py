@@ -1,7 +1,9 @@
 """A real small campaign through a real Slurm: submitted, watched, with tasks killed on the way, and finished."""
 
+import collections
 import os
 import re
+import shutil
 import signal
 import sys
 import unittest
@@ -202,6 +204,48 @@ class Slurm(EndToEndTest):
         self.assertEqual([case["outcome"] for case in status["cases"]], ["interrupted"], status)
         self.assertIn("ended with exit code 5", status["cases"][0]["message"])
         self.assertIn("line 2 of run.slurm.setup", (self.output / "slurm" / "0001" / "task-0.out").read_text())
+
+    def test_several_packings_in_one_task(self):
+        slurm = self.start_slurm(cpus=1)
+        campaign = self.write_slurm_campaign(RUN_ON_SLURM + "minutes_per_task = 60\n", {"measure.packings": 3}, {"layer.grains": [60, 70]})
+        done = self.run_campaign(campaign)
+        job = re.search(r"6 packings submitted as job (\d+)\n", done.stdout)[1]
+        self.assertEqual(self.count_submitted(), 1)
+        self.assertIn("TimeLimit=01:00:00", slurm.command("scontrol", "show", "job", job).stdout, "six packings of ten minutes")
+
+        # The task dies with its second packing: the first stays, and only five are submitted again.
+        first = self.catch_a_simulation()
+        os.kill(first, signal.SIGCONT)
+        second = self.catch_a_simulation(besides=first)
+        work = parent_of(second)
+        os.kill(parent_of(work), signal.SIGKILL)
+        os.kill(work, signal.SIGKILL)
+        status = self.wait_for_the_end()
+        self.assertEqual(sum(case["packings_done"] for case in status["cases"]), 1, status)
+        self.assertRegex(self.run_campaign(campaign).stdout, r"5 packings submitted as job \d+ \(5 of them again\)\n")
+        self.assertEqual(self.wait_for_the_end()["finished"], 2)
+
+    def test_one_question_to_slurm_for_all_tasks(self):
+        slurm = self.start_slurm(cpus=1, max_array=3)  # arrays of at most 2 tasks, so that 6 packings make three
+        campaign = self.write_slurm_campaign(changes={"measure.packings": 2, "measure.half_width": 0.00001, "measure.max_cycles": 1000000})
+        self.run_campaign(campaign)
+        self.catch_a_simulation()  # nothing ends
+        asked = self.count_questions(slurm)
+        self.status()
+        self.assertEqual(asked(), {"squeue": 1, "sacct": 1})
+
+    def count_questions(self, slurm):
+        """Puts scripts that count before squeue and sacct on the PATH."""
+        folder, counts = self.folder / "counted", self.folder / "questions"
+        folder.mkdir()
+        for name in ("squeue", "sacct"):
+            script = folder / name
+            script.write_text(f'#!/bin/sh\necho {name} >> "{counts}"\nexec {shutil.which(name)} "$@"\n')
+            script.chmod(0o755)
+        path = os.environ["PATH"]
+        os.environ["PATH"] = f"{folder}:{path}"
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        return lambda: dict(collections.Counter(counts.read_text().split()))
 
     def test_a_task_out_of_time_says_so(self):
         self.start_slurm(cpus=2)

@@ -81,6 +81,7 @@ int report(campaign::Summary const& summary, campaign::Plan const& plan, campaig
 int run(Options const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
+    size_tasks(ready, ready.campaign.run.slurm.minutes_per_task);
     auto const until = options.wait ? campaign::Until::done : campaign::Until::submitted;
     campaign::Summary summary;
     {

@@ -3,12 +3,13 @@
 #include "app/exit_code.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/execute/packing_worker.hpp"
-#include "campaign/execute/slurm_batch.hpp"
+#include "campaign/execute/task_list.hpp"
 #include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/text.hpp"
 #include "learn/learner.hpp"
 
+#include <cstdio>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -29,21 +30,17 @@ int run(Options& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
     tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
-    campaign::PackingId const packing = campaign::read_task(options.task_list, options.index);
-    campaign::WorkResult const result =
-        campaign::work(options.folder, packing, options.limits,
-                       campaign::UntilPrecise(learn::read_wanted_half_widths(options.folder)));
-    fmt::print("{}\n", result.message);
-    switch (result.kind) {
-        case campaign::WorkResult::finished:
-        case campaign::WorkResult::busy:
-            return all_well;
-        case campaign::WorkResult::failed:
-            return some_cases_failed;
-        case campaign::WorkResult::interrupted:
-            break;
+    campaign::UntilPrecise const policy(learn::read_wanted_half_widths(options.folder));
+    int worst = all_well;
+    for (campaign::PackingId const& packing : campaign::read_task(options.task_list, options.index)) {
+        campaign::WorkResult const result = campaign::work(options.folder, packing, options.limits, policy);
+        fmt::print("{}\n", result.message);
+        std::fflush(stdout);  // a task that is killed later has said what became of this packing
+        if (result.kind == campaign::WorkResult::interrupted) return interrupted;
+        // A packing that failed does not stop the others.
+        if (result.kind == campaign::WorkResult::failed) worst = some_cases_failed;
     }
-    return interrupted;
+    return worst;
 }
 
 }  // namespace
@@ -51,11 +48,11 @@ int run(Options& options) {
 void add_work(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<Options>();
     CLI::App* const command =
-        program.add_subcommand("work", "Simulate one packing, as a task on a cluster does");
+        program.add_subcommand("work", "Simulate the packings of one task, as a cluster does");
     add_campaign_folder(*command, options->folder);
     command
         ->add_option("--task-list", options->task_list,
-                     "File with one line '<case id> <packing>' for each task")
+                     "File with a line for each task: '<case id> <packing>' once or several times")
         ->type_name("FILE")
         ->required();
     command->add_option("--index", options->index, "Line of the task in the list, counted from 0")
@@ -70,16 +67,17 @@ void add_work(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0, 100))
         ->capture_default_str();
     command
-        ->add_option("--time-limit", options->time_limit, "Longest wall-clock time of the packing in seconds")
+        ->add_option("--time-limit", options->time_limit, "Longest wall-clock time of a packing in seconds")
         ->check(CLI::Range(1.0, 3e7));
     command->footer(
-        R"(The job script that 'vibrotrough run' writes for Slurm calls this command, and other schedulers can
-call it too. Any number of these processes may work on one campaign at the same time: each packing is simulated by one
-of them, and the process that ends the last packing of a case writes the result of the case.
+        R"(The job script that 'vibrotrough run' writes for Slurm calls this command; for other schedulers
+'vibrotrough prepare' writes the list. Any number of these processes may work on one campaign at the same time: each
+packing is simulated by one of them, and the process that ends the last packing of a case writes the result of the case.
+A task with several packings simulates them one after the other; what is finished stays finished when it dies.
 
 Exit codes:
-    0  the packing is finished, or another process is working on it
-    1  the packing failed; failure.json in its folder gives the reason
+    0  all packings are finished, or other processes are working on them
+    1  a packing failed; failure.json in the folder of its case gives the reason
     2  the input is wrong, for example because the list has no such task
     3  something is missing: the engine that the campaign was planned with, or disk space
   130  interrupted

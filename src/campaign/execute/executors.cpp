@@ -2,6 +2,7 @@
 
 #include "campaign/execute/local_executor.hpp"
 #include "campaign/execute/slurm_executor.hpp"
+#include "campaign/execute/task_list_executor.hpp"
 #include "campaign/state/folder_lock.hpp"
 #include "core/error.hpp"
 
@@ -21,6 +22,8 @@ std::vector<PackingActivity> none(std::filesystem::path const&) {
 constexpr std::array kinds{
     ExecutorKind{"local", "this machine", make_local_executor, none},
     ExecutorKind{"slurm", "Slurm", make_slurm_executor, slurm_activity},
+    // Not of campaign files: `vibrotrough prepare` uses it.
+    ExecutorKind{"task-list", "a task list", make_task_list_executor, none},
 };
 
 bool is_alive(PackingActivity const& activity) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct ExecutorInputs {
     int cores = 1;                          ///< of this machine that may be used
     std::filesystem::path
         program;  ///< the program whose `work` command runs a packing, as compute nodes see it
+    std::optional<double> task_duration = {};  ///< s, that a task of a cluster should take; none: one packing
+    double speed = 0;  ///< grain-steps per second of one core, expected; needed for task_duration
+    std::filesystem::path task_list = {};  ///< the file that the executor "task-list" writes
 };
 
 /// One kind of executor. The table of all kinds is the only place that knows them.

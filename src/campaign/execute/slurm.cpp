@@ -11,6 +11,7 @@
 
 #include <boost/process.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::campaign::slurm {
 namespace {
@@ -91,22 +92,22 @@ void read_lines(std::string const& output, Reports& reports) {
     }
 }
 
-bool squeue(long job, Reports& reports) {
-    Answer const answer =
-        call({"squeue", "-h", "-r", "-t", "all", "-j", std::to_string(job), "-o", "%F_%K|%T|%r"});
-    if (answer.code != 0) {
-        // A purged id is an error of its own; anything else means that the controller does not answer.
-        return answer.errors.find("Invalid job id") != std::string::npos;
+enum class Heard { answer, unknown_job, nothing };
+
+Heard squeue(std::string const& jobs, Reports& reports) {
+    Answer const answer = call({"squeue", "-h", "-r", "-t", "all", "-j", jobs, "-o", "%F_%K|%T|%r"});
+    if (answer.code == 0) {
+        read_lines(answer.output, reports);
+        return Heard::answer;
     }
-    read_lines(answer.output, reports);
-    return true;
+    // A purged id is an error of its own; anything else means that the controller does not answer.
+    return answer.errors.find("Invalid job id") != std::string::npos ? Heard::unknown_job : Heard::nothing;
 }
 
 /// Fails where there is no accounting; then nothing more is known.
-void sacct(long job, Reports& reports) {
+void sacct(std::string const& jobs, Reports& reports) {
     if (bp::search_path("sacct").empty()) return;
-    Answer const answer =
-        call({"sacct", "-n", "-P", "-X", "-a", "-j", std::to_string(job), "-o", "JobID,State,Reason"});
+    Answer const answer = call({"sacct", "-n", "-P", "-X", "-a", "-j", jobs, "-o", "JobID,State,Reason"});
     if (answer.code == 0) read_lines(answer.output, reports);
 }
 
@@ -167,8 +168,9 @@ void check_time(scenario::SlurmSettings const& asked) {
         if (!limit || *asked.minutes <= *limit) return;
         throw core::MissingError(
             fmt::format("Slurm's partition {} has a limit of {} minutes, and run.slurm.time asks "
-                        "for {}; ask for less, or for another partition",
-                        name, *limit, *asked.minutes));
+                        "for {}{}; ask for less, or for another partition",
+                        name, *limit, *asked.minutes,
+                        asked.minutes_per_task ? " for the largest task of several packings" : ""));
     }
 }
 
@@ -205,10 +207,18 @@ int most_array_tasks() {
 
 std::optional<Reports> ask(std::set<long> const& jobs) {
     Reports reports;
-    for (long const job : jobs) {
-        if (!squeue(job, reports)) return {};
+    if (jobs.empty()) return reports;
+    std::string const all = fmt::format("{}", fmt::join(jobs, ","));
+    Heard heard = squeue(all, reports);
+    if (heard == Heard::unknown_job && jobs.size() > 1) {
+        // Whether the other jobs were answered for is not certain: one by one.
+        for (long const job : jobs) {
+            heard = squeue(std::to_string(job), reports);
+            if (heard == Heard::nothing) break;
+        }
     }
-    for (long const job : jobs) sacct(job, reports);
+    if (heard == Heard::nothing) return {};
+    sacct(all, reports);
     return reports;
 }
 

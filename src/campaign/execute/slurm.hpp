@@ -47,7 +47,8 @@ struct TaskReport {
 using Reports = std::map<std::pair<long, int>, TaskReport>;
 
 /// What Slurm knows of the arrays' tasks: from squeue, and for those that it has forgotten from sacct, where
-/// there is accounting. A task that is missing from the answer is unknown to Slurm.
+/// there is accounting; one call of each, however many there are. A task that is missing from the answer is
+/// unknown to Slurm.
 /// @return nothing when the controller does not answer: then nothing is known, and nothing must be concluded
 std::optional<Reports> ask(std::set<long> const& jobs);
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -22,25 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::optional<PackingId> parse_task(std::string const& line) {
-    std::istringstream text(line);
-    PackingId task{};
-    bool const is_read = static_cast<bool>(text >> task.case_id >> task.packing);
-    if (!is_read || !is_case_id(task.case_id) || task.packing < 1 || task.packing > 1000) return {};
-    return task;
-}
-
 std::optional<Batch> read_batch(fs::path const& folder) {
     try {
         Json const json = Json::parse(core::read_file(folder / "batch.json", core::largest_note));
         Batch batch{folder, json.at("name"), {}, {}};
         if (json.contains("job")) batch.job = json.at("job").get<long>();
-        std::istringstream lines(core::read_file(folder / "tasks.txt", core::largest_note));
-        for (std::string line; std::getline(lines, line);) {
-            auto const task = parse_task(line);
-            if (!task) return {};
-            batch.tasks.push_back(*task);
-        }
+        auto tasks = read_task_list(folder / "tasks.txt");
+        if (!tasks) return {};
+        batch.tasks = std::move(*tasks);
         return batch;
     } catch (Json::exception const&) {
         return {};
@@ -70,7 +60,8 @@ std::string job_script(std::string const& number, JobScript const& job) {
     if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
     return fmt::format(
         "{3}\n"
-        "# One packing of a campaign, as a task of a job array of Slurm. Made by vibrotrough run.\n"
+        "# A task of a job array of Slurm: packings of a campaign, one after the other. Made by vibrotrough "
+        "run.\n"
         "# Slurm starts it in the campaign's folder; the files task-* say how far it came.\n"
         "trap : TERM INT\n"
         "index=${{SLURM_ARRAY_TASK_ID:?}}\n"
@@ -103,10 +94,17 @@ core::Outcome outcome_of(std::string const& slurm_state) {
     return core::Outcome::interrupted;
 }
 
+/// What is known of a task, and so of each of its packings.
+struct TaskActivity {
+    PackingActivity::State state = PackingActivity::unknown;
+    std::optional<core::Outcome> outcome = {};
+    std::string message = {};
+};
+
 /// A task that ended without a marker of its own.
 /// @param report  what Slurm knows of it; null when Slurm does not know it
-PackingActivity lost_task(Batch const& batch, std::size_t index, slurm::TaskReport const* report) {
-    PackingActivity activity{batch.tasks[index], PackingActivity::ended, core::Outcome::interrupted, {}};
+TaskActivity lost_task(Batch const& batch, std::size_t index, slurm::TaskReport const* report) {
+    TaskActivity activity{PackingActivity::ended, core::Outcome::interrupted, {}};
     long const job = batch.job.value_or(0);
     if (report == nullptr) {
         activity.message = fmt::format(
@@ -121,8 +119,8 @@ PackingActivity lost_task(Batch const& batch, std::size_t index, slurm::TaskRepo
 }
 
 /// What the markers say of a task; none while it has no marker that it ended.
-std::optional<PackingActivity> by_marker(Batch const& batch, std::size_t index) {
-    PackingActivity activity{batch.tasks[index], PackingActivity::ended, core::Outcome::interrupted, {}};
+std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index) {
+    TaskActivity activity{PackingActivity::ended, core::Outcome::interrupted, {}};
     if (fs::is_regular_file(marker(batch, index, "ended"))) {
         std::string const code = core::read_file(marker(batch, index, "ended"), core::largest_note);
         activity.message = fmt::format("the task ended with exit code {}; see {}",
@@ -159,7 +157,7 @@ void find_lost_id(Batch& batch) {
     if (auto const job = slurm::find_by_name(batch.name)) batch.job = job;
 }
 
-PackingActivity activity_of(Batch const& batch, std::size_t index, slurm::Reports const& reports) {
+TaskActivity activity_of(Batch const& batch, std::size_t index, slurm::Reports const& reports) {
     // After Slurm's answer: a task that Slurm calls ended wrote its marker before.
     if (auto const marked = by_marker(batch, index)) return *marked;
     auto const found = reports.find({batch.job.value_or(0), static_cast<int>(index)});
@@ -167,46 +165,53 @@ PackingActivity activity_of(Batch const& batch, std::size_t index, slurm::Report
     auto const& [state, reason] = found->second;
     if (slurm::is_terminal(state)) return lost_task(batch, index, &found->second);
     bool const waits = state == "PENDING" || state == "CONFIGURING";
-    return {batch.tasks[index],
-            waits ? PackingActivity::waiting : PackingActivity::running,
+    return {waits ? PackingActivity::waiting : PackingActivity::running,
             {},
             reason.empty() || reason == "None" ? "" : fmt::format("waits in Slurm: {}", reason)};
 }
 
-/// What is known of the tasks of one batch, by index.
-std::vector<PackingActivity> survey_batch(Batch& batch) {
-    std::vector<PackingActivity> activities;
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < batch.tasks.size(); ++i) {
-        auto const marked = by_marker(batch, i);
-        if (!marked) open.push_back(i);
-        activities.push_back(marked.value_or(
-            PackingActivity{batch.tasks[i], PackingActivity::unknown, {}, "Slurm does not answer"}));
+/// A task that has no marker that it ended.
+struct OpenTask {
+    std::size_t batch, index;
+};
+
+/// Asks Slurm once for all tasks that are open.
+/// @return nothing when there is no Slurm here, or it does not answer
+std::optional<slurm::Reports> ask_slurm(std::vector<Batch>& batches, std::vector<OpenTask> const& open) {
+    try {
+        std::set<long> jobs;
+        for (OpenTask const& task : open) {
+            find_lost_id(batches[task.batch]);
+            if (batches[task.batch].job) jobs.insert(*batches[task.batch].job);
+        }
+        return slurm::ask(jobs);
+    } catch (core::MissingError const&) {
+        return {};
+    }
+}
+
+/// What is known of the tasks of all batches, by batch and index.
+std::vector<std::vector<TaskActivity>> survey_batches(std::vector<Batch>& batches) {
+    std::vector<std::vector<TaskActivity>> activities;
+    std::vector<OpenTask> open;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        std::vector<TaskActivity>& tasks = activities.emplace_back();
+        for (std::size_t k = 0; k < batches[i].tasks.size(); ++k) {
+            auto const marked = by_marker(batches[i], k);
+            if (!marked) open.push_back({i, k});
+            tasks.push_back(
+                marked.value_or(TaskActivity{PackingActivity::unknown, {}, "Slurm does not answer"}));
+        }
     }
     if (open.empty()) return activities;
-    try {
-        find_lost_id(batch);
-        auto const reports = batch.job ? slurm::ask({*batch.job}) : slurm::Reports{};
-        if (!reports) return activities;
-        for (std::size_t const i : open) activities[i] = activity_of(batch, i, *reports);
-    } catch (core::MissingError const&) {
-        // There is no Slurm here, or it does not answer.
-    }
+    auto const reports = ask_slurm(batches, open);
+    if (!reports) return activities;
+    for (OpenTask const& task : open)
+        activities[task.batch][task.index] = activity_of(batches[task.batch], task.index, *reports);
     return activities;
 }
 
 }  // namespace
-
-PackingId read_task(fs::path const& task_list, int index) {
-    std::istringstream lines(core::read_file(task_list, core::largest_note));
-    std::string line;
-    for (int i = 0; i <= index && std::getline(lines, line); ++i) {
-        if (i < index) continue;
-        if (auto const task = parse_task(line)) return *task;
-    }
-    throw core::InputError(fmt::format(
-        "{} has no task with index {}; give a list that 'vibrotrough run' made", task_list.string(), index));
-}
 
 std::vector<Batch> read_batches(fs::path const& campaign_folder) {
     std::vector<Batch> batches;
@@ -221,8 +226,7 @@ std::vector<Batch> read_batches(fs::path const& campaign_folder) {
     return batches;
 }
 
-Batch write_batch(fs::path const& campaign_folder, std::vector<PackingId> const& tasks,
-                  JobScript const& script) {
+Batch write_batch(fs::path const& campaign_folder, std::vector<Task> const& tasks, JobScript const& script) {
     int number = 1;
     while (fs::exists(campaign_folder / "slurm" / fmt::format("{:04}", number))) ++number;
     std::string const label = fmt::format("{:04}", number);
@@ -232,10 +236,8 @@ Batch write_batch(fs::path const& campaign_folder, std::vector<PackingId> const&
                 "vibrotrough-" + core::sha256_hex(unique).substr(0, 12),
                 {},
                 tasks};
-    std::string list;
-    for (PackingId const& task : tasks) list += fmt::format("{} {}\n", task.case_id, task.packing);
     core::make_folder(batch.folder);
-    core::write_file_atomically(batch.folder / "tasks.txt", list);
+    core::write_file_atomically(batch.folder / "tasks.txt", write_task_list(tasks));
     core::write_file_atomically(batch.folder / "job.sh", job_script(label, script));
     write_description(batch);
     return batch;
@@ -247,9 +249,14 @@ void remember_job(Batch& batch, long job) {
 }
 
 std::vector<PackingActivity> survey_tasks(std::vector<Batch>& batches) {
+    auto const activities = survey_batches(batches);
     std::map<PackingId, PackingActivity> newest;
-    for (Batch& batch : batches) {
-        for (PackingActivity& one : survey_batch(batch)) newest.insert_or_assign(one.id, std::move(one));
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        for (std::size_t k = 0; k < batches[i].tasks.size(); ++k) {
+            auto const& [state, outcome, message] = activities[i][k];
+            for (PackingId const& id : batches[i].tasks[k])
+                newest.insert_or_assign(id, PackingActivity{id, state, outcome, message});
+        }
     }
     std::vector<PackingActivity> all;
     for (auto& [id, activity] : newest) all.push_back(std::move(activity));
@@ -257,14 +264,15 @@ std::vector<PackingActivity> survey_tasks(std::vector<Batch>& batches) {
 }
 
 void remember_lost_tasks(std::vector<Batch>& batches) {
-    for (Batch& batch : batches) {
-        std::vector<PackingActivity> const activities = survey_batch(batch);
-        for (std::size_t i = 0; i < activities.size(); ++i) {
-            if (activities[i].state != PackingActivity::ended || by_marker(batch, i)) continue;
-            Json const json{{"outcome", name_of(activities[i].outcome.value_or(core::Outcome::interrupted))},
-                            {"message", activities[i].message}};
+    auto const activities = survey_batches(batches);
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        for (std::size_t k = 0; k < activities[i].size(); ++k) {
+            auto const& [state, outcome, message] = activities[i][k];
+            if (state != PackingActivity::ended || by_marker(batches[i], k)) continue;
+            Json const json{{"outcome", name_of(outcome.value_or(core::Outcome::interrupted))},
+                            {"message", message}};
             try {
-                core::write_file_atomically(marker(batch, i, "lost"), json.dump() + "\n");
+                core::write_file_atomically(marker(batches[i], k, "lost"), json.dump() + "\n");
             } catch (core::MissingError const&) {
                 return;
             }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "campaign/execute/slurm.hpp"
+#include "campaign/execute/task_list.hpp"
 #include "campaign/state/overview.hpp"
 #include "campaign/state/plan.hpp"
 
@@ -12,22 +13,18 @@
 namespace vibrotrough::campaign {
 
 /// One job array as its folder DIR/slurm/NUMBER holds it:
-///   tasks.txt               a line "<case id> <packing>" per task, the index from 0
-///   job.sh                  what every task runs
-///   batch.json              the job's name, written before it is submitted, and its id, written afterwards
-///   task-INDEX.started    written by the job script, atomically
-///   task-INDEX.ended      the same: the exit code of `vibrotrough work`
-///   task-INDEX.lost       written by `run` when Slurm reports that the task ended without an exit marker
-///   task-INDEX.out        what the task printed
+///   tasks.txt               a line per task, the index from 0: "<case id> <packing>" for each of its
+///   packings job.sh                  what every task runs batch.json              the job's name, written
+///   before it is submitted, and its id, written afterwards task-INDEX.started    written by the job script,
+///   atomically task-INDEX.ended      the same: the exit code of `vibrotrough work` task-INDEX.lost written
+///   by `run` when Slurm reports that the task ended without an exit marker task-INDEX.out        what the
+///   task printed
 struct Batch {
     std::filesystem::path folder;  ///< DIR/slurm/NUMBER
     std::string name;              ///< the job's name in Slurm
     std::optional<long> job;       ///< the job's id; none before it was submitted
-    std::vector<PackingId> tasks;  ///< the packing of each task, by index
+    std::vector<Task> tasks;       ///< by index
 };
-
-/// Reads the line of a task list. @throws InputError when there is no such line
-PackingId read_task(std::filesystem::path const& task_list, int index);
 
 /// All batches of a campaign, oldest first; damaged ones are left out.
 std::vector<Batch> read_batches(std::filesystem::path const& campaign_folder);
@@ -43,7 +40,7 @@ struct JobScript {
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.
 /// @throws MissingError when the disk refuses
-Batch write_batch(std::filesystem::path const& campaign_folder, std::vector<PackingId> const& tasks,
+Batch write_batch(std::filesystem::path const& campaign_folder, std::vector<Task> const& tasks,
                   JobScript const& script);
 
 /// Remembers the batch's job id. @throws MissingError when the disk refuses

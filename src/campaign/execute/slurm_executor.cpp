@@ -33,10 +33,15 @@ class SlurmExecutor : public Executor {
         if (orders.empty()) return {};
         std::vector<long> jobs;
         auto const most = static_cast<std::size_t>(slurm::most_array_tasks());
-        for (std::size_t start = 0; start < orders.size(); start += most) {
-            std::size_t const end = std::min(start + most, orders.size());
-            jobs.push_back(submit_array({orders.begin() + static_cast<std::ptrdiff_t>(start),
-                                         orders.begin() + static_cast<std::ptrdiff_t>(end)}));
+        for (PackingOrder const& order : orders) write_case_files(*order.planned);
+        std::vector<Task> const tasks =
+            make_tasks(orders, {inputs_.task_duration, inputs_.speed, inputs_.settings.ranks.value_or(1)});
+        for (std::size_t start = 0; start < tasks.size(); start += most) {
+            std::size_t const end = std::min(start + most, tasks.size());
+            std::vector<Task> const part(tasks.begin() + static_cast<std::ptrdiff_t>(start),
+                                         tasks.begin() + static_cast<std::ptrdiff_t>(end));
+            jobs.push_back(submit_array(part));
+            remember(orders, part);
         }
         return fmt::format("job {}", fmt::join(jobs, ", "));
     }
@@ -79,12 +84,7 @@ class SlurmExecutor : public Executor {
         return limit;
     }
 
-    long submit_array(std::vector<PackingOrder> const& orders) {
-        std::vector<PackingId> tasks;
-        for (PackingOrder const& order : orders) {
-            write_case_files(*order.planned);
-            tasks.push_back(order.id());
-        }
+    long submit_array(std::vector<Task> const& tasks) {
         scenario::RunSettings const& settings = inputs_.settings;
         JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries,
                                settings.slurm.setup};
@@ -92,7 +92,7 @@ class SlurmExecutor : public Executor {
         std::string const below = "slurm/" + batch.folder.filename().string();
         slurm::Array const array{
             inputs_.campaign_folder,        below + "/job.sh", below + "/task-%a.out", batch.name,
-            static_cast<int>(tasks.size()), script.ranks,      settings.slurm};
+            static_cast<int>(tasks.size()), script.ranks,      of_largest(tasks)};
         long job = 0;
         try {
             slurm::check(array);
@@ -102,8 +102,24 @@ class SlurmExecutor : public Executor {
             throw;
         }
         remember_job(batch, job);
-        for (PackingOrder const& order : orders) held_[order.id()] = order.planned;
         return job;
+    }
+
+    /// What is asked of Slurm: run.slurm.time is the time of one packing.
+    scenario::SlurmSettings of_largest(std::vector<Task> const& tasks) const {
+        scenario::SlurmSettings settings = inputs_.settings.slurm;
+        std::size_t const most = std::ranges::max(tasks, {}, &Task::size).size();
+        if (settings.minutes) *settings.minutes *= static_cast<int>(most);
+        return settings;
+    }
+
+    /// Holds the packings of tasks that were submitted.
+    void remember(std::vector<PackingOrder> const& orders, std::vector<Task> const& tasks) {
+        std::map<PackingId, PlannedCase const*> cases;
+        for (PackingOrder const& order : orders) cases[order.id()] = order.planned;
+        for (Task const& task : tasks) {
+            for (PackingId const& id : task) held_[id] = cases.at(id);
+        }
     }
 
     /// The packing's marker counts most, then the failure that the task recorded, then Slurm's report.

@@ -50,8 +50,9 @@ struct SlurmSettings {
     std::optional<int> minutes;          ///< wall-clock time of a packing
     std::optional<std::int64_t> memory;  ///< MiB, of a packing
     std::optional<int>
-        concurrent_tasks;            ///< largest number of packings of one array that run at the same time
-    std::vector<SlurmOption> extra;  ///< further options of sbatch
+        concurrent_tasks;  ///< largest number of packings of one array that run at the same time
+    std::optional<int> minutes_per_task;  ///< that a task should take; none: one packing per task
+    std::vector<SlurmOption> extra;       ///< further options of sbatch
     std::vector<std::string>
         setup;  ///< lines of the shell that a task runs first; run only when the user allows it
 };

@@ -34,6 +34,10 @@ constexpr std::array keys{
         "memory requested for a packing; 1 GB is 1024 MB"},
     Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
         "largest number of packings of one array that run at the same time"},
+    Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
+        "several packings are simulated one after the other in one task, so that it takes about this many "
+        "minutes, for "
+        "sites that refuse short tasks; one packing per task if not given"},
     Key{"run.slurm.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
         "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch"},
     Key{"run.slurm.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional,
@@ -42,6 +46,13 @@ constexpr std::array keys{
         "unless "
         "--allow-setup is given, since they can do anything"},
 };
+
+/// Schedulers that users know, for which there is no executor.
+bool is_other_scheduler(std::string_view name) {
+    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
+                                                     "htcondor", "flux",   "parallel"};
+    return std::ranges::find(others, name) != others.end();
+}
 
 /// An amount of memory such as "2 GB" in MiB; nullopt when the text is not such an amount.
 std::optional<std::int64_t> parse_memory(std::string_view text) {
@@ -112,6 +123,12 @@ class RunSection {
                  fmt::format("{}; allowed: {}", write_instead(key), key.range));
         };
         if (name == "executor") {
+            if (is_other_scheduler(given)) {
+                fail(
+                    node.source(), key.path, fmt::format("'{}' is not an executor", given),
+                    "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
+                    "(src/campaign/README.md)");
+            }
             if (given != "local" && given != "slurm") refuse();
             settings_.executor = given;
         } else if (name == "memory") {
@@ -153,6 +170,7 @@ class RunSection {
         if (key.path == "run.time_limit") settings_.time_limit = value;
         if (key.path == "run.slurm.time") settings_.slurm.minutes = static_cast<int>(std::ceil(value / 60));
         if (key.path == "run.slurm.concurrent_tasks") settings_.slurm.concurrent_tasks = whole;
+        if (key.path == "run.slurm.minutes_per_task") settings_.slurm.minutes_per_task = whole;
     }
 
     std::string const& file_;

@@ -1,0 +1,109 @@
+#include "app/campaign_run.hpp"
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "app/progress_log.hpp"
+#include "campaign/execute/campaign_driver.hpp"
+#include "campaign/execute/task_list.hpp"
+#include "campaign/schedule/policy.hpp"
+#include "campaign/state/overview.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    RunOptions shared;
+    std::string task_list;
+    int minutes = 0;
+};
+
+void explain(std::size_t tasks, fs::path const& list, fs::path const& folder, fs::path const& program) {
+    fmt::print("run each task, for i from 0 to {}, with:\n  {} work {} --task-list {} --index $i\n",
+               tasks - 1, core::shell_word(program), core::shell_word(fs::absolute(folder)),
+               core::shell_word(fs::absolute(list)));
+    fmt::print(
+        "when they have ended, call the same 'vibrotrough prepare' again: it lists what is still missing\n");
+}
+
+int run(Options const& options) {
+    ReadyCampaign ready = prepare_run(options.shared);
+    if (ready.is_interrupted) return interrupted;
+    size_tasks(ready, options.minutes > 0 ? std::optional(options.minutes) : std::nullopt);
+    fs::path const list = options.task_list;
+    // A list of an earlier call would be run again when nothing is missing any more.
+    core::write_file_atomically(list, "");
+    ready.inputs.task_list = list;
+    campaign::Summary summary;
+    {
+        auto const shown = options.shared.make_observer();
+        LoggingObserver observer(*shown, ready.plan.folder);
+        summary = campaign::run_campaign(ready.plan, options.shared.campaign_file, *campaign::make_policy(),
+                                         campaign::executor_kind("task-list"), ready.inputs,
+                                         campaign::Until::submitted, observer);
+    }
+    campaign::write_campaign_file(ready.plan);
+    int const ended = summary.finished + summary.unsure + summary.failed;
+    fmt::print("{} of {} cases have ended", ended, ready.plan.cases.size());
+    if (!summary.references.empty()) fmt::print("; {}", fmt::join(summary.references, "; "));
+    fmt::print("\n");
+    auto const tasks = campaign::read_task_list(list);
+    if (tasks && !tasks->empty()) {
+        explain(tasks->size(), list, ready.plan.folder, ready.inputs.program);
+    } else if (summary.references.empty()) {
+        fmt::print("nothing is missing; see the results with: vibrotrough compare {}\n",
+                   core::shell_word(ready.plan.folder));
+    }
+    return all_well;
+}
+
+}  // namespace
+
+void add_prepare(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        program.add_subcommand("prepare", "Write a list of tasks for a scheduler other than Slurm");
+    options->shared.add_to(*command);
+    command
+        ->add_option("--task-list", options->task_list,
+                     "File for the list: a line '<case id> <packing> ...' for each task; empty when nothing "
+                     "is missing")
+        ->type_name("FILE")
+        ->required();
+    command
+        ->add_option("--minutes-per-task", options->minutes,
+                     "Put several packings into a task, so that it takes about this many minutes; default: "
+                     "one packing "
+                     "per task")
+        ->check(CLI::Range(1, 100'000));
+    command->footer(
+        R"(The campaign is checked, the engine tested, and the decks of all cases that still need packings are
+written, as by 'vibrotrough run'; but nothing is simulated. Each line of the list is a task for 'vibrotrough work', which
+any scheduler can start, on any machine that sees the folder: PBS, LSF, HTCondor, GNU parallel. A campaign goes on in
+rounds, because the results decide which packings are needed next: call this command again when the tasks have ended,
+until the list is empty. Packings that a task simulates at that moment are left out. src/campaign/README.md has job
+scripts for several schedulers.
+
+Exit codes:
+    0  the list is written; it is empty when nothing is missing
+    2  the input is wrong
+    3  something is missing: no liggghts, one that failed its probes, or no disk space
+  130  interrupted
+
+Example:
+  vibrotrough prepare validation/demo/campaign.toml --output runs/demo --task-list tasks.txt
+  parallel -j 2 vibrotrough work runs/demo --task-list tasks.txt --index {} ::: $(seq 0 5))");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app
