@@ -15,10 +15,10 @@ namespace {
 constexpr double of_the_limit = 1 - 1e-6;
 
 /// The columns of rolling.csv after the step, in the order of the sums in the template.
-constexpr std::array<std::string_view, 14> of_grains{
-    "loaded",   "sliding",    "friction", "torque",    "contacts",    "all_contacts", "first",
-    "first_vx", "first_spin", "second",   "second_vx", "second_spin", "first_volume", "second_volume"};
-constexpr std::array<std::string_view, 3> of_floor{"floor_x", "floor_z", "floor_torque"};
+constexpr std::array<std::string_view, 16> of_grains{
+    "loaded",       "sliding",       "friction",   "torque", "contacts",  "all_contacts",
+    "first",        "first_vx",      "first_spin", "second", "second_vx", "second_spin",
+    "first_volume", "second_volume", "floor_x",    "floor_z"};
 
 }  // namespace
 
@@ -34,19 +34,17 @@ void describe_rolling(core::TemplateData& data, prepare::PreparedCase const& pre
     data.set("second_top", fmt::format("{}", 2 * s.grains.diameter));
     std::vector<core::TemplateData> columns;
     std::string header = "step", values = "${now}";
-    auto const add = [&](auto const& names, std::string_view compute) {
-        int place = 0;
-        for (std::string_view const name : names) {
-            core::TemplateData column;
-            column.set("name", fmt::format("rolling_{}", name));
-            column.set("value", fmt::format("c_{}[{}]", compute, ++place));
-            columns.push_back(column);
-            header += fmt::format(",{}", name);
-            values += fmt::format(",${{rolling_{}}}", name);
-        }
+    auto const add = [&](std::string_view name, std::string const& value) {
+        core::TemplateData column;
+        column.set("name", fmt::format("rolling_{}", name));
+        column.set("value", value);
+        columns.push_back(column);
+        header += fmt::format(",{}", name);
+        values += fmt::format(",${{rolling_{}}}", name);
     };
-    add(of_grains, "grains");
-    add(of_floor, "floor_sums");
+    int place = 0;
+    for (std::string_view const name : of_grains) add(name, fmt::format("c_grains[{}]", ++place));
+    add("floor_torque", "c_floor_torque");
     data.set("rolling_columns", columns);
     data.set("rolling_header", header);
     data.set("rolling_values", values);
