@@ -18,6 +18,7 @@ import figure_budget
 import figure_cycles
 import figure_portraits
 import figure_residuals
+import figure_rolling
 import figure_spin
 import vibrotrough
 from drawn_figures import DrawnFigures, digest_of_data
@@ -25,7 +26,7 @@ from figure_inputs import swept_inputs
 from figure_style import Problem
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "profiles")
+KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles")
 
 
 class Source:
@@ -80,7 +81,7 @@ def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
     """The figures of one case, when its result.h5 is there and whole."""
     drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
-               "spin": figure_spin.plot_spin, "profiles": figure_portraits.plot_profiles}
+               "spin": figure_spin.plot_spin, "rolling": figure_rolling.plot_rolling, "profiles": figure_portraits.plot_profiles}
     wanted = [kind for kind in drawers if kind in only]
     if not wanted:
         return

@@ -5,6 +5,7 @@
 #include "deck/deck_folder.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
+#include "deck/rolling.hpp"
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
@@ -72,6 +73,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     deck.settle_files = meshes(prepared);
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data));
+    describe_rolling(data, prepared);
     deck.files = deck.settle_files;
     deck.files[drive_file] = tidy(render_template(drive_file, data));
     deck.files[control_file] = control_until(packing.next_stop(0));

@@ -10,6 +10,9 @@
 namespace vibrotrough::deck {
 namespace {
 
+/// A mean row of rolling.csv has 240 bytes, and there are 100/3 of them.
+constexpr double rolling_bytes_per_cycle = 8000;
+
 double effective_modulus(scenario::Scenario const& s) {
     return s.grains.youngs_modulus / (2 * (1 - s.grains.poisson_ratio * s.grains.poisson_ratio));
 }
@@ -95,8 +98,9 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * s.grains.diameter)));
     double const snapshots = static_cast<double>(profiles_per_cycle) / profile_stride;
     // Mean lengths of the rows of phases.csv, cycles.csv, profiles.N.txt, surface.N.txt and of a dump.
-    double const per_cycle =
-        253.0 * prepare::phases_per_cycle + 140 + snapshots * (25 + 22.5 * bins + 35 * columns);
+    double const per_cycle = 253.0 * prepare::phases_per_cycle +
+                             (s.measure.rolling ? rolling_bytes_per_cycle : 0) + 140 +
+                             snapshots * (25 + 22.5 * bins + 35 * columns);
     double const frames = s.output.frames_per_cycle * cycles;  // of the first packing
     // The engine's output, the deck and the marker of the run and of its settling; settled.restart and one
     // checkpoint.

@@ -89,15 +89,26 @@ std::string what_it_would_take(store::CaseRecord const& record) {
                        *needed - packings, core_time / packings * (*needed - packings) / 3600);
 }
 
-}  // namespace
-
-std::string remark_on(store::CaseRecord const& record) {
+std::string remark_on_mean(store::CaseRecord const& record) {
     if (record.outcome == core::Outcome::not_precise) return what_it_would_take(record);
     if (record.outcome == core::Outcome::bistable_or_slow) {
         return fmt::format("velocity efficiency {} when it starts below, {} when it starts above",
                            in_words(record.estimate.below), in_words(record.estimate.above));
     }
     return {};
+}
+
+}  // namespace
+
+std::string remark_on(store::CaseRecord const& record) {
+    std::string remark = remark_on_mean(record);
+    for (std::size_t i = 0; i < record.packings.size(); ++i) {
+        if (record.packings[i].rolling_problem.empty()) continue;
+        remark += fmt::format("{}packing {}: {}", remark.empty() ? "" : "; ", i + 1,
+                              record.packings[i].rolling_problem);
+        break;  // one line: the others have the same cure
+    }
+    return remark;
 }
 
 store::CaseRecord evaluate_case(prepare::PreparedCase const& prepared, std::string const& id,

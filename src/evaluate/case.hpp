@@ -20,7 +20,8 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_widt
 void correct_outcome(store::CaseRecord& record);
 
 /// What more a case would take that is not precise, or the branches of one that is bistable or slow: one line
-/// for people, empty for other outcomes.
+/// for people, empty for other outcomes. Also why the contacts at the floor are not known although
+/// measure.rolling asks for them.
 std::string remark_on(store::CaseRecord const& record);
 
 /// The result of a case from its packings.

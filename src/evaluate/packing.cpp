@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "deck/deck.hpp"
 #include "evaluate/layer.hpp"
+#include "evaluate/rolling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
     record.efficiency = efficiency_of(prepared, record.series);
     record.estimate = measure::estimate_packing(record.efficiency, wanted(prepared));
     measure_layer(record, prepared, files, phases);
+    measure_rolling(record, prepared, files, phases);
     return record;
 }
 
@@ -154,6 +156,7 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
     auto const phases = packing_phases(prepared, files.phases);
     auto const series = first_of(parse(prepared, files.cycles), cycles, packing_folder);
     EvaluatedPacking evaluated{*marker, measure_packing(prepared, packing, files, series, phases)};
+    hold_to_marker(evaluated.record, files, *marker);
     add_run(evaluated.record, *marker);
     evaluated.record.deck = core::read_file(packing_folder / deck::drive_file, core::largest_note);
     return evaluated;

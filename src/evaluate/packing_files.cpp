@@ -34,8 +34,14 @@ std::string digest_of_layer(PackingFiles const& files) {
 }  // namespace
 
 PackingFiles read_packing_files(fs::path const& folder) {
-    PackingFiles files{
-        folder, read_if_there(folder / "cycles.csv"), read_if_there(folder / "phases.csv"), {}, {}, {}};
+    PackingFiles files{folder,
+                       read_if_there(folder / "cycles.csv"),
+                       read_if_there(folder / "phases.csv"),
+                       read_if_there(folder / "rolling.csv"),
+                       {},
+                       {},
+                       {},
+                       {}};
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
@@ -45,6 +51,7 @@ PackingFiles read_packing_files(fs::path const& folder) {
     std::ranges::sort(files.snapshots, {}, &core::TextFile::path);
     if (!files.cycles.content.empty()) files.cycles_sha256 = core::sha256_hex(files.cycles.content);
     files.layer_sha256 = digest_of_layer(files);
+    if (!files.rolling.content.empty()) files.rolling_sha256 = core::sha256_hex(files.rolling.content);
     return files;
 }
 
@@ -71,7 +78,8 @@ std::optional<PackingMarker> read_marker(PackingFiles const& files) {
                              json.value("core_time", json.at("wall_time").get<double>()),
                              json.contains("start_efficiency")
                                  ? std::optional(json.at("start_efficiency").get<double>())
-                                 : std::nullopt};
+                                 : std::nullopt,
+                             json.value("rolling_sha256", std::string())};
     } catch (Json::exception const&) {
         return {};
     }
@@ -93,6 +101,7 @@ void write_marker(PackingFiles const& files, PackingMarker const& marker) {
               {"engine_certificate", marker.engine_certificate},
               {"cycles_sha256", files.cycles_sha256},
               {"layer_sha256", files.layer_sha256}};
+    if (!files.rolling_sha256.empty()) json["rolling_sha256"] = files.rolling_sha256;
     if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
     core::write_file_atomically(files.folder / marker_file, json.dump(2) + "\n");
 }

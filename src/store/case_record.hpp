@@ -6,6 +6,7 @@
 #include "measure/estimate.hpp"
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
+#include "measure/rolling_motion.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <optional>
@@ -31,6 +32,8 @@ struct PackingRecord {
     measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
     measure::Profiles profiles;         ///< of the same cycles
     measure::Surface surface;           ///< of the layer in the same cycles
+    measure::RollingCurves rolling;     ///< of the same cycles, when measure.rolling asks for it
+    std::string rolling_problem;        ///< why `rolling` is empty although it was asked for; else empty
 };
 
 /// Where and with what a result was made.

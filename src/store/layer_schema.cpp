@@ -189,6 +189,10 @@ std::vector<PackingValue> layer_packing_values() {
           "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "
           "square over the snapshots"},
          packing_field([](auto& p) -> auto& { return p.surface.wiggle_amplitude; })},
+        {{"rolling_problem", "1",
+          "Why the table rolling is empty although measure.rolling asks for it; else empty"},
+         packing_field([](auto& p) -> auto& { return p.rolling_problem; }),
+         true},
     };
 }
 

@@ -181,6 +181,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         source.files.push_back({name, content.get<std::string>()});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
+    for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], rolling_tables());
     for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
         if (!packing.motion.added_mass)
             measure::add_reaction(packing.motion, record.scenario.trough.frequency);
@@ -221,6 +223,7 @@ std::string result_bytes(CaseRecord const& record) {
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
+        if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
     }
     return file.bytes();
 }

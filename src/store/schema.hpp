@@ -123,6 +123,8 @@ std::vector<PackingValue> const& packing_values();
 std::vector<PackingSeries> const& packing_series();
 /// All columns of the tables of a packing.
 std::vector<PackingTable> const& packing_tables();
+/// The columns of the table `rolling` of a packing, which only a case with measure.rolling has.
+std::vector<PackingTable> const& rolling_tables();
 
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();

@@ -61,7 +61,7 @@ def check_file(path, heading, readme):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|phases|profiles|surface)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|phases|rolling|profiles|surface)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -112,7 +112,9 @@ def check_result_values(file):
     assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
     assert list(file["surface/2"]["height"])[-1] > list(file["surface/1"]["height"])[-1]
+    assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])
     packings = file["packings"]
+    assert [text.decode() for text in packings["rolling_problem"]] == ["", "no file"]
     assert list(packings["seed"]) == [49979687, 86028121]
     assert [text.decode() for text in packings["verdict"]] == ["precise", "not-precise"]
     assert [text.decode() for text in packings["deck"]] == ["# deck of packing 1, angle \u03b2\nrun 3000\n", "# deck of packing 2\n"]

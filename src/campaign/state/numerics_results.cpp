@@ -187,6 +187,7 @@ scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
 NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_width) {
     scenario::Scenario scenario = planned.scenario();
     scenario.output.frames_per_cycle = 0;
+    scenario.measure.rolling = false;
     if (half_width) scenario.measure.half_width = *half_width;
     NumericsStudy study{planned.id, prepare::prepare_case(as_read_back(scenario)), {}};
     study.settings = vary_numerics(study.standard);

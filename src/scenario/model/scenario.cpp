@@ -146,15 +146,15 @@ std::string to_toml(Scenario const& s) {
            grains_toml(s.grains) + layer_toml(s.layer) +
            fmt::format(
                "[measure]\npackings = {}\nconfidence = {}\nhalf_width = {}\nmax_cycles = {}\n"
-               "max_packings = {}\n{}\n"
+               "max_packings = {}\n{}{}\n"
                "[output]\nframes_per_cycle = {}\ncheckpoint_cycles = {}\n\n"
                "[solver]\nrayleigh_fraction = {}\nblock_stiffness = {}\n",
                s.measure.packings, s.measure.confidence, s.measure.half_width, s.measure.max_cycles,
                s.measure.max_packings,
                s.measure.max_core_time ? fmt::format("max_core_time = \"{} s\"\n", *s.measure.max_core_time)
                                        : "",
-               s.output.frames_per_cycle, s.output.checkpoint_cycles, s.solver.rayleigh_fraction,
-               s.solver.block_stiffness);
+               s.measure.rolling ? "rolling = true\n" : "", s.output.frames_per_cycle,
+               s.output.checkpoint_cycles, s.solver.rayleigh_fraction, s.solver.block_stiffness);
 }
 
 std::vector<NamedFile> named_files(Scenario const& scenario) {

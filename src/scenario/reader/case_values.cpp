@@ -30,6 +30,7 @@ class CaseBuilder {
             {given_.number("solver.rayleigh_fraction"), given_.number("solver.block_stiffness")}};
         scenario.layer = layer(scenario);
         if (scenario.layer.block != Block::none) check_block(scenario);
+        if (scenario.measure.rolling) check_rolling(scenario);
         return scenario;
     }
 
@@ -117,6 +118,20 @@ class CaseBuilder {
         scenario.measure.packings = scenario.measure.max_packings = 1;
     }
 
+    /// The engine gives the force of a wall on each sphere, without saying of which wall, and each sphere of
+    /// a clump has its own contacts but shares the clump's spin.
+    void check_rolling(Scenario const& scenario) const {
+        bool const is_layer = scenario.layer.block == Block::none && !is_clump(scenario.grains);
+        if (is_layer && !scenario.trough.side_wall_friction) return;
+        given_.fail(
+            "measure.rolling",
+            fmt::format("the contacts at the floor are measured only in layers of spheres, and {} is given",
+                        is_clump(scenario.grains)             ? "grains.shape"
+                        : scenario.layer.block != Block::none ? "layer.block"
+                                                              : "trough.side_wall_friction"),
+            "leave one of the two out");
+    }
+
     MeasurementPlan measure() const {
         MeasurementPlan plan{given_.integer("measure.packings"), given_.number("measure.confidence"),
                              given_.number("measure.half_width"), given_.integer("measure.max_cycles"),
@@ -131,6 +146,7 @@ class CaseBuilder {
         plan.max_packings = std::max(plan.max_packings, plan.packings);
         if (given_.find("measure.max_core_time") != nullptr)
             plan.max_core_time = given_.number("measure.max_core_time");
+        plan.rolling = given_.number("measure.rolling") != 0;
         return plan;
     }
 

@@ -164,6 +164,8 @@ class CampaignFileReader {
         if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts) {
             fail(where, path, "a list cannot be swept", "sweep a key with one value");
         }
+        if (key.kind == KeyKind::truth)
+            fail(where, path, "a choice between true and false cannot be swept", "sweep a physical input");
         for (Axis const& other : result_.sweep) {
             if (other.key == path) fail(where, path, "is swept twice", "keep one of the two");
             if (!key.group.empty() && find_key(other.key)->group == key.group) {

@@ -125,6 +125,9 @@ constexpr std::array keys{
         "half-width of the confidence interval of the case's velocity efficiency that is wanted"},
     Key{"measure.max_cycles", integer, "", 20, 1e6, "20 to 1000000", "", 200.0, "200",
         "largest number of cycles of a packing"},
+    Key{"measure.rolling", truth, "", 0, 1, "true or false", "", 0.0, "true",
+        "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
+        "which forces and torques; for layers of spheres without side walls"},
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none"},
@@ -183,6 +186,7 @@ std::string key_reference() {
     for (Key const& key : all) {
         std::string needed = is_optional(key) ? "none" : "required";
         if (auto const* value = std::get_if<double>(&key.if_missing)) needed = fmt::format("{:g}", *value);
+        if (key.kind == KeyKind::truth) needed = needed == "0" ? "false" : "true";
         if (key.kind == KeyKind::choice || key.path == "grains.shape") needed = choices(key).front();
         if (!key.group.empty()) needed = "exactly one of these";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,

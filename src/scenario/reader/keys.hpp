@@ -19,6 +19,7 @@ enum class KeyKind {
     quantities,  ///< a list of quantities
     numbers,     ///< a list of plain numbers
     texts,       ///< a list of texts
+    truth,       ///< true or false, without quotes; 1 or 0 as a number
 };
 
 /// Whether a key without default value has to be given.

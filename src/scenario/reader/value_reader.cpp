@@ -5,6 +5,7 @@
 #include "scenario/model/run_settings.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -54,6 +55,14 @@ class ValueReader {
                 fail_range(value);
         }
         return values;
+    }
+
+    /// 1 for true, 0 for false.
+    double truth(toml::node const& node) const {
+        std::optional<bool> const given = node.is_boolean() ? node.value<bool>() : std::nullopt;
+        if (!given)
+            fail(node, fmt::format("{} is neither true nor false", written(node)), write_instead(key_));
+        return *given ? 1 : 0;
     }
 
     double any_number(toml::node const& node) const {
@@ -139,6 +148,8 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
             return reader.numbers(node);
         case KeyKind::texts:
             return reader.words(node);
+        case KeyKind::truth:
+            return reader.truth(node);
         default:
             return reader.number(node);
     }
