@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import unittest
+from pathlib import Path
 
 import h5py
 from trough_program import PATIENCE, EndToEndTest, campaign_text
@@ -231,6 +232,53 @@ class EngineSection(EndToEndTest):
         extra.write_text(extra.read_text() + 'print "and more"\n')
         plan = self.call("plan", campaign, "--output", self.output, "--liggghts", self.engine)
         self.assertNotIn(row["case"], plan.stdout)
+
+    def test_templates_of_a_folder_replace_those_of_the_program(self):
+        campaign = self.write_campaign(ONE_SIZE)
+        self.run_campaign(campaign)
+        (plain,) = self.table()
+        own = Path(__file__).parent.parent.parent / "input_templates"
+        mine = self.folder / "mine"
+        mine.mkdir()
+        arguments = [*self.run_arguments(campaign), "--templates", mine]
+        self.assert_one_line_error(self.call(*arguments), 2, "holds 0 templates")
+        (mine / "contakt.mustache").write_text("")
+        self.assertEqual(self.call(*arguments).returncode, 2)
+        (mine / "contakt.mustache").unlink()
+        # A comment: the same case, which has its result already. It is marked all the same.
+        self.take_starts()
+        (mine / "inputs.mustache").write_text("# in my own words: {{{grains}}} grains\n")
+        self.assertEqual(self.call(*arguments).returncode, 0)
+        self.assertEqual(self.take_starts(), [])
+        (row,) = self.table()
+        self.assertEqual((row["case"], row["not_covered"]), (plain["case"], "template inputs.mustache"))
+        # Commands: another case, with the result that the program's own template gives with another key.
+        contact = (own / "contact.mustache").read_text()
+        self.assertIn("coefficientFriction peratomtypepair {{{types}}} {{{frictions}}}", contact)
+        (mine / "contact.mustache").write_text(contact.replace("{{{frictions}}}", "0.5 0.4 0.4 0.4", 1))
+        done = self.call(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("not covered by the engine's certificate: template contact.mustache, template inputs.mustache\n", done.stderr)
+        (row,) = self.table()
+        self.assertNotEqual(row["case"], plain["case"])
+        self.assertEqual(row["not_covered"], "template contact.mustache, template inputs.mustache")
+        deck = (self.output / "cases" / row["case"] / "packing-1" / "in.liggghts").read_text()
+        self.assertIn("# in my own words: 60 grains\n", deck)
+        by_key = self.folder / "by key"
+        self.run_campaign(self.write_campaign({**ONE_SIZE, "trough.friction": 0.4}, name="key.toml"), output=by_key)
+        # The packings start with the speed that the theory expects at the friction of the campaign file: the same layer, not the same digits.
+        (wanted,) = self.table(by_key)
+        spread = wanted["efficiency_dem_half_width"] + row["efficiency_dem_half_width"]
+        self.assertAlmostEqual(row["efficiency_dem"], wanted["efficiency_dem"], delta=2 * spread)
+        # A finished case is not run again; without the option it is the first case again.
+        self.take_starts()
+        self.assertEqual(self.call(*arguments).returncode, 0)
+        self.run_campaign(campaign)
+        self.assertEqual(self.take_starts(), [])
+        self.assertEqual([one["case"] for one in self.table()], [plain["case"]])
+        decks = self.folder / "decks"
+        self.assertEqual(self.call("deck", campaign, "--output", decks, "--templates", mine).returncode, 0)
+        self.assertIn("0.5 0.4 0.4 0.4", (decks / "case-001" / "packing-1" / "in.liggghts").read_text())
 
 
 if __name__ == "__main__":
