@@ -2,6 +2,7 @@
 
 #include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
+#include "app/extra_lines.hpp"
 #include "app/progress_log.hpp"
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
@@ -80,6 +81,7 @@ void RunOptions::add_to(CLI::App& command) {
     command.add_flag(
         "--allow-setup", allow_setup,
         "Let the tasks of Slurm run the lines of run.slurm.setup, which are commands of the shell");
+    add_allow_extra(command, allow_extra);
 }
 
 std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
@@ -91,6 +93,8 @@ std::unique_ptr<campaign::Observer> RunOptions::make_observer() const {
 ReadyCampaign prepare_run(RunOptions const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
     check_setup(options, campaign.run);
+    check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
+    use_templates(options.templates, campaign.cases);
     std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
     engine::Engine engine = engine::find_engine(program);
@@ -103,6 +107,7 @@ ReadyCampaign prepare_run(RunOptions const& options) {
         campaign::FolderLock const lock(folder);
     }
     check(options, campaign);
+    tell_not_covered(campaign.cases);
     bool const is_interrupted = !certify(engine, options.accept_failed_probes);
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     plan.own = std::move(own);

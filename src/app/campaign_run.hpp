@@ -26,6 +26,8 @@ struct RunOptions {
     bool accept_failed_probes = false;  ///< run an engine that failed its probes
     bool accept_findings = false;       ///< run although the check found errors
     bool allow_setup = false;           ///< let tasks of Slurm run the lines of run.slurm.setup
+    bool allow_extra = false;           ///< let the decks run the lines of engine.extra
+    std::string templates;              ///< folder of templates of the decks; empty for the program's own
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< cores to use
 
     /// Declares the options of a command.

@@ -32,6 +32,8 @@ void add_work(CLI::App& program, int& exit_code);
 void add_keys(CLI::App& program, int& exit_code);
 /// Writes LIGGGHTS decks without running them.
 void add_deck(CLI::App& program, int& exit_code);
+/// Measures a run that was made by hand.
+void add_measure(CLI::App& program, int& exit_code);
 /// Shows how far a campaign is.
 void add_status(CLI::App& program, int& exit_code);
 /// Prints the table of measured and theoretical conveying.

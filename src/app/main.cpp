@@ -59,6 +59,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_work(program, exit_code);
     add_keys(program, exit_code);
     add_deck(program, exit_code);
+    add_measure(program, exit_code);
     add_status(program, exit_code);
     add_friction_test(program, exit_code);
     add_convergence(program, exit_code);

@@ -220,6 +220,18 @@ std::vector<Column> run_columns() {
          .terminal =
              TerminalView{.heading = "outcome", .priority = 6, .flush_left = true, .colour = outcome_colour},
          .report = ReportView{.heading = "outcome"}},
+        {.name = "not_covered",
+         .unit = "1",
+         .value = field<&Row::not_covered>,
+         .meaning = "What the case asks for under [engine] and the engine's certificate does not cover; "
+                    "unknown when there is nothing",
+         .position = 210,
+         .terminal = TerminalView{.heading = "not covered",
+                                  .subheading = "by certificate",
+                                  .priority = always_shown,
+                                  .flush_left = true,
+                                  .only_when_known = true},
+         .report = ReportView{.heading = "not covered by the engine's certificate"}},
         {.name = "difference",
          .unit = "1",
          .value = difference,

@@ -34,11 +34,13 @@ std::optional<double> rolling_efficiency(theory::PointMass const& point, theory:
     return motion.velocity_efficiency;
 }
 
-/// Adds the rolling-layer law for a layer of spheres that may rotate. Rolling friction adds to its dry
+/// Adds the rolling-layer law for a layer of spheres that may rotate, with the contacts with which the law
+/// has been tested. Rolling friction adds to its dry
 /// torque.
 void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
     scenario::Grains const& grains = prepared.scenario.grains;
     bool const spheres = grains.shape == "sphere" && prepared.scenario.layer.block == scenario::Block::none;
+    if (!not_covered(prepared.scenario.engine).empty()) return;
     if (!prepared.point_mass.is_plain || !spheres || grains.rotation == scenario::Rotation::blocked) return;
     theory::RollingLaw law;
     if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
@@ -168,6 +170,7 @@ Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
     scenario::Trough const& trough = prepared.scenario.trough;
     Row row{};
     row.id = id;
+    if (std::string const open = not_covered(prepared.scenario.engine); !open.empty()) row.not_covered = open;
     row.throw_number = prepared.throw_number;
     row.machine_number = prepared.machine_number;
     row.vibration_angle_deg = scenario::in_degrees(trough.vibration_angle);

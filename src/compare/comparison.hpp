@@ -60,6 +60,7 @@ struct Row {
     std::optional<std::string> numerical_error_case;  ///< id of the case that was studied for it
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
+    std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
 };
 
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.

@@ -71,11 +71,15 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
+    scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);
-    deck.settle_files[settle_file] = tidy(render_template(settle_file, data));
+    // The spring of contact = "hooke" is as stiff as a Hertz contact at the fastest impact of the deck.
+    data.set("characteristic_speed", fmt::format("{}", prepared.settle_speed));
+    deck.settle_files[settle_file] = tidy(render_template(settle_file, data, replaced));
     describe_rolling(data, prepared);
     deck.files = deck.settle_files;
-    deck.files[drive_file] = tidy(render_template(drive_file, data));
+    data.set("characteristic_speed", fmt::format("{}", prepared.time.impact_speed));
+    deck.files[drive_file] = tidy(render_template(drive_file, data, replaced));
     deck.files[control_file] = control_until(packing.next_stop(0));
     return deck;
 }

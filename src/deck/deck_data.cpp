@@ -126,15 +126,21 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     bool const block = s.layer.block != scenario::Block::none,
                rolls = s.grains.rotation == scenario::Rotation::rolling;
     int const types = s.trough.side_wall_friction ? 3 : 2;
-    std::string const model = block ? "hooke/stiffness tangential no_history" : "hertz tangential history";
+    std::string const model = block ? "hooke/stiffness tangential no_history"
+                                    : fmt::format("{} tangential history", name_of(s.engine.contact));
+    std::string const attraction = s.engine.cohesion > 0 ? " cohesion sjkr" : "";
     std::string const options =
         fmt::format("limitForce {} tangential_damping {}",
                     s.layer.block == scenario::Block::plate ? "off" : "on", block ? "on" : "off");
-    std::string const wall_model = model + (rolls ? " rolling_friction epsd2" : "");
+    std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
     double const wall_friction = s.trough.side_wall_friction.value_or(0);
     data.set("block", block);
     data.set("rolls", rolls);
     data.set("types", std::to_string(types));
+    data.set("hooke", !block && s.engine.contact == scenario::ContactModel::hooke);
+    data.set("coheres", s.engine.cohesion > 0);
+    data.set("cohesion", text(s.engine.cohesion));
+    data.set("cohesions", per_pair(types, s.engine.cohesion, s.engine.cohesion, s.engine.cohesion));
     data.set("wall_model", wall_model);
     data.set("contact_options", options);
     data.set("contact_model", wall_model + " " + options);
@@ -148,6 +154,22 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     double const rolling = s.grains.rolling_friction;
     data.set("rolling_frictions", per_pair(types, rolling, rolling, rolling));
     if (block) describe_block_contact(data, n, types);
+}
+
+/// The lines of a person's file for one place of the decks, without the last line feed.
+void describe_extra(core::TemplateData& data, std::string const& place, std::string lines) {
+    if (lines.ends_with('\n')) lines.pop_back();
+    data.set(place, !lines.empty());
+    data.set(place + "_lines", lines);
+}
+
+void describe_extras(core::TemplateData& data, scenario::EnginePlan const& engine) {
+    scenario::ExtraLines const none{};
+    scenario::ExtraLines const& extra = engine.extra ? *engine.extra : none;
+    data.set("extra_file", extra.file.name);
+    describe_extra(data, "extra_after_contact", extra.after_contact);
+    describe_extra(data, "extra_before_first_cycle", extra.before_first_cycle);
+    describe_extra(data, "extra_at_cycle_end", extra.at_cycle_end);
 }
 
 std::string integrator(scenario::Scenario const& s) {
@@ -190,7 +212,8 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     data.set("steps_per_cycle", std::to_string(time.steps_per_cycle));
     data.set("rayleigh_percent", fmt::format("{:.3g}", 100 * time.rayleigh_fraction));
     data.set("hertz_percent", fmt::format("{:.3g}", 100 * time.contact_fraction));
-    data.set("contact_name", s.layer.block == scenario::Block::none ? "Hertz" : "block's");
+    bool const hooke = s.engine.contact == scenario::ContactModel::hooke;
+    data.set("contact_name", s.layer.block != scenario::Block::none ? "block's" : hooke ? "Hooke" : "Hertz");
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
@@ -260,6 +283,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     data.set("start_speed", rounded(start * n.velocity_scale));
     describe_inputs(data, s);
     describe_contact(data, n);
+    describe_extras(data, s.engine);
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);

@@ -72,6 +72,16 @@ void write_case(fs::path const& folder, std::map<std::string, std::string> const
     if (both != last) write_digests(last);
 }
 
+bool is_as_written(fs::path const& folder, std::string const& name, std::string const& content) {
+    std::error_code missing;
+    fs::path const path = folder / written_file;
+    if (!fs::is_regular_file(path, missing)) return false;
+    Json const json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
+    if (!json.is_object() || !json.value("files", Json()).is_object()) return false;
+    Json const known = json["files"].value(name, Json());
+    return known.is_array() && std::ranges::find(known, Json(core::sha256_hex(content))) != known.end();
+}
+
 void make_frame_folder(Deck const& deck, fs::path const& folder) {
     if (deck.files.at(drive_file).find(" dump/") != std::string::npos) core::make_folder(folder / "dump");
 }

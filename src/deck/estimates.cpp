@@ -1,6 +1,7 @@
 #include "deck/estimates.hpp"
 
 #include "deck/phases.hpp"
+#include "prepare/contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,14 @@ namespace {
 /// A mean row of rolling.csv has 240 bytes, and there are 100/3 of them.
 constexpr double rolling_bytes_per_cycle = 8000;
 
-double effective_modulus(scenario::Scenario const& s) {
-    return s.grains.youngs_modulus / (2 * (1 - s.grains.poisson_ratio * s.grains.poisson_ratio));
+/// Whether the contacts are those of Hertz without attraction, whose formulas are closed.
+bool is_plain_hertz(scenario::EnginePlan const& engine) {
+    return engine.contact == scenario::ContactModel::hertz && engine.cohesion == 0;
+}
+
+/// A mean grain on the trough.
+prepare::ContactPair mean_grain(scenario::Scenario const& s) {
+    return {s.grains.diameter / 2, s.grains.density * mean_grain_volume(s.grains)};
 }
 
 double sphere_count(prepare::PreparedCase const& c) {
@@ -34,20 +41,43 @@ double bottom_load(prepare::PreparedCase const& c) {
 
 double overlap_under(prepare::PreparedCase const& c, double force) {
     scenario::Scenario const& s = c.scenario;
-    return std::pow(0.75 * force / (effective_modulus(s) * std::sqrt(s.grains.diameter / 2)), 2.0 / 3);
+    if (!is_plain_hertz(s.engine)) return overlap_under_force(s, mean_grain(s), force, c.time.impact_speed);
+    return std::pow(0.75 * force / (prepare::effective_modulus(s.grains) * std::sqrt(s.grains.diameter / 2)),
+                    2.0 / 3);
 }
 
 double overlap_at_impact(prepare::PreparedCase const& c, double speed) {
     scenario::Scenario const& s = c.scenario;
+    if (!is_plain_hertz(s.engine)) return overlap_of_impact(s, mean_grain(s), speed, c.time.impact_speed);
     double const energy = mean_mass(s) * speed * speed / 2;
-    return std::pow(15.0 / 8 * energy / (effective_modulus(s) * std::sqrt(s.grains.diameter / 2)), 0.4);
+    return std::pow(
+        15.0 / 8 * energy / (prepare::effective_modulus(s.grains) * std::sqrt(s.grains.diameter / 2)), 0.4);
 }
 
 double impact_duration(prepare::PreparedCase const& c, double speed) {
     scenario::Scenario const& s = c.scenario;
     if (s.layer.block != scenario::Block::none) return 1 / (s.trough.frequency * s.solver.block_stiffness);
-    double const modulus = effective_modulus(s), mass = mean_mass(s);
+    if (s.engine.contact == scenario::ContactModel::hooke) {
+        double const stiffness = hooke_stiffness(s.grains, mean_grain(s), c.time.impact_speed);
+        return prepare::linear_impact(stiffness, mean_mass(s), prepare::damping_ratio(s.trough.restitution))
+            .duration;
+    }
+    double const modulus = prepare::effective_modulus(s.grains), mass = mean_mass(s);
     return 2.87 * std::pow(mass * mass / (s.grains.diameter / 2 * modulus * modulus * speed), 0.2);
+}
+
+double bond_number(prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    if (s.engine.contact == scenario::ContactModel::hooke) return 0;
+    double const weight = mean_mass(s) * scenario::gravity * std::cos(s.trough.inclination);
+    return pull_off_force(s.grains, s.engine.cohesion, mean_grain(s)) / weight;
+}
+
+double attraction_ratio(prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    prepare::ContactPair const pair = mean_grain(s);
+    return attraction_per_overlap(s.engine.cohesion, pair) /
+           hooke_stiffness(s.grains, pair, c.time.impact_speed);
 }
 
 double flight_time(prepare::PreparedCase const& c) {

@@ -10,17 +10,30 @@ namespace vibrotrough::deck {
 double bottom_load(prepare::PreparedCase const& prepared);
 
 /// Hertz overlap of a grain on the trough under `force` (N), m: (3 F / (4 E* sqrt(R)))^(2/3) with E* = E / (2
-/// (1 - nu^2)) (Johnson, Contact Mechanics, 1985, section 4.2; trough and grain of the same material).
+/// (1 - nu^2)) (Johnson, Contact Mechanics, 1985, section 4.2; trough and grain of the same material). With
+/// cohesion or `contact = "hooke"`, see prepare/contact.hpp.
 double overlap_under(prepare::PreparedCase const& prepared, double force);
 
 /// Largest overlap of a single grain that hits the trough with `speed` (m/s), m. All its kinetic energy
 /// becomes energy of the Hertz contact, m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2) (Johnson, section 11.4). Damping
-/// makes it smaller.
+/// makes it smaller. With cohesion or `contact = "hooke"`, see prepare/contact.hpp.
 double overlap_at_impact(prepare::PreparedCase const& prepared, double speed);
 
-/// Duration of that impact, s: 2.87 (m^2 / (R E*^2 v))^(1/5) (Johnson, section 11.4). For a block it is given
-/// by solver.block_stiffness.
+/// Duration of that impact, s: 2.87 (m^2 / (R E*^2 v))^(1/5) (Johnson, section 11.4). For `contact =
+/// "hooke"`, see prepare::linear_impact(). For a block it is given by solver.block_stiffness. Attraction,
+/// which makes a contact longer, is left out.
 double impact_duration(prepare::PreparedCase const& prepared, double speed);
+
+/// Bond number of a grain on the trough: the pull that separates them over the grain's weight normal to the
+/// trough. The granular Bond number is the ratio of attraction to weight; layers are cohesive when it is
+/// large against 1 (Castellanos, Advances in Physics 54, 2005, 263). The pull is that of
+/// prepare::pull_off_force(); between two grains it is a quarter of that. 0 for `contact = "hooke"`, where
+/// spring and attraction are both proportional to the overlap, so that no pull is held.
+double bond_number(prepare::PreparedCase const& prepared);
+
+/// Attraction over the force of the spring of `contact = "hooke"`, both proportional to the overlap, of a
+/// grain on the trough. From 1 on, grains fall into each other.
+double attraction_ratio(prepare::PreparedCase const& prepared);
 
 /// Longest flight of the point mass (Sloot & Kruyt, Eq. 15), s; 0 when it stays on the trough.
 double flight_time(prepare::PreparedCase const& prepared);

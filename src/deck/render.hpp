@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/template.hpp"
+#include "scenario/model/engine_plan.hpp"
 
 #include <string>
 #include <string_view>
@@ -12,5 +13,11 @@ namespace vibrotrough::deck {
 /// @throws std::out_of_range when there is no such template
 /// @throws std::logic_error when it is malformed
 std::string render_template(std::string_view name, core::TemplateData const& data);
+
+/// The same with the templates of a case in place of those that have their names.
+/// @param replaced  nullptr: none
+/// @throws core::InputError when one of them is malformed, or there is no template of its name
+std::string render_template(std::string_view name, core::TemplateData const& data,
+                            scenario::DeckTemplates const* replaced);
 
 }  // namespace vibrotrough::deck

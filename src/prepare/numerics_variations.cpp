@@ -37,6 +37,13 @@ SettingNames names_of(NumericalSetting setting) {
     throw std::invalid_argument("no such numerical setting");
 }
 
+/// How the energy density of sjkr goes with Young's modulus for the same attraction. The pull-off force of a
+/// Hertz contact goes with w^3 / E^2, and the attraction over the spring of a Hooke contact with w / E^(4/5)
+/// (prepare/contact.hpp).
+double cohesion_exponent(scenario::EnginePlan const& engine) {
+    return engine.contact == scenario::ContactModel::hertz ? 2.0 / 3 : 4.0 / 5;
+}
+
 VariedSetting vary_modulus(scenario::Scenario const& s) {
     VariedSetting varied{NumericalSetting::youngs_modulus, s.grains.youngs_modulus, 1};
     for (double const factor : modulus_factors) {
@@ -44,6 +51,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
         if (modulus > stiffest) continue;
         scenario::Scenario stiff = s;
         stiff.grains.youngs_modulus = modulus;
+        stiff.engine.cohesion *= std::pow(factor, cohesion_exponent(s.engine));
         varied.variations.push_back({modulus, std::pow(factor, contact_order), stiff});
     }
     if (varied.variations.empty())

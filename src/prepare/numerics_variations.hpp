@@ -47,7 +47,7 @@ struct VariedSetting {
 ///
 /// - Young's modulus times 4 and 16. The overlaps at impact and the contact times go with E^(-2/5) (Johnson,
 ///   Contact Mechanics, 1985, section 11.4). This is the coarseness, and the error is taken to be of first
-///   order in it.
+///   order in it. The energy density of a cohesion grows with it such that the pull-off force stays.
 /// - Half the time step. It is set by solver.rayleigh_fraction to half the fraction that the case really
 ///   uses, which may be below the one asked for.
 /// - Twice the length and twice the width of the periodic box, with the same height of the layer. Their order

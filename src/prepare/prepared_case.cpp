@@ -77,6 +77,7 @@ void prepare_time(PreparedCase& c) {
     // The spheres of a plate have the diameter of the grains, so only clumps need a radius of their own.
     double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s.grains) / 2;
     StepLimits const limits{radius, c.largest_speed, highest_order(c.motion)};
+    c.settle_speed = settling_speed(c.fill_top);
     c.settle_time_step = settling_time_step(s, limits, c.fill_top);
     c.time = choose_time_step(s, limits);
 }

@@ -41,6 +41,7 @@ struct PreparedCase {
     // Time.
     TimeGrid time;            ///< of the run with the moving trough
     double settle_time_step;  ///< s, while the packing settles
+    double settle_speed;      ///< m/s, the fastest impact that is expected while the packing settles
 
     // Simulation box.
     double fill_bottom, fill_top;  ///< m, heights between which grains are poured

@@ -1,6 +1,7 @@
 #include "prepare/time_grid.hpp"
 
 #include "core/error.hpp"
+#include "prepare/contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,15 @@ double hertz_time(scenario::Scenario const& s, double radius, double speed) {
     return 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
 }
 
+/// Duration of the shortest contact: of two of the smallest grains at this speed.
+double contact_time(scenario::Scenario const& s, double radius, double speed) {
+    if (s.engine.contact == scenario::ContactModel::hertz) return hertz_time(s, radius, speed);
+    ContactPair const pair = two_grains(s.grains, radius);
+    double const restitution = std::min(s.grains.restitution, s.trough.restitution);
+    return linear_impact(hooke_stiffness(s.grains, pair, speed), pair.mass, damping_ratio(restitution))
+        .duration;
+}
+
 double block_duration(scenario::Scenario const& s) {
     return 1 / (s.trough.frequency * s.solver.block_stiffness);
 }
@@ -42,7 +52,7 @@ double block_duration(scenario::Scenario const& s) {
 TimeGrid choose_time_step(scenario::Scenario const& s, StepLimits const& limits) {
     double const speed = 2 * limits.drive_speed;
     bool const block = s.layer.block != scenario::Block::none;
-    double const contact = block ? block_duration(s) : hertz_time(s, limits.smallest_radius, speed);
+    double const contact = block ? block_duration(s) : contact_time(s, limits.smallest_radius, speed);
     double const rayleigh = rayleigh_time(s, limits.smallest_radius);
     double const period = 1 / s.trough.frequency;
     double longest = std::min(period / fewest_steps, period / (harmonic_steps * limits.highest_order));
@@ -61,11 +71,15 @@ TimeGrid choose_time_step(scenario::Scenario const& s, StepLimits const& limits)
     return {time_step, static_cast<int>(steps), time_step / rayleigh, time_step / contact, speed};
 }
 
+double settling_speed(double fall_height) {
+    return std::sqrt(2 * scenario::gravity * fall_height);
+}
+
 double settling_time_step(scenario::Scenario const& s, StepLimits const& limits, double fall_height) {
     if (s.layer.block != scenario::Block::none) return block_duration(s) / block_steps;
-    double const speed = std::sqrt(2 * scenario::gravity * fall_height);
+    double const speed = settling_speed(fall_height);
     return std::min(s.solver.rayleigh_fraction * rayleigh_time(s, limits.smallest_radius),
-                    0.1 * hertz_time(s, limits.smallest_radius, speed));
+                    0.1 * contact_time(s, limits.smallest_radius, speed));
 }
 
 BlockContact block_contact(scenario::Scenario const& s, double mass, int spheres) {

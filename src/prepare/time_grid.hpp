@@ -34,11 +34,17 @@ struct StepLimits {
 ///   section 11.4). v is twice the largest speed of the drive: a grain that flies at this speed meets the
 ///   trough when the trough approaches it at the same speed.
 ///
+/// With `contact = "hooke"` the contact time is that of prepare/contact.hpp, linear_impact() of two equal
+/// grains: a spring chosen for the same speed v, with the damping of the lower restitution.
+///
 /// A block has a linear contact of duration T / block_stiffness instead and 1/20 of that as its time step.
 /// @throws core::InputError when a cycle would take more than 1e8 steps
 TimeGrid choose_time_step(scenario::Scenario const& scenario, StepLimits const& limits);
 
-/// The time step for settling, s. The limits are the Rayleigh time and the Hertz contact time at the speed of
+/// Speed of a grain after a free fall from `fall_height` (m), m/s.
+double settling_speed(double fall_height);
+
+/// The time step for settling, s. The limits are the Rayleigh time and the contact time at the speed of
 /// a free fall from `fall_height` (m); the drive does not matter.
 double settling_time_step(scenario::Scenario const& scenario, StepLimits const& limits, double fall_height);
 

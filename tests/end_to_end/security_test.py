@@ -52,6 +52,28 @@ class Security(EndToEndTest):
         there = {name for name in dir(self) if name.startswith("test_")} - {"test_the_page_names_its_tests"}
         self.assertEqual(named, there)
 
+    def test_no_command_of_a_campaign_file_reaches_the_engine_unasked(self):
+        campaign = self.write_campaign(ONE)
+        proof = self.folder / "executed"
+        (self.folder / "x.liggghts").write_text(f"[after-contact]\nshell touch '{proof}'\n")
+        (self.folder / "contact.mustache").write_text(f"shell touch '{proof}'\n")
+        plain = campaign.read_text()
+        for line, shown in (('extra = "x.liggghts"', "shell touch"), ('templates = ["contact.mustache"]', "1 templates beside it")):
+            campaign.write_text(f"{plain}[engine]\n{line}\n")
+            domain = self.folder / "domain.toml"
+            domain.write_text(f'{campaign.read_text()}[domain]\n"trough.throw_number" = {{ from = 1, to = 3 }}\n')
+            for command in (("run", campaign), ("deck", campaign), ("friction-test", campaign), ("convergence", campaign), ("learn", domain)):
+                engine = () if command[0] == "deck" else ("--liggghts", self.engine)
+                self.assert_refused(self.call(*command, "--output", self.output, *engine), 2, shown, "--allow-extra")
+                self.assertFalse(proof.exists())
+                self.assertEqual(list(self.output.glob("**/*.liggghts")), [])
+        self.assertEqual(self.take_starts(), [])
+        # With leave, the line is what the engine runs.
+        campaign.write_text(f'{plain}[engine]\nextra = "x.liggghts"\n')
+        done = self.call(*self.run_arguments(campaign), "--allow-extra")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(proof.exists())
+
     def test_no_python_module_of_a_folder_is_loaded(self):
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)

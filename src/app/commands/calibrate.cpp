@@ -3,6 +3,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/learning.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 struct Options {
     std::string campaign, output, measured, engine;
     Text budget, jobs;
-    bool quiet = false, accept_findings = false;
+    bool quiet = false, accept_findings = false, allow_extra = false;
     CalibrationOptions shared;
 };
 
@@ -115,6 +116,7 @@ int run(Options& options) {
     running.engine = options.engine;
     running.quiet = options.quiet;
     running.accept_findings = options.accept_findings;
+    running.allow_extra = options.allow_extra;
     if (options.jobs) running.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
     return refine(options, speeds, running, read_core_time(*options.budget));
 }
@@ -149,6 +151,7 @@ void add_calibrate(CLI::App& program, int& exit_code) {
     command->add_flag("--quiet", options->quiet, "Show no progress of the simulations");
     command->add_flag("--accept-findings", options->accept_findings,
                       "Simulate although the check of the campaign found errors");
+    add_allow_extra(*command, options->allow_extra);
     command->footer(
         "The cases of the campaign give a surface of the velocity efficiency (see 'vibrotrough predict "
         "--help'). What the "

@@ -2,6 +2,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/progress_printer.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/execute/campaign_driver.hpp"
@@ -36,6 +37,7 @@ struct Options {
     std::vector<std::string> cases;
     std::optional<double> half_width;
     bool accept_failed_probes = false;
+    bool allow_extra = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -146,6 +148,9 @@ int run(Options const& options) {
     if (!fs::exists(options.campaign)) scenario::read_campaign(options.campaign);  // throws with the cure
     engine::Engine engine = engine::find_engine(program);
     campaign::Plan const original = open_campaign(options, engine.version);
+    std::vector<scenario::Scenario> cases;
+    for (campaign::PlannedCase const& planned : original.cases) cases.push_back(planned.scenario());
+    check_extra_lines(options.campaign, cases, options.allow_extra);
     auto const studies = plan_studies(original, options);
     fs::path const folder = original.folder / "convergence";
     core::make_folder(original.folder);
@@ -216,6 +221,7 @@ nearer to its limit, one at a time, and adds the differences up to an error budg
         ->capture_default_str();
     add_engine(*command, options->engine);
     command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
+    add_allow_extra(*command, options->allow_extra);
     command->footer(
         R"(Each case is simulated with its own settings, with Young's modulus times 4 and 16, with half the
 time step, and in a box of twice the length and of twice the width. This costs about 13 times as much as the case itself.

@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "core/own_folder.hpp"
 #include "core/shell.hpp"
@@ -24,6 +25,8 @@ namespace fs = std::filesystem;
 struct Options {
     std::string campaign_file;
     std::string output;
+    std::string templates;
+    bool allow_extra = false;
 };
 
 /// Writes the scenario of a case, the files that it names, and the decks of its packings.
@@ -43,7 +46,10 @@ void write_case(fs::path const& folder, prepare::PreparedCase const& prepared,
 }
 
 int run(Options const& options) {
-    scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
+    scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
+    check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
+    use_templates(options.templates, campaign.cases);
+    tell_not_covered(campaign.cases);
     core::make_folder(options.output);
     core::OwnFolder const own(options.output);
     int number = 0;
@@ -78,6 +84,8 @@ void add_deck(CLI::App& program, int& exit_code) {
         ->add_option("--output", options->output, "Folder for the decks: case-001/packing-1/in.liggghts ...")
         ->type_name("DIR")
         ->required();
+    add_templates(*command, options->templates);
+    add_allow_extra(*command, options->allow_extra);
     command->footer(
         R"(Writes a folder with the complete input of LIGGGHTS for each packing of each case, and prints how to
 run one by hand. The packings are those with which 'vibrotrough run' begins, with the same starts and numbers of cycles;

@@ -2,6 +2,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/engine_certificate.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -32,6 +33,7 @@ struct Options {
     std::string engine;
     std::optional<double> machine_number;
     bool accept_failed_probes = false;
+    bool allow_extra = false;
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
 
@@ -61,6 +63,7 @@ int exit_code_of(campaign::Summary const& summary, std::vector<evaluate::LayerFr
 
 int run(Options const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
+    check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
     std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
     engine::Engine engine = engine::find_engine(program);
@@ -133,6 +136,7 @@ trough, because grains roll and layers shear.)");
         ->capture_default_str();
     add_engine(*command, options->engine);
     command->add_flag("--accept-failed-probes", options->accept_failed_probes, accept_failed_probes_help);
+    add_allow_extra(*command, options->allow_extra);
     command->footer(
         R"(Prints one line per layer: how far it slides relative to the trough (from peak to peak, in amplitudes
 r), its friction coefficient with an interval, and its mode. The numbers are also written to DIR/friction.json, and 'vibrotrough compare DIR' then

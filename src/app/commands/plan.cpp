@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
@@ -34,6 +35,7 @@ struct Options {
     std::string campaign_file;
     std::string output;
     std::string engine;
+    std::string templates;
     bool json = false;
 };
 
@@ -173,7 +175,8 @@ void print_text(PlanView const& view) {
 }
 
 int run(Options const& options) {
-    scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
+    scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
+    use_templates(options.templates, campaign.cases);
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
@@ -194,6 +197,7 @@ void add_plan(CLI::App& program, int& exit_code) {
     add_campaign_file(*command, options->campaign_file);
     add_results_folder(*command, options->output);
     add_engine(*command, options->engine);
+    add_templates(*command, options->templates);
     command->add_flag("--json", options->json, "Print JSON for scripts");
     command->footer(
         R"(Prints one line per case: its id, the values of all swept keys, throw number Gamma, machine number K,

@@ -1,6 +1,7 @@
 #include "app/campaign_run.hpp"
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/progress_log.hpp"
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/schedule/policy.hpp"
@@ -101,6 +102,7 @@ void add_run(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("run", "Simulate all cases of a campaign that are not finished yet");
     options->shared.add_to(*command);
+    add_templates(*command, options->shared.templates);
     command->add_flag(
         "--wait", options->wait,
         "On a cluster: stay and submit further packings until all cases have ended, instead of returning "

@@ -113,6 +113,33 @@ void write_frozen(fs::path const& folder, Json facts, FrozenFiles const& files) 
     if (both != last) write_facts(last);
 }
 
+/// The names of the templates with which the decks of a plan are made; empty: the program's own.
+Json template_names(Plan const& plan) {
+    Json names = Json::array();
+    if (plan.cases.empty() || !plan.cases.front().scenario().engine.templates) return names;
+    for (scenario::NamedFile const& file : plan.cases.front().scenario().engine.templates->files)
+        names.push_back(file.name);
+    return names;
+}
+
+/// Takes the templates that are frozen in a folder for all cases, if 'run --templates' made it.
+/// @throws core::InputError when engine.json does not name templates
+void use_frozen_templates(fs::path const& folder, Json const& facts, std::vector<scenario::Scenario>& cases) {
+    Json const names = facts.is_object() ? facts.value("templates", Json::array()) : Json::array();
+    scenario::DeckTemplates templates;
+    for (Json const& name : names) {
+        if (!name.is_string() || !scenario::is_template_name(name.get<std::string>()))
+            throw core::InputError(
+                fmt::format("{} is damaged; run the campaign again after removing this file",
+                            (folder / "engine.json").string()));
+        auto const file = name.get<std::string>();
+        templates.files.push_back({file, core::read_file(folder / file, core::largest_note)});
+    }
+    if (templates.files.empty()) return;
+    auto const shared = std::make_shared<scenario::DeckTemplates const>(std::move(templates));
+    for (scenario::Scenario& one : cases) one.engine.templates = shared;
+}
+
 /// An edited campaign may continue in its folder; a different one would hide the cases of the first.
 void refuse_other_campaign(Plan const& plan, Json const& facts) {
     fs::path const frozen = plan.folder / "campaign.toml";
@@ -166,6 +193,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
 
     Json facts{{"program", engine.program.string()}, {"version", engine.version}};
     if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
+    if (Json const names = template_names(plan); !names.empty()) facts["templates"] = names;
     write_frozen(plan.folder, std::move(facts), files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
@@ -185,7 +213,11 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
             "that 'vibrotrough run' made",
             folder.string()));
     }
-    return scenario::read_campaign(folder / "campaign.toml");
+    scenario::Campaign campaign = scenario::read_campaign(folder / "campaign.toml");
+    use_frozen_templates(
+        folder, Json::parse(core::read_file(folder / "engine.json", core::largest_note), nullptr, false),
+        campaign.cases);
+    return campaign;
 }
 
 Plan open_plan(fs::path const& folder) {

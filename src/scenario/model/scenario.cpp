@@ -154,13 +154,19 @@ std::string to_toml(Scenario const& s) {
                s.measure.max_core_time ? fmt::format("max_core_time = \"{} s\"\n", *s.measure.max_core_time)
                                        : "",
                s.measure.rolling ? "rolling = true\n" : "", s.output.frames_per_cycle,
-               s.output.checkpoint_cycles, s.solver.rayleigh_fraction, s.solver.block_stiffness);
+               s.output.checkpoint_cycles, s.solver.rayleigh_fraction, s.solver.block_stiffness) +
+           (engine_toml(s.engine).empty() ? "" : "\n" + engine_toml(s.engine));
 }
 
 std::vector<NamedFile> named_files(Scenario const& scenario) {
     std::vector<NamedFile> files;
     if (scenario.grains.shape_file) files.push_back(scenario.grains.shape_file->file);
     if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
+    if (scenario.engine.extra) files.push_back(scenario.engine.extra->file);
+    if (scenario.engine.templates) {
+        auto const& templates = scenario.engine.templates->files;
+        files.insert(files.end(), templates.begin(), templates.end());
+    }
     return files;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenario/model/drive.hpp"
+#include "scenario/model/engine_plan.hpp"
 #include "scenario/model/grains.hpp"
 
 #include <optional>
@@ -97,6 +98,7 @@ struct Scenario {
     MeasurementPlan measure;  ///< packings, cycles, precision
     OutputPlan output;        ///< frames and checkpoints
     SolverPlan solver = {};   ///< numerical settings
+    EnginePlan engine = {};   ///< what is asked of the engine beyond what its probes test
 };
 
 double angular_frequency(Trough const& trough);  ///< Angular frequency omega, rad/s.
@@ -126,10 +128,11 @@ double layer_height(Scenario const& scenario);
 
 /// The case as a campaign file of its own, in SI units with as many digits as needed: the same scenario
 /// always gives the same text, and reading the text gives the same scenario. The text only names the files of
-/// shape and waveform; named_files() returns them.
+/// shape, waveform, extra lines and templates; named_files() returns them.
 std::string to_toml(Scenario const& scenario);
 
-/// The files that the scenario names: shape and waveform, if it has them.
+/// The files that the scenario names: shape, waveform, extra lines and templates, if it has
+/// them.
 std::vector<NamedFile> named_files(Scenario const& scenario);
 
 }  // namespace vibrotrough::scenario

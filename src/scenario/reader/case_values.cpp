@@ -27,7 +27,8 @@ class CaseBuilder {
             {},
             measure(),
             {given_.integer("output.frames_per_cycle"), given_.integer("output.checkpoint_cycles")},
-            {given_.number("solver.rayleigh_fraction"), given_.number("solver.block_stiffness")}};
+            {given_.number("solver.rayleigh_fraction"), given_.number("solver.block_stiffness")},
+            read_engine_plan(given_)};
         scenario.layer = layer(scenario);
         if (scenario.layer.block != Block::none) check_block(scenario);
         if (scenario.measure.rolling) check_rolling(scenario);

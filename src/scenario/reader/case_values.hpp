@@ -56,8 +56,10 @@ using CaseValues = std::map<std::string, Value, std::less<>>;
 /// The files that were read for the cases of a campaign by name. Each is read once, however many cases use
 /// it.
 struct FilesRead {
-    std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;    ///< of clumps
-    std::map<std::string, std::shared_ptr<Waveform const>> waveforms;  ///< of the trough
+    std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;                      ///< of clumps
+    std::map<std::string, std::shared_ptr<Waveform const>> waveforms;                    ///< of the trough
+    std::map<std::string, std::shared_ptr<ExtraLines const>> extras;                     ///< for the engine
+    std::map<std::vector<std::string>, std::shared_ptr<DeckTemplates const>> templates;  ///< of decks
 };
 
 /// Where to find the files that a case names: first among given files, then in a folder.

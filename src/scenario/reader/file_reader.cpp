@@ -89,7 +89,8 @@ class CampaignFileReader {
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, core::printable(name.str(), 60), "unknown section",
-                 "the sections are campaign, trough, grains, layer, measure, output, solver, sweep, zip, "
+                 "the sections are campaign, trough, grains, layer, measure, output, solver, engine, sweep, "
+                 "zip, "
                  "points, points_from, sample, domain, exclude and run");
         }
         if (!node.is_table()) {

@@ -37,8 +37,7 @@ void GivenValues::fail(std::string_view key, std::string_view wrong, std::string
     throw_at({file_, value ? value->where : Position{}}, key, wrong, instead);
 }
 
-NamedFile GivenValues::named_file(std::string_view key) const {
-    std::string const name = word(key);
+NamedFile GivenValues::named_file(std::string_view key, std::string const& name) const {
     for (NamedFile const& given : source_.files) {
         if (given.name == name) return given;
     }

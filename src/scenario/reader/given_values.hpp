@@ -26,8 +26,10 @@ class GivenValues {
     std::string word(std::string_view key) const;
     /// The file that a key names: one of the given files, or read from the folder of the campaign file.
     /// @throws core::InputError when there is no such file or it is larger than 1 MiB
-    NamedFile named_file(std::string_view key) const;
-    /// Shapes and waveforms that were read for other cases.
+    NamedFile named_file(std::string_view key) const { return named_file(key, word(key)); }
+    /// One of several files that a key names. @throws as named_file(key)
+    NamedFile named_file(std::string_view key, std::string const& name) const;
+    /// Shapes, waveforms and extra lines that were read for other cases.
     FilesRead& files_read() const { return *source_.read; }
     /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
     [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view instead) const;
@@ -43,5 +45,8 @@ Trough read_trough(GivenValues const& given);
 
 /// The grains of a case. @throws core::InputError
 Grains read_grains(GivenValues const& given);
+
+/// What a case asks of the engine. @throws core::InputError
+EnginePlan read_engine_plan(GivenValues const& given);
 
 }  // namespace vibrotrough::scenario

@@ -138,6 +138,21 @@ constexpr std::array keys{
         "largest time step, as a fraction of the Rayleigh time of the smallest grain"},
     Key{"solver.block_stiffness", number, "", 30, 10000, "30 to 10000", "", 300.0, "300",
         "duration of a cycle divided by the duration of a block's contact"},
+
+    Key{"engine.contact", choice, "", 0, 0, "hertz or hooke", "", optional, "\"hooke\"",
+        "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
+        "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact"},
+    Key{"engine.cohesion", quantity, "J/m3", 0, 1e9, "0 to 1e9 J/m3", "", 0.0, "\"50 kJ/m3\"",
+        "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
+        "times the area of their contact"},
+    Key{"engine.extra", file, "", 0, 0, "none or a .liggghts file in the same folder", "", optional,
+        "\"rotor.liggghts\"",
+        "commands of LIGGGHTS that the decks run as well; they can do anything, so that 'run' shows them and "
+        "refuses unless --allow-extra is given"},
+    Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
+        optional, "[\"contact.mustache\"]",
+        "templates of the decks that replace those of input_templates; like extra they need --allow-extra. "
+        "'run --templates DIR' takes them from a folder instead"},
 };
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -187,7 +202,8 @@ std::string key_reference() {
         std::string needed = is_optional(key) ? "none" : "required";
         if (auto const* value = std::get_if<double>(&key.if_missing)) needed = fmt::format("{:g}", *value);
         if (key.kind == KeyKind::truth) needed = needed == "0" ? "false" : "true";
-        if (key.kind == KeyKind::choice || key.path == "grains.shape") needed = choices(key).front();
+        if (key.kind == KeyKind::choice || key.path == "grains.shape" || key.path == "engine.extra")
+            needed = choices(key).front();
         if (!key.group.empty()) needed = "exactly one of these";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,
                             key.meaning);

@@ -93,6 +93,10 @@ constexpr std::array plan_values{
     KeyValue{"solver.rayleigh_fraction",
              [](Scenario const& s) -> Result { return s.solver.rayleigh_fraction; }},
     KeyValue{"solver.block_stiffness", [](Scenario const& s) -> Result { return s.solver.block_stiffness; }},
+    KeyValue{"engine.contact", [](Scenario const& s) { return text(name_of(s.engine.contact)); }},
+    KeyValue{"engine.cohesion", [](Scenario const& s) -> Result { return s.engine.cohesion; }},
+    KeyValue{"engine.extra",
+             [](Scenario const& s) { return text(s.engine.extra ? s.engine.extra->file.name : "none"); }},
 };
 
 bool differs(std::string_view path, std::vector<Scenario> const& cases) {

@@ -21,7 +21,7 @@ class ValueReader {
         std::string const word = node.value<std::string>().value_or("");
         auto const known = choices(key_);
         if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
-        if (key_.kind == KeyKind::file && node.is_string() && is_csv_name(word)) return word;
+        if (key_.kind == KeyKind::file && node.is_string() && is_file_name(word)) return word;
         fail(node, fmt::format("{} is not an allowed value", written(node)),
              fmt::format("{}; allowed: {}", write_instead(key_), key_.range));
     }
@@ -81,9 +81,11 @@ class ValueReader {
     }
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
-    static bool is_csv_name(std::string_view name) {
-        return is_plain_text(name) && name.size() > 4 && name.size() <= 100 && name.ends_with(".csv") &&
-               name.front() != '.' && name.front() != '-';
+    bool is_file_name(std::string_view name) const {
+        std::string_view const ending =
+            key_.range.ends_with(".liggghts file in the same folder") ? ".liggghts" : ".csv";
+        return is_plain_text(name) && name.size() > ending.size() && name.size() <= 100 &&
+               name.ends_with(ending) && name.front() != '.' && name.front() != '-';
     }
 
     /// The value as the user wrote it, for a message.

@@ -21,7 +21,10 @@ WrittenKeys keys_of(Scenario const& scenario) {
             keys.emplace(std::string(section.str()) + "." + std::string(key.str()), text.str());
         }
     }
-    keys.emplace("grains.shape", "\"sphere\"");  // to_toml leaves this key out for spheres
+    keys.emplace("grains.shape", "\"sphere\"");  // to_toml leaves these keys out by default
+    keys.emplace("engine.contact", "\"hertz\"");
+    keys.emplace("engine.cohesion", "\"0 J/m3\"");
+    keys.emplace("engine.extra", "\"none\"");
     return keys;
 }
 

@@ -1,0 +1,149 @@
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "core/text.hpp"
+#include "evaluate/by_hand.hpp"
+
+#include <memory>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string folder;
+    std::string scenario;
+    bool json = false;
+};
+
+Json number(std::optional<double> const& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> theory(evaluate::HandRun const& run) {
+    theory::Motion const motion = solve(run.prepared.point_mass);
+    return motion.converged ? std::optional(motion.velocity_efficiency) : std::nullopt;
+}
+
+Json describe(evaluate::HandPacking const& packing, int used) {
+    auto const first = packing.efficiency.begin();
+    double const mean = std::accumulate(first, first + used, 0.0) / used;
+    return {{"packing", packing.number},
+            {"folder", packing.folder.string()},
+            {"cycles", packing.cycles},
+            {"mean_of_all_cycles_used", mean},
+            {"mode", packing.mode.empty() ? Json(nullptr) : Json(packing.mode)},
+            {"deck", name_of(packing.deck)},
+            {"deck_changes", packing.edits},
+            {"end", packing.end},
+            {"fault", packing.fault ? Json(name_of(*packing.fault)) : Json(nullptr)},
+            {"message", packing.message},
+            {"files", packing.files}};
+}
+
+void print_json(evaluate::HandRun const& run) {
+    double const scale = run.prepared.velocity_scale;
+    measure::CaseEstimate const& e = run.estimate;
+    auto const speed = [&](std::optional<double> const& value) {
+        return value ? Json(*value * scale) : Json(nullptr);
+    };
+    Json packings = Json::array();
+    for (evaluate::HandPacking const& one : run.packings) packings.push_back(describe(one, run.cycles_used));
+    std::string const open = not_covered(run.prepared.scenario.engine);
+    Json const json{{"outcome", name_of(run.outcome)},
+                    {"efficiency", number(e.mean)},
+                    {"efficiency_half_width", number(e.half_width)},
+                    {"confidence", run.prepared.scenario.measure.confidence},
+                    {"speed_m_per_s", speed(e.mean)},
+                    {"speed_half_width_m_per_s", speed(e.half_width)},
+                    {"efficiency_theory", number(theory(run))},
+                    {"cycles_used", run.cycles_used},
+                    {"cycles_discarded", e.discarded},
+                    {"cycles_measured", e.measured},
+                    {"not_covered", open.empty() ? Json(nullptr) : Json(open)},
+                    {"scenario", run.scenario_file.string()},
+                    {"packings", packings}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+void print_packing(evaluate::HandPacking const& packing) {
+    fmt::print("{}: {} cycles{}\n", core::harmless(packing.folder.string()), packing.cycles,
+               packing.mode.empty() ? "" : ", mode " + packing.mode);
+    fmt::print("  end of the run: {}\n", core::harmless(packing.end));
+    fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edits.empty() ? "" : ": ",
+               core::harmless(fmt::format("{}", fmt::join(packing.edits, "; "))));
+    if (packing.fault)
+        fmt::print("  a campaign would not count it: {}, {}\n", name_of(*packing.fault),
+                   core::harmless(packing.message));
+    fmt::print("  read: {}\n", core::harmless(fmt::format("{}", fmt::join(packing.files, ", "))));
+}
+
+void print_text(evaluate::HandRun const& run) {
+    measure::CaseEstimate const& e = run.estimate;
+    scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
+    for (evaluate::HandPacking const& one : run.packings) print_packing(one);
+    fmt::print("scenario: {}\n", core::harmless(run.scenario_file.string()));
+    if (std::string const open = not_covered(run.prepared.scenario.engine); !open.empty())
+        fmt::print("not covered by the engine's certificate: {}\n", open);
+    std::string const interval = !e.mean        ? "unknown"
+                                 : e.half_width ? fmt::format("{:.4f} +- {:.4f} ({:g} %)", *e.mean,
+                                                              *e.half_width, 100 * plan.confidence)
+                                                : fmt::format("{:.4f}, with an unbounded interval", *e.mean);
+    fmt::print("velocity efficiency: {}, from {} packing{} of {} cycles, {} of them cut as start-up\n",
+               interval, run.packings.size(), run.packings.size() == 1 ? "" : "s", run.cycles_used,
+               e.discarded);
+    if (e.mean) fmt::print("conveying speed: {:.4g} m/s\n", *e.mean * run.prepared.velocity_scale);
+    if (auto const predicted = theory(run)) fmt::print("point-mass theory: {:.4f}\n", *predicted);
+    fmt::print("outcome: {}\n", name_of(run.outcome));
+}
+
+int run(Options const& options) {
+    evaluate::HandRun const run = evaluate::measure_by_hand(options.folder, options.scenario);
+    options.json ? print_json(run) : print_text(run);
+    return run.outcome == core::Outcome::finished ? all_well : some_cases_failed;
+}
+
+}  // namespace
+
+void add_measure(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<Options>();
+    CLI::App* const command =
+        program.add_subcommand("measure", "Measure a run of LIGGGHTS that was made by hand from a deck");
+    command
+        ->add_option("FOLDER", options->folder,
+                     "Folder in which the engine ran (packing-1), or that of a case with several of them")
+        ->required()
+        ->type_name("FOLDER");
+    command
+        ->add_option(
+            "--scenario", options->scenario,
+            "The scenario.toml that says what was simulated; default: the one in the folder or above it")
+        ->type_name("FILE");
+    command->add_flag("--json", options->json, "Print JSON for scripts");
+    command->footer(
+        R"(Prints the velocity efficiency with its interval as 'run' and 'compare' would find it, the outcome, and
+which files were read. Nothing is written. The deck may have been changed after 'vibrotrough deck' wrote it: the command
+then says in which command it differs first. What is measured is what the engine wrote; what it is divided by (amplitude,
+frequency, angles) is always the scenario's. A run that was stopped, or still goes on, is measured as far as it is.
+
+The interval is that of the campaign: with several packings it allows for their differences, with one it cannot.
+
+Exit codes:
+    0  the run is steady, and its interval as narrow as measure.half_width asks
+    1  it is not, or a campaign would not count the run
+    2  a file is missing or damaged
+
+Example:
+  vibrotrough deck validation/demo/campaign.toml --output decks
+  cd decks/case-001/packing-1 && liggghts -in settle.liggghts && liggghts -in in.liggghts
+  vibrotrough measure .)");
+    command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,237 @@
+#include "evaluate/by_hand.hpp"
+
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "deck/commands.hpp"
+#include "deck/deck.hpp"
+#include "deck/deck_folder.hpp"
+#include "evaluate/case.hpp"
+#include "evaluate/packing.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(fs::path const& path) {
+    std::error_code missing;
+    return fs::is_regular_file(path, missing);
+}
+
+/// N of a folder packing-N; 0 when it has another name.
+int number_of(fs::path const& folder) {
+    std::string const name = folder.filename().string();
+    constexpr std::string_view begin = "packing-";
+    int number = 0;
+    if (name.starts_with(begin))
+        std::from_chars(name.data() + begin.size(), name.data() + name.size(), number);
+    return number >= 1 && number <= 1000 ? number : 0;
+}
+
+/// The folders with a run: the folder itself, or its packings in order.
+std::vector<fs::path> folders_with_runs(fs::path const& folder) {
+    std::error_code failure;
+    if (!fs::is_directory(folder, failure))
+        throw core::InputError(
+            fmt::format("{} is not a folder; give the folder in which the engine ran", folder.string()));
+    if (is_file(folder / "cycles.csv")) return {fs::canonical(folder)};
+    std::map<int, fs::path> found;
+    for (fs::directory_entry const& entry : fs::directory_iterator(folder, failure)) {
+        if (number_of(entry.path()) > 0 && is_file(entry.path() / "cycles.csv"))
+            found[number_of(entry.path())] = fs::canonical(entry.path());
+    }
+    std::vector<fs::path> folders;
+    for (auto const& [number, path] : found) folders.push_back(path);
+    if (!folders.empty()) return folders;
+    throw core::InputError(fmt::format(
+        "{} has no cycles.csv, nor has a folder packing-1 in it; run the deck first, there: liggghts "
+        "-in {} && liggghts -in {}",
+        folder.string(), deck::settle_file, deck::drive_file));
+}
+
+fs::path find_scenario(fs::path const& given, fs::path const& run) {
+    if (!given.empty()) return given;
+    for (fs::path const& place : {run, run.parent_path()}) {
+        if (is_file(place / "scenario.toml")) return place / "scenario.toml";
+    }
+    throw core::InputError(fmt::format(
+        "there is no scenario.toml in {} or above it, which says what was simulated; give the one "
+        "that 'vibrotrough deck' wrote with --scenario FILE",
+        run.string()));
+}
+
+prepare::PreparedCase read_case(fs::path const& file) {
+    scenario::Campaign const campaign = scenario::read_campaign(file);
+    if (campaign.cases.size() != 1)
+        throw core::InputError(fmt::format("{} holds {} cases; give the scenario.toml of one case",
+                                           file.string(), campaign.cases.size()));
+    return prepare::prepare_case(campaign.cases.front());
+}
+
+/// The commands of a deck without the one that sets the speed of the start, which depends on the packing.
+std::vector<std::string> comparable_commands(std::string const& deck) {
+    std::vector<std::string> commands;
+    std::string const all = deck::commands_of(deck::for_one_rank(deck));
+    for (std::size_t start = 0; start < all.size();) {
+        std::size_t const end = std::min(all.find('\n', start), all.size());
+        std::string command = all.substr(start, end - start);
+        start = end + 1;
+        if (command.find("velocity all set") == command.npos) commands.push_back(std::move(command));
+    }
+    return commands;
+}
+
+/// How a file of the deck differs from what this program writes, in words; empty when its commands do not.
+std::string difference(std::string const& name, std::string const& content, std::string const& own) {
+    if (!name.ends_with(".liggghts")) return content == own ? "" : name + " differs";
+    auto const there = comparable_commands(content), expected = comparable_commands(own);
+    auto const [a, b] = std::ranges::mismatch(there, expected);
+    if (a == there.end() && b == expected.end()) return {};
+    if (a == there.end()) return fmt::format("{} lacks '{}'", name, core::printable(*b, 100));
+    return fmt::format("{} has '{}'", name, core::printable(*a, 100));
+}
+
+/// Compares the deck in a folder with its seal (deck.json), and where that does not hold with the deck that
+/// this program would write.
+void compare_deck(HandPacking& packing, prepare::PreparedCase const& prepared) {
+    fs::path const case_folder = packing.folder.parent_path();
+    auto const own = deck::make_deck(prepared, {std::max(1, packing.number)}).files;
+    bool const sealed = is_file(case_folder / deck::written_file);
+    bool any = false, comments = false;
+    for (auto const& [name, content] : own) {
+        if (name == deck::control_file) continue;  // says only when the run ends
+        fs::path const path = packing.folder / name;
+        if (!is_file(path)) continue;
+        any = true;
+        packing.files.push_back(name);
+        std::string const there = core::read_file(path, core::largest_note);
+        if (there == content ||
+            deck::is_as_written(case_folder, packing.folder.filename().string() + "/" + name, there))
+            continue;
+        std::string const edit = difference(name, there, content);
+        comments = comments || (edit.empty() && sealed);
+        if (!edit.empty()) packing.edits.push_back(edit);
+    }
+    packing.deck = !any                     ? DeckState::missing
+                   : !packing.edits.empty() ? DeckState::changed
+                   : comments               ? DeckState::comments
+                                            : DeckState::unchanged;
+}
+
+/// The whole number N of a line "variable n equal N" of a deck; none when there is no such line.
+std::optional<int> steps_per_cycle(fs::path const& deck) {
+    if (!is_file(deck)) return {};
+    std::string const commands = deck::commands_of(core::read_file(deck, core::largest_note));
+    constexpr std::string_view begin = "variable n equal ";
+    auto const at = commands.find(begin);
+    if (at == commands.npos) return {};
+    char const* const first = commands.data() + at + begin.size();
+    int steps = 0;
+    auto const [rest, failure] = std::from_chars(first, commands.data() + commands.size(), steps);
+    if (failure != std::errc() || *rest != '\n' || steps < 1) return {};
+    return steps;
+}
+
+/// How the engine's own output says that the run ended.
+std::string end_of_run(HandPacking& packing) {
+    for (char const* name : {"engine.out", "log.liggghts"}) {
+        fs::path const path = packing.folder / name;
+        if (!is_file(path)) continue;
+        packing.files.emplace_back(name);
+        std::string const text = core::read_file(path);
+        auto const error = text.rfind("\nERROR");
+        if (error != text.npos) {
+            std::string const line = text.substr(error + 1, text.find('\n', error + 1) - error - 1);
+            return fmt::format("{} says: {}", name, core::printable(line, 200));
+        }
+        return text.find(deck::end_marker) == text.npos
+                   ? fmt::format("{} has no end marker: the run was stopped or goes on", name)
+                   : fmt::format("{} has the end marker", name);
+    }
+    return "not known: there is no log.liggghts";
+}
+
+void add_names(HandPacking& packing, PackingFiles const& files) {
+    packing.files.emplace_back("cycles.csv");
+    if (!files.phases.content.empty()) packing.files.emplace_back("phases.csv");
+    for (core::TextFile const& file : files.snapshots) packing.files.push_back(file.path.filename().string());
+}
+
+HandPacking measure_packing(prepare::PreparedCase prepared, fs::path const& folder) {
+    HandPacking packing{folder, std::max(1, number_of(folder)), DeckState::missing, {}, {}, 0, {}, {}, {}, {},
+                        {}};
+    compare_deck(packing, prepared);
+    if (auto const steps = steps_per_cycle(folder / deck::drive_file)) {
+        prepared.time.steps_per_cycle = *steps;
+        prepared.time.time_step = 1 / (prepared.scenario.trough.frequency * *steps);
+    }
+    PackingFiles const files = read_packing_files(folder);
+    add_names(packing, files);
+    packing.end = end_of_run(packing);
+    packing.cycles = extent_of_run(prepared, folder).cycles;
+    if (packing.cycles < 2)
+        throw core::InputError(
+            fmt::format("{} holds {} whole cycles, and a mean needs two; let the run go on",
+                        (folder / "cycles.csv").string(), packing.cycles));
+    packing.efficiency = read_efficiency(prepared, folder, packing.cycles);
+    long const last_step = static_cast<long>(packing.cycles) * prepared.time.steps_per_cycle;
+    auto const evaluated = evaluate_outputs(prepared, packing.number, files, last_step);
+    if (auto const* const record = std::get_if<store::PackingRecord>(&evaluated)) {
+        packing.mode = record->motion.mode;
+    } else {
+        auto const& fault = std::get<UnusableOutputs>(evaluated);
+        packing.fault = fault.outcome;
+        packing.message = fault.message;
+    }
+    std::ranges::sort(packing.files);
+    return packing;
+}
+
+}  // namespace
+
+std::string_view name_of(DeckState state) {
+    switch (state) {
+        case DeckState::unchanged:
+            return "unchanged";
+        case DeckState::comments:
+            return "changed in comments or in the speed of the start";
+        case DeckState::changed:
+            return "changed";
+        case DeckState::missing:
+            return "missing";
+    }
+    throw std::invalid_argument("no such state of a deck");
+}
+
+HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
+    std::vector<fs::path> const folders = folders_with_runs(folder);
+    fs::path const file = find_scenario(scenario_file, folders.front());
+    HandRun run{file, read_case(file), {}, 0, {}, core::Outcome::finished};
+    for (fs::path const& one : folders) run.packings.push_back(measure_packing(run.prepared, one));
+    run.cycles_used = std::ranges::min(run.packings, {}, &HandPacking::cycles).cycles;
+    std::vector<measure::PackingValues> values;
+    for (HandPacking const& packing : run.packings) {
+        std::span const all(packing.efficiency);
+        values.push_back({all.first(static_cast<std::size_t>(run.cycles_used)), start_of(packing.number)});
+    }
+    scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
+    run.estimate = measure::estimate_case(values, {plan.confidence, plan.half_width});
+    run.outcome = outcome_of(run.estimate, plan.half_width);
+    for (HandPacking const& packing : run.packings) {
+        if (!packing.fault) continue;
+        run.outcome = *packing.fault;
+        break;
+    }
+    return run;
+}
+
+}  // namespace vibrotrough::evaluate

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "core/outcome.hpp"
+#include "measure/case_estimate.hpp"
+#include "prepare/prepared_case.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Runs that a person made by hand from a deck of 'vibrotrough deck', changed or not.
+namespace vibrotrough::evaluate {
+
+/// How a deck in a folder relates to what this program writes for its scenario.
+enum class DeckState {
+    unchanged,  ///< every file is as 'vibrotrough deck' wrote it, or would write it now
+    comments,   ///< only comments, blanks or the speed differ with which all grains start
+    changed,    ///< commands or meshes differ
+    missing,    ///< there is no deck in the folder
+};
+
+/// The word for people and for JSON, such as "unchanged".
+std::string_view name_of(DeckState state);
+
+/// One packing that was run by hand.
+struct HandPacking {
+    std::filesystem::path folder;    ///< of the run
+    int number;                      ///< N of a folder packing-N, else 1
+    DeckState deck;                  ///< what its decks are
+    std::vector<std::string> edits;  ///< one line for people per file of the deck that differs
+    std::vector<std::string> files;  ///< names of the files that were read
+    int cycles;                      ///< whole cycles that were written
+    std::vector<double> efficiency;  ///< velocity efficiency of each cycle
+    std::string end;                 ///< how the run ended, in words
+    std::string mode;                ///< of the layer; empty when it is not known
+    /// Why the run would not count in a campaign; none when it would.
+    std::optional<core::Outcome> fault;
+    std::string message;  ///< one line about the fault
+};
+
+/// What was measured in a folder.
+struct HandRun {
+    std::filesystem::path scenario_file;  ///< that was read
+    prepare::PreparedCase prepared;       ///< the case as its scenario says
+    std::vector<HandPacking> packings;    ///< by number
+    int cycles_used;                      ///< of every packing: as many as the shortest has
+    measure::CaseEstimate estimate;       ///< of the velocity efficiency
+    core::Outcome outcome;                ///< the first fault, else what the estimate says
+};
+
+/// Measures the run in a folder that has a cycles.csv, or all runs in the folders packing-N of a case.
+/// Nothing is written. Numbers are scaled with the drive of the scenario; a deck in which somebody has
+/// changed the steps per cycle is read with its own number.
+/// @param scenario_file  empty: scenario.toml in the folder, or in the one above
+/// @throws core::InputError when a file is missing or damaged, or there is no whole cycle
+HandRun measure_by_hand(std::filesystem::path const& folder, std::filesystem::path const& scenario_file = {});
+
+}  // namespace vibrotrough::evaluate
