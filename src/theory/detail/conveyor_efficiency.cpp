@@ -268,6 +268,7 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
         find_normal_orbit(waves_, orbit_);
         orbit_known_ = true;
     }
+    if (orbit_.in_doubt) return std::nullopt;
     bool const has_period = orbit_.cycles > 0 && orbit_.cycles <= 64;
     bool const one_friction = waves_.one_friction();
     leaps_.resize(orbit_.hops.size());

@@ -12,8 +12,9 @@ constexpr int longest_period = 64, most_cycles = 3000;
 // A motion is chaotic if small changes grow by this factor between these cycles.
 constexpr double chaotic_growth = 1e10;
 constexpr int chaos_from = 500, chaos_to = 1000;
-// A period within which small changes grow that much cannot be told from one without end.
-constexpr double most_growth = 1e6, rounding = 1e-16;
+// A period within which small changes grow by the first factor is in doubt, because rounding errors grow as
+// well. From the second factor on there is none.
+constexpr double most_growth = 1e6, hopeless_growth = 1e11, rounding = 1e-16;
 constexpr std::size_t never = static_cast<std::size_t>(-1);
 
 /// Sine and cosine a step later, exact to rounding for |d| <= 0.01.
@@ -262,6 +263,7 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
     orbit.hops.clear();
     orbit.first = 0;
     orbit.cycles = 0;
+    orbit.in_doubt = false;
     orbit.in_contact = waves.presses().none();
     if (orbit.in_contact) {
         orbit.cycles = 1;
@@ -271,7 +273,7 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
     FlightChain::Start next = chain.first();
     Growth growth;
     double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
-    bool in_doubt = false;
+    bool irregular = false;
     std::size_t since = 0;  // the last contact
     orbit.left_at.assign(waves.presses().count(), never);
     for (double elapsed = next.at.t; elapsed < two_pi * most_cycles;) {
@@ -283,11 +285,13 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
                 orbit.cycles = cycles_from(orbit.hops, before);
                 break;
             }
+            orbit.in_doubt = returns && peak < hopeless_growth;
+            if (orbit.in_doubt) break;
             before = since = orbit.hops.size();
             // Rounding decides what happens after such a growth: the next flight is to have a rounding error
             // of its own, so that a motion that ends elsewhere is found.
             if (returns) next.at.t += rounding * static_cast<double>(orbit.hops.size());
-            in_doubt = in_doubt || returns;
+            irregular = irregular || returns;
             growth = {};
             peak = 1;
             chaos_start = std::min(chaos_start, 0.0);
@@ -300,7 +304,7 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
         peak = std::max(peak, growth.factor());
         if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from) chaos_start = growth.logarithm();
         bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
-        if (elapsed > two_pi * chaos_to && (in_doubt || chaotic)) break;
+        if (elapsed > two_pi * chaos_to && (irregular || chaotic)) break;
         std::size_t const k = next.zero >= 0 ? 0 : hops_to_return(orbit.hops, since);
         if (k > 0) {
             orbit.first = orbit.hops.size() - k;

@@ -65,6 +65,7 @@ struct NormalOrbit {
     std::vector<Hop> hops;             ///< from rest on; those of the period come last
     std::size_t first = 0;             ///< of the period
     int cycles = 0;                    ///< of the period; 0 when none was found
+    bool in_doubt = false;             ///< whether rounding errors may decide if there is a period
     bool in_contact = false;           ///< whether the mass never leaves the trough
     FlightChain::Start next;           ///< where the flight after the last one starts
     std::vector<std::size_t> left_at;  ///< hop that began at each zero of the normal force (memory)
@@ -73,7 +74,7 @@ struct NormalOrbit {
 /// Sets `orbit` for a conveyor, reusing its memory.
 ///
 /// A motion counts as one without a period after 3000 cycles, or after 1000 if it is chaotic: if small
-/// changes have grown by a factor of 1e10 in the last 500 of them, or if they grow by more than 1e6 from one
+/// changes have grown by a factor of 1e10 in the last 500 of them, or if they grow by more than 1e11 from one
 /// contact to the next, so that rounding decides what follows.
 /// @throws PhaseError when a flight does not end
 void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit);

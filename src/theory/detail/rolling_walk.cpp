@@ -138,12 +138,7 @@ double RollingWalk::end_of(RollingPhase const& p, Forces const& f, double end, i
     Margin const turning = p.turn == 0 ? Margin() : Margin(PhaseSum{}.add(p.turn, *w));
     if (p.slip != 0) {
         Margin const slipping(PhaseSum{}.add(p.slip, *v).add(-p.slip, *w));
-        double const to = first_end<2>(
-            [&](double t) {
-                PhaseTime const time = basis.at(t);
-                return std::array{turning.at(time, basis), slipping.at(time, basis)};
-            },
-            p.start, end, what);
+        double const to = first_end<2>({turning, slipping}, basis, p.start, end, what);
         what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
         return to;
     }
@@ -155,12 +150,7 @@ double RollingWalk::end_of(RollingPhase const& p, Forces const& f, double end, i
     needed.add(1, {.constant = gravity_, .sine = -1});
     Margin const forwards(PhaseSum{}.add(-1, needed).add(limit, force));
     Margin const backwards(PhaseSum(needed).add(limit, force));
-    double const to = first_end<3>(
-        [&](double t) {
-            PhaseTime const time = basis.at(t);
-            return std::array{turning.at(time, basis), forwards.at(time, basis), backwards.at(time, basis)};
-        },
-        p.start, end, what);
+    double const to = first_end<3>({turning, forwards, backwards}, basis, p.start, end, what);
     constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
     what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
     return to;
