@@ -230,6 +230,7 @@ ConveyorMotion Solver::periodic(int cycles) {
         Piece piece = scout.pieces[i];
         if (piece.start > start + length - closing) break;
         last_end = piece.end;
+        if (piece.end > start + length + closing) piece.displacement /= 2;  // one slide lasts both periods
         piece.end = std::min(piece.end, start + length);
         result.pieces.push_back(piece);
         displacement += piece.displacement;

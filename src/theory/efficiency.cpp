@@ -1,6 +1,8 @@
 #include "theory/efficiency.hpp"
 
 #include "theory/detail/contact.hpp"
+#include "theory/detail/conveyor_check.hpp"
+#include "theory/detail/conveyor_efficiency.hpp"
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
@@ -59,6 +61,13 @@ ModeCode append_phase(ModeCode code, PhaseKind kind, int length) {
     return code | ((static_cast<ModeCode>(kind) + 1) << (bits * length));
 }
 
+ModeCode mode_code(Motion const& motion) {
+    ModeCode code = 0;
+    int length = 0;
+    for (Phase const& phase : motion.phases) code = append_phase(code, phase.kind, length++);
+    return code;
+}
+
 std::string to_string(ModeCode code) {
     std::string text;
     for (; code != 0; code >>= bits) {
@@ -74,6 +83,7 @@ struct EfficiencySolver::Memory {
     detail::Hints hints;
     double v = 0, v_before = 0;  // velocity at the start of the period for the last two points
     ModeCode mode = 0, mode_before = 0;
+    detail::ConveyorEfficiency conveyors;
 
     /// A first guess: linear extrapolation from the last two points if they changed by similar amounts.
     double guess(bool flies) const {
@@ -87,7 +97,7 @@ struct EfficiencySolver::Memory {
 
 // Motions without a period are rare: leave them to solve().
 Efficiency EfficiencySolver::Memory::without_period(PointMass const& input) {
-    Motion const motion = solve(input);
+    Motion const motion = theory::solve(input);
     return {motion.velocity_efficiency, 0, motion.period_cycles, motion.outcome};
 }
 
@@ -137,6 +147,15 @@ Efficiency EfficiencySolver::operator()(PointMass const& input) {
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }
+}
+
+Efficiency EfficiencySolver::solve(Conveyor const& input) {
+    detail::check_ranges(input);
+    auto const quick = memory_->conveyors(detail::with_noticeable_forces(input));
+    if (quick) return *quick;
+    ConveyorMotion const m = theory::solve(input);
+    return {m.motion.velocity_efficiency, mode_code(m.motion), m.motion.period_cycles, m.motion.outcome,
+            m.half_width};
 }
 
 }  // namespace vibrotrough::theory

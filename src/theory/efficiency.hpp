@@ -8,6 +8,8 @@
 
 namespace vibrotrough::theory {
 
+struct Conveyor;  // see conveyor.hpp
+
 /// The phases of a mode in order, three bits per phase, as stored in a map. 0 means that there is no mode.
 using ModeCode = std::uint64_t;
 
@@ -17,17 +19,21 @@ std::string to_string(ModeCode code);
 /// Appends a phase to the code of a mode that has `length` phases so far.
 ModeCode append_phase(ModeCode code, PhaseKind kind, int length);
 
+/// The code of the mode of a motion.
+ModeCode mode_code(Motion const& motion);
+
 /// The result for one point of many.
 struct Efficiency {
     double velocity_efficiency;  ///< eta, as in Motion; error below 1e-9
     ModeCode mode;               ///< phases of one period; 0 when the motion does not settle
     int period_cycles;           ///< cycles after which the motion repeats; 0 when it does not settle
     Outcome outcome;             ///< how the long run ends
+    double half_width = 0;       ///< of the 95 % confidence interval of eta if no period was found
 };
 
-/// Solves many plastic point masses (see solve()) one after another, fast. It reuses what neighbouring points
-/// share: the flight of the last throw number, and the last periodic motion as a first guess. The guesses
-/// change the cost but not the result beyond the stated error, because every root is still bracketed.
+/// Solves many point masses or conveyors (see solve()) one after another, fast. It reuses what neighbouring
+/// points share: the flights of the last throw number, and the last periodic motion as a first guess. The
+/// guesses change the cost but not the result beyond the stated error, because every root is still bracketed.
 ///
 /// Use one solver per thread. It is fastest when the throw number is the outermost loop.
 class EfficiencySolver {
@@ -41,6 +47,9 @@ class EfficiencySolver {
 
     /// @throws std::invalid_argument, PhaseError as solve() does
     Efficiency operator()(PointMass const& input);
+    /// The same for the general model. Extreme values, and motions that are marginal or have no period, take
+    /// as long as solve(Conveyor). @throws std::invalid_argument, PhaseError as solve(Conveyor) does
+    Efficiency solve(Conveyor const& input);
 
   private:
     struct Memory;

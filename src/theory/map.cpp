@@ -20,13 +20,6 @@ namespace {
 constexpr int bisections = 30;          // of an edge of the grid: to 1e-9 of its length
 constexpr int bisections_general = 12;  // for models that cost a thousand times more: to 2e-4 of it
 
-ModeCode mode_code(Motion const& motion) {
-    ModeCode code = 0;
-    int length = 0;
-    for (Phase const& phase : motion.phases) code = append_phase(code, phase.kind, length++);
-    return code;
-}
-
 /// A chain of rebounds counts as one flight in a map, because the number of rebounds changes from point to
 /// point.
 ModeCode with_chains_joined(ModeCode code) {
@@ -161,9 +154,8 @@ MapPoint PointSolver::operator()(Inputs const& inputs) {
         Efficiency const e = point_mass_(inputs.point());
         return {e.velocity_efficiency, 0, e.mode, e.period_cycles, e.outcome};
     }
-    ConveyorMotion const m = solve(inputs.conveyor());
-    return {m.motion.velocity_efficiency, m.half_width, mode_code(m.motion), m.motion.period_cycles,
-            m.motion.outcome};
+    Efficiency const e = point_mass_.solve(inputs.conveyor());
+    return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
 }
 
 std::size_t count_untested(std::vector<Inputs> const& inputs) {

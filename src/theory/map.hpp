@@ -53,11 +53,10 @@ struct MapOptions {
 
 /// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).
 ///
-/// The plastic point mass is solved by EfficiencySolver and everything else by solve(Conveyor), which is a
-/// hundred to a thousand times slower. The boundary between two modes is located by bisection along every
-/// edge of the grid whose end points differ in mode, to 1e-9 of the edge (2e-4 for models other than the
-/// plastic point mass), if the period is one or two cycles. A chain of rebounds counts as one flight in a
-/// map.
+/// Point masses and conveyors are solved by EfficiencySolver. The boundary between two modes is located by
+/// bisection along every edge of the grid whose end points differ in mode, to 1e-9 of the edge (2e-4 for
+/// models other than the plastic point mass), if the period is one or two cycles. A chain of rebounds counts
+/// as one flight in a map.
 ///
 /// @throws std::invalid_argument when the inputs are incomplete, an axis is also given as a fixed input, or a
 /// value is out of range, also one of the law; PhaseError when a point cannot be solved

@@ -18,7 +18,7 @@ using detail::RollingState;
 using detail::RollingWalk;
 using detail::two_pi;
 
-constexpr double settled = 1e-11;        // omega r cos(beta): change of the state from period to period
+constexpr double settled = 1e-12;        // omega r cos(beta): change of the state from period to period
 constexpr int most_periods = 3000;       // of the map, before a mean is given instead
 constexpr double shortest_phase = 1e-9;  // rad; shorter phases are rounding errors, not motion
 
@@ -52,23 +52,6 @@ std::string inputs_text(RollingLayer const& layer) {
     return text;
 }
 
-/// One period as a map of the state at its start.
-class PeriodMap {
-  public:
-    PeriodMap(RollingWalk const& walk, RollingNormal const& normal) : walk_(walk), normal_(normal) {}
-    RollingState operator()(RollingState s) {
-        travel_ = 0;
-        return walk_.follow(normal_, s, travel_, nullptr);
-    }
-    /// What the layer moved in the last period, in r cos(beta).
-    double travel() const { return travel_; }
-
-  private:
-    RollingWalk const& walk_;
-    RollingNormal const& normal_;
-    double travel_ = 0;
-};
-
 double size(RollingState const& s) {
     return std::hypot(s.v, s.w);
 }
@@ -93,6 +76,8 @@ class Search {
         known_ = true;
         return {s.v + step_.v, s.w + step_.w};
     }
+    /// Forgets the states, but not how changes depend on them.
+    void restart() { known_ = false; }
     /// The distance to the state that repeats, as far as it is known after propose().
     double distance() const { return size(step_); }
 
@@ -121,10 +106,10 @@ class Search {
 };
 
 /// Goes from period to period until the state repeats. @return whether it does
-bool settle(PeriodMap& map, RollingState& s) {
-    Search search;
+bool settle(RollingWalk const& walk, RollingNormal const& normal, Search& search, RollingState& s) {
+    search.restart();
     for (int i = 0; i < most_periods; ++i) {
-        RollingState const next = map(s), change{next.v - s.v, next.w - s.w};
+        RollingState const next = walk.follow(normal, s, nullptr), change{next.v - s.v, next.w - s.w};
         double const scale = settled * (1 + std::abs(next.v));
         if (i % 100 == 99) search = Search{};
         RollingState const proposed = search.propose(s, change);
@@ -279,6 +264,8 @@ struct RollingLayerSolver::Memory {
     RollingLaw law;
     double throw_number = 0;  // that `normal` belongs to
     RollingNormal normal;
+    RollingState state{}, state_before{};  // at the start of the period, for the last two points
+    Search search;                         // for the last one
 
     RollingMotion solve(PointMass const& point);
 };
@@ -293,20 +280,25 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     }
     RollingLayer const layer{point, law};
     RollingWalk const walk(layer);
-    PeriodMap map(walk, normal);
-    RollingState s{};
     double const length = normal.pieces.back().end - normal.pieces.front().start;
-    bool const repeats = settle(map, s) && normal.cycles > 0;
+    // The next point probably changes as much as the last one.
+    RollingState s{2 * state.v - state_before.v, 2 * state.w - state_before.w};
+    bool const settled = settle(walk, normal, search, s);
+    state_before = settled ? state : RollingState{};
+    state = settled ? s : RollingState{};
+    if (!settled) search = {};
+    bool const repeats = settled && normal.cycles > 0;
     RollingMotion answer{};
     auto period = std::make_shared<RollingPeriod>();
-    double travel = 0;
-    walk.follow(normal, s, travel, &period->phases);
-    answer.motion.velocity_efficiency = travel / length;
+    RollingWalk::Record record;
+    walk.follow(normal, s, &record);
+    answer.motion.velocity_efficiency = record.travel / length;
     if (!repeats) {
         answer.motion.outcome = Outcome::unsettled;
         return answer;
     }
     answer.motion.outcome = Outcome::periodic;
+    period->phases = std::move(record.phases);
     period->layer = layer;
     period->start = normal.pieces.front().start;
     period->end = normal.pieces.back().end;

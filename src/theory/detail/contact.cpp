@@ -1,19 +1,6 @@
 #include "theory/detail/contact.hpp"
 
 namespace vibrotrough::theory::detail {
-namespace {
-
-constexpr double root_step =
-    3e-6;  // a Halley step of this size leaves an error of its cube, which is below rounding
-
-/// Sine and cosine a small step later, by Taylor expansion: exact to rounding for |d| <= root_step.
-Instant shifted(Instant a, double d) {
-    double const half = d * d / 2;
-    return {a.t + d, a.sine * (1 - half) + a.cosine * d, a.cosine * (1 - half) - a.sine * d};
-}
-
-}  // namespace
-
 Slide::Slide(double sign, double b, double c) : sign_(sign), b_(b), c_(c) {
     double const size = std::abs(b);
     if (!(c < size)) return;  // always decelerates

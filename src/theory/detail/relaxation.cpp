@@ -26,7 +26,7 @@ Relaxation::Relaxation(double rate, ContactForce const& force, double first) : r
     sine_ = (rate * force.sine + force.cosine) / size;
     cosine_ = (rate * force.cosine - force.sine) / size;
     mean_ = rate > 0 ? force.constant / rate : 0;
-    wave_ = std::hypot(sine_, cosine_);
+    wave_ = std::sqrt(sine_ * sine_ + cosine_ * cosine_);
     free_ = first - mean_ - sine_ * std::sin(force.start) - cosine_ * std::cos(force.start);
 }
 
@@ -73,6 +73,21 @@ Relaxation::At Relaxation::at(Clock const& c) const {
             .rate = sine_ * c.cosine - cosine_ * c.sine - rate_ * own + drive,
             .bend = wave_ + bend,
             .jerk = wave_ + rate_ * bend + second};
+}
+
+std::optional<PhaseSum> Relaxation::sum() const {
+    PhaseSum s{.constant = mean_, .slope = 0, .sine = sine_, .cosine = cosine_};
+    (rate_ > 0 ? s.decays[0] : s.constant) += free_;
+    if (!(rate_ > 0)) s.slope = force_.constant;
+    for (std::size_t i = 0; i < force_.decays.size(); ++i) {
+        Decay const& d = force_.decays[i];
+        if (d.amplitude == 0) continue;
+        double const gap = d.rate - rate_;
+        if (std::abs(gap) < 1e-3 * d.rate) return std::nullopt;
+        s.decays[i + 1] = -d.amplitude / gap;
+        (rate_ > 0 ? s.decays[0] : s.constant) += d.amplitude / gap;
+    }
+    return s;
 }
 
 double Relaxation::travel(double t) const {

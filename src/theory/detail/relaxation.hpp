@@ -1,6 +1,9 @@
 #pragma once
 
+#include "theory/detail/phase_sum.hpp"
 #include "theory/detail/rolling_normal.hpp"
+
+#include <optional>
 
 // Internal to this room.
 namespace vibrotrough::theory::detail {
@@ -31,6 +34,9 @@ class Relaxation {
     /// @param clock  made with a force that has the same start and decay rates
     At at(Clock const& clock) const;
     double operator()(double t) const;
+    /// x as a sum whose first decay has the rate of x and the others those of the force; nothing when two
+    /// rates are so close that their amplitudes would cancel.
+    std::optional<PhaseSum> sum() const;
     /// The integral of x from the start to t.
     double travel(double t) const;
 

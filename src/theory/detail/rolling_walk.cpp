@@ -19,6 +19,24 @@ int sign(double x) {
     return (x > 0) - (x < 0);
 }
 
+/// The first time in [start, end] at which a margin reaches zero, and which one it is; -1: none.
+template <std::size_t N, class Margins>
+double first_end(Margins const& margins, double start, double end, int& what) {
+    auto const first = margins(start);
+    double from = start;
+    for (std::size_t k = 0; k < N; ++k) {
+        if (first[k].value > starts_at_zero) continue;
+        if (first[k].rate < -steep) {
+            what = static_cast<int>(k);
+            return start;
+        }
+        from = std::min(start + first_step, end);
+    }
+    auto const found = first_of_zeros<N>(margins, from, end);
+    what = found.which;
+    return found.t;
+}
+
 ContactForce sum(ContactForce force, double factor, double constant, double sine) {
     force = force.scaled(factor);
     force.constant += constant;
@@ -38,13 +56,20 @@ RollingWalk::RollingWalk(RollingLayer const& layer)
       no_spin_(std::isinf(layer.law.torque)) {}
 
 Relaxation RollingWalk::velocity(RollingPhase const& p) const {
-    if (p.slip == 0 && p.contact) return spin(p);
-    double const push = p.contact ? -p.slip * friction_ * tangent_ : 0;
-    return {0, sum(p.normal.force.from(p.start), push, -gravity_, 1), p.velocity};
+    return velocity(p, p.normal.force.from(p.start));
 }
 
 Relaxation RollingWalk::spin(RollingPhase const& p) const {
-    ContactForce const n = p.normal.force.from(p.start);
+    return spin(p, p.normal.force.from(p.start));
+}
+
+Relaxation RollingWalk::velocity(RollingPhase const& p, ContactForce const& n) const {
+    if (p.slip == 0 && p.contact) return spin(p, n);
+    double const push = p.contact ? -p.slip * friction_ * tangent_ : 0;
+    return {0, sum(n, push, -gravity_, 1), p.velocity};
+}
+
+Relaxation RollingWalk::spin(RollingPhase const& p, ContactForce const& n) const {
     if (!p.contact) {
         ContactForce none{.start = p.start};
         return {no_spin_ ? 0 : torque_ / inertia_, none, p.spin};
@@ -102,42 +127,54 @@ RollingPhase RollingWalk::from_no_slip(RollingPhase p, double normal_force, int 
     return p;
 }
 
-double RollingWalk::end_of(RollingPhase const& p, double end, int& what) const {
+double RollingWalk::end_of(RollingPhase const& p, Forces const& f, double end, int& what) const {
     what = of_piece;
     if (!p.contact) return end;
-    Relaxation const v = velocity(p), w = spin(p);
-    ContactForce const n = p.normal.force.from(p.start);
-    auto const search = [&](auto const& margins) {
-        auto const first = margins(p.start);
-        double from = p.start;
-        for (std::size_t k = 0; k < first.size(); ++k) {
-            if (first[k].value > starts_at_zero) continue;
-            if (first[k].rate < -steep) {
-                what = static_cast<int>(k);
-                return p.start;
-            }
-            from = std::min(p.start + first_step, end);
-        }
-        auto const found =
-            first_of_zeros<std::tuple_size_v<std::decay_t<decltype(first)>>>(margins, from, end);
-        what = found.which;
-        return found.t;
-    };
+    auto const w = f.w.sum(), v = p.slip == 0 ? w : f.v.sum();
+    if (!v || !w) return end_of_close_rates(p, f, end, what);
+    // The first decay of the phase: v has none of its own while it slips.
+    double const own = p.turn == 0 ? 0 : torque_ / (p.slip == 0 ? 1 + inertia_ : inertia_);
+    PhaseBasis const basis{p.start, {own, f.n.decays[0].rate, f.n.decays[1].rate}};
+    Margin const turning = p.turn == 0 ? Margin() : Margin(PhaseSum{}.add(p.turn, *w));
     if (p.slip != 0) {
-        double const to = search([&](double t) {
-            Clock const clock = Clock::at(t, n);
-            auto const a = v.at(clock), b = w.at(clock);
-            return std::array{
-                p.turn == 0 ? never
-                            : Sample{.value = p.turn * b.value, .rate = p.turn * b.rate, .bend = b.bend},
-                Sample{.value = p.slip * (a.value - b.value),
-                       .rate = p.slip * (a.rate - b.rate),
-                       .bend = a.bend + b.bend}};
-        });
+        Margin const slipping(PhaseSum{}.add(p.slip, *v).add(-p.slip, *w));
+        double const to = first_end<2>({turning, slipping}, basis, p.start, end, what);
         what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
         return to;
     }
-    double const to = search([&](double t) { return without_slip(p, n, w, t); });
+    double const limit =
+        (p.turn == 0 ? std::min(friction_, no_spin_ ? friction_ : dry_) : friction_) * tangent_;
+    PhaseSum const force{
+        f.n.constant, 0, f.n.sine, f.n.cosine, {0, f.n.decays[0].amplitude, f.n.decays[1].amplitude}};
+    PhaseSum needed = w->derivative(basis);
+    needed.add(1, {.constant = gravity_, .sine = -1});
+    Margin const forwards(PhaseSum{}.add(-1, needed).add(limit, force));
+    Margin const backwards(PhaseSum(needed).add(limit, force));
+    double const to = first_end<3>({turning, forwards, backwards}, basis, p.start, end, what);
+    constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
+    what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
+    return to;
+}
+
+double RollingWalk::end_of_close_rates(RollingPhase const& p, Forces const& f, double end, int& what) const {
+    if (p.slip != 0) {
+        double const to = first_end<2>(
+            [&](double t) {
+                Clock const clock = Clock::at(t, f.n);
+                auto const a = f.v.at(clock), b = f.w.at(clock);
+                return std::array{
+                    p.turn == 0 ? never
+                                : Sample{.value = p.turn * b.value, .rate = p.turn * b.rate, .bend = b.bend},
+                    Sample{.value = p.slip * (a.value - b.value),
+                           .rate = p.slip * (a.rate - b.rate),
+                           .bend = a.bend + b.bend}};
+            },
+            p.start, end, what);
+        what = what < 0 ? of_piece : what == 0 ? spin_stops : slip_stops;
+        return to;
+    }
+    double const to =
+        first_end<3>([&](double t) { return without_slip(p, f.n, f.w, t); }, p.start, end, what);
     constexpr std::array ends{spin_stops, friction_forwards, friction_backwards};
     what = what < 0 ? of_piece : ends[static_cast<std::size_t>(what)];
     return to;
@@ -213,8 +250,7 @@ RollingState RollingWalk::land(RollingState s, double impulse) const {
     return s;
 }
 
-RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, double& travel,
-                                 std::vector<RollingPhase>* phases) const {
+RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Record* record) const {
     for (NormalPiece const& piece : normal.pieces) {
         if (no_spin_) s.w = 0;
         if (piece.impulse > 0) s = land(s, piece.impulse);
@@ -223,17 +259,19 @@ RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, do
         for (int i = 0; t < piece.end; ++i) {
             if (i > most_phases) throw PhaseError("the floor grains chatter between rolling and sliding");
             RollingPhase p = next_phase(piece, t, s, leaving);
+            ContactForce const n = piece.force.from(t);
+            Forces const f{n, velocity(p, n), spin(p, n)};
             int what = of_piece;
-            p.end = end_of(p, piece.end, what);
-            Relaxation const v = velocity(p), w = spin(p);
-            travel += v.travel(p.end);
-            s = {v(p.end), p.turn == 0 && p.contact ? 0 : w(p.end)};
+            p.end = end_of(p, f, piece.end, what);
+            s = {f.v(p.end), p.turn == 0 && p.contact ? 0 : f.w(p.end)};
             if (p.contact && p.slip == 0) s.v = s.w;
             if (what == spin_stops) s = {p.slip == 0 ? 0 : s.v, 0};
             if (what == slip_stops) s.v = s.w;
             leaving = what == friction_forwards ? 1 : what == friction_backwards ? -1 : 0;
             t = p.end;
-            if (phases != nullptr && p.end > p.start) phases->push_back(p);
+            if (record == nullptr) continue;
+            record->travel += f.v.travel(p.end);
+            if (p.end > p.start) record->phases.push_back(p);
         }
     }
     return s;

@@ -39,10 +39,13 @@ class RollingWalk {
   public:
     explicit RollingWalk(RollingLayer const& layer);
 
-    /// The state after the pieces, from that before them; adds to `travel` what the layer moved, and keeps
-    /// the phases when asked for.
-    RollingState follow(RollingNormal const& normal, RollingState s, double& travel,
-                        std::vector<RollingPhase>* phases) const;
+    /// What the layer did in a period.
+    struct Record {
+        double travel = 0;                 ///< r cos(beta)
+        std::vector<RollingPhase> phases;  ///< in order
+    };
+    /// The state after the pieces, from that before them. @param record  nothing when it is not needed
+    RollingState follow(RollingNormal const& normal, RollingState s, Record* record) const;
     /// The velocity of the layer within a phase, from its start.
     Relaxation velocity(RollingPhase const& phase) const;
     /// The spin within a phase.
@@ -53,7 +56,16 @@ class RollingWalk {
   private:
     RollingPhase next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const;
     RollingPhase from_no_slip(RollingPhase phase, double normal_force, int leaving) const;
-    double end_of(RollingPhase const& phase, double end, int& what) const;
+    /// The velocities of a phase and the contact force, with the decays counted from its start.
+    struct Forces {
+        ContactForce n;
+        Relaxation v, w;
+    };
+    Relaxation velocity(RollingPhase const& phase, ContactForce const& n) const;
+    Relaxation spin(RollingPhase const& phase, ContactForce const& n) const;
+    double end_of(RollingPhase const& phase, Forces const& f, double end, int& what) const;
+    /// The same for decays with about equal rates.
+    double end_of_close_rates(RollingPhase const& phase, Forces const& f, double end, int& what) const;
     std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
                                        double t) const;
     RollingState land(RollingState s, double impulse) const;
