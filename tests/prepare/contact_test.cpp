@@ -88,14 +88,16 @@ TEST(Contact, PullOffIsTheLeastNetForce) {
     EXPECT_EQ(pull_off_force(grains, 0, pair), 0);
 }
 
-// 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d = F.
+// 4/3 E* sqrt(R*) d^(3/2) - 2 pi R* w d = F. E* has seven digits here, so that the two parts, which may be
+// much larger than F, cancel to 1e-6 of either.
 TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
     for (char const* cohesion : {"0 J/m3", "20 kJ/m3", "200 kJ/m3"}) {
         scenario::Scenario const s = scenario(std::string("cohesion = \"") + cohesion + "\"\n");
         ContactPair const pair = grain_on_trough(s.grains, 0.0015);
         for (double const force : {0.0, 1e-4, 1e-2}) {
             double const overlap = overlap_under_force(s, pair, force, 1);
-            EXPECT_NEAR(net_force(pair, s.engine.cohesion, overlap), force, 1e-6 * (force + 1e-4));
+            double const part = force + 2 * pi * pair.radius * s.engine.cohesion * overlap;
+            EXPECT_NEAR(net_force(pair, s.engine.cohesion, overlap), force, 1e-6 * part);
         }
     }
     // Hooke: (k - 2 pi R* w) d = F; no balance when the attraction is stronger than the spring.

@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "scenario/example_campaign.hpp"
+#include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -21,10 +21,6 @@ FileSource const files{{},
 
 Campaign campaign(std::string const& engine, std::string const& text = example_campaign) {
     return parse_campaign(text + "[engine]\n" + engine, "test.toml", files);
-}
-
-EnginePlan plan(std::string const& engine) {
-    return campaign(engine).cases.front().engine;
 }
 
 std::string error_of(std::string const& engine, FileSource const& source = files,
