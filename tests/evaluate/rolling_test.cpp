@@ -5,6 +5,8 @@
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 namespace vibrotrough::campaign {

@@ -2,6 +2,9 @@
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <array>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
