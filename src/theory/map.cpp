@@ -58,13 +58,19 @@ class Grid {
             at(i, j) = solve(map_.x.value(i), map_.y.value(j), solver);
         }
     }
-    void locate_boundaries(int row, PointSolver& solver, std::vector<BoundaryPiece>& found) const;
-
-  private:
     struct Crossing {
         double x, y;
         ModeCode mode_a, mode_b;
     };
+    /// The crossings of the edges that the next row of cells shares with the last one.
+    struct SharedEdges {
+        int row = -1;                                             ///< the lower row of these edges' points
+        std::vector<std::optional<std::optional<Crossing>>> all;  ///< by column; nothing: not known yet
+    };
+    void locate_boundaries(int row, PointSolver& solver, SharedEdges& lower,
+                           std::vector<BoundaryPiece>& found) const;
+
+  private:
     std::optional<Crossing> crossing(int i0, int j0, int i1, int j1, PointSolver& solver) const;
 
     Inputs fixed_;
@@ -95,9 +101,15 @@ std::optional<Grid::Crossing> Grid::crossing(int i0, int j0, int i1, int j1, Poi
     return Crossing{x0 + s * dx, y0 + s * dy, a, beyond};
 }
 
-void Grid::locate_boundaries(int j, PointSolver& solver, std::vector<BoundaryPiece>& found) const {
+void Grid::locate_boundaries(int j, PointSolver& solver, SharedEdges& lower,
+                             std::vector<BoundaryPiece>& found) const {
+    auto const columns = static_cast<std::size_t>(map_.x.count);
+    if (lower.row != j) lower.all.assign(columns, std::nullopt);
+    SharedEdges upper{j + 1, std::vector<std::optional<std::optional<Crossing>>>(columns)};
+    std::optional<std::optional<Crossing>> left;  // of this cell, from the one before
     for (int i = 0; i + 1 < map_.x.count; ++i) {
         ModeCode const corner = at(i, j).mode;
+        auto const before = std::exchange(left, std::nullopt);
         bool periodic =
             true;  // modes with long periods or none change everywhere: do not draw boundaries there
         for (MapPoint const* p : {&at(i, j), &at(i + 1, j), &at(i, j + 1), &at(i + 1, j + 1)}) {
@@ -106,9 +118,13 @@ void Grid::locate_boundaries(int j, PointSolver& solver, std::vector<BoundaryPie
         if (!periodic) continue;
         if (corner == at(i + 1, j).mode && corner == at(i, j + 1).mode && corner == at(i + 1, j + 1).mode)
             continue;
+        auto const column = static_cast<std::size_t>(i);
+        auto const& below = lower.all[column];
         std::array<std::optional<Crossing>, 4> const edges{
-            crossing(i, j, i + 1, j, solver), crossing(i + 1, j, i + 1, j + 1, solver),
-            crossing(i, j + 1, i + 1, j + 1, solver), crossing(i, j, i, j + 1, solver)};
+            below ? *below : crossing(i, j, i + 1, j, solver), crossing(i + 1, j, i + 1, j + 1, solver),
+            crossing(i, j + 1, i + 1, j + 1, solver), before ? *before : crossing(i, j, i, j + 1, solver)};
+        left = edges[1];
+        upper.all[column] = edges[2];
         std::vector<Crossing> points;
         for (auto const& edge : edges) {
             if (edge) points.push_back(*edge);
@@ -125,13 +141,20 @@ void Grid::locate_boundaries(int j, PointSolver& solver, std::vector<BoundaryPie
         }
         for (Crossing const& p : points) found.push_back({p.x, p.y, x, y, p.mode_a, p.mode_b});
     }
+    lower = std::move(upper);
 }
+
+/// What one thread keeps from line to line.
+struct Worker {
+    PointSolver solver;
+    Grid::SharedEdges edges{};
+};
 
 template <class Work>
 void for_lines(int lines, std::optional<RollingLaw> const& rolling, Work const& work) {
     tbb::parallel_for(tbb::blocked_range<int>(0, lines, 4), [&](tbb::blocked_range<int> const& range) {
-        PointSolver solver(rolling);
-        for (int line = range.begin(); line < range.end(); ++line) work(line, solver);
+        Worker worker{PointSolver(rolling)};
+        for (int line = range.begin(); line < range.end(); ++line) work(line, worker);
     });
 }
 
@@ -200,15 +223,15 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
     std::clock_t const start = std::clock();
     arena.execute([&] {
         for_lines(along_y ? x.count : y.count, options.rolling,
-                  [&](int line, PointSolver& solver) { grid.solve_line(line, along_y, solver); });
+                  [&](int line, Worker& worker) { grid.solve_line(line, along_y, worker.solver); });
     });
     map.cpu_seconds_per_solution =
         static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(map.points.size());
     if (!options.boundaries || y.count < 2) return map;
     std::vector<std::vector<BoundaryPiece>> found(static_cast<std::size_t>(y.count - 1));
     arena.execute([&] {
-        for_lines(y.count - 1, options.rolling, [&](int line, PointSolver& solver) {
-            grid.locate_boundaries(line, solver, found[static_cast<std::size_t>(line)]);
+        for_lines(y.count - 1, options.rolling, [&](int line, Worker& worker) {
+            grid.locate_boundaries(line, worker.solver, worker.edges, found[static_cast<std::size_t>(line)]);
         });
     });
     for (auto const& row : found) map.boundaries.insert(map.boundaries.end(), row.begin(), row.end());

@@ -1,4 +1,5 @@
 #include "theory/conveyor.hpp"
+#include "theory/detail/wave.hpp"
 #include "theory/efficiency.hpp"
 
 #include <algorithm>
@@ -101,6 +102,58 @@ TEST(ConveyorEfficiency, OfASlideThatNeverEnds) {
     EXPECT_NEAR(EfficiencySolver().solve(c).velocity_efficiency, expected, 1e-9 * expected);
     EXPECT_NEAR(solve(c).motion.velocity_efficiency, expected, 1e-8 * expected);
     EXPECT_EQ(solve(c).motion.mode, "P");
+}
+
+// Without a period both solvers give means of chaotic motions that have nothing but the machine in common:
+// they differ by less than their intervals together, and the fast one stops when its half-width is 0.01 or
+// after as many batches as the other one. Allowed to fail: one of the 95 % intervals of about ten motions.
+TEST(ConveyorEfficiency, KnowsTheMeanWithoutAPeriod) {
+    int without = 0, apart = 0;
+    EfficiencySolver solver;
+    for (double throw_number = 4; throw_number < 8; throw_number += 0.25) {
+        Conveyor c{};
+        c.point = {throw_number, 0.5, 0, 0.3};
+        c.restitution = 0.8;
+        Efficiency const fast = solver.solve(c);
+        ConveyorMotion const walk = solve(c);
+        if (walk.motion.outcome != Outcome::unsettled) continue;
+        ++without;
+        EXPECT_EQ(fast.outcome, Outcome::unsettled);
+        EXPECT_GT(fast.half_width, 0);
+        EXPECT_LT(fast.half_width, 0.2);
+        double const differ = std::abs(fast.velocity_efficiency - walk.motion.velocity_efficiency);
+        apart += differ > fast.half_width + walk.half_width ? 1 : 0;
+    }
+    EXPECT_GT(without, 5);
+    EXPECT_LE(apart, 1);
+}
+
+// A sum with overtones has a zero wherever 20000 equal steps show a change of sign, and nowhere else. Between
+// zeros the sign is the one that the section says. Tolerance: rounding of a sum of order 10 with derivatives
+// up to 100.
+TEST(Crossings, AreAllZerosOfASum) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<> number(-1, 1);
+    for (int i = 0; i < 200; ++i) {
+        detail::Wave wave;
+        wave.constant = number(random);
+        wave.sine = number(random);
+        wave.cosine = number(random);
+        if (i % 4 != 0)
+            wave.overtones = {{2 + i % 3, number(random), number(random)}, {10, 0.1, number(random)}};
+        detail::Crossings crossings;
+        crossings.find(wave);
+        int changes = 0;
+        for (int k = 0; k < 20000; ++k) {
+            double const a = 2 * pi * k / 20000, b = 2 * pi * (k + 1) / 20000;
+            bool const before = wave(detail::Instant::at(a)) > 0, after = wave(detail::Instant::at(b)) > 0;
+            changes += before != after ? 1 : 0;
+            auto const section = crossings.at((a + b) / 2 + 2 * pi * (i % 3));
+            EXPECT_TRUE(before != after || section.positive == before) << i << ' ' << k;
+        }
+        EXPECT_EQ(crossings.count(), static_cast<std::size_t>(changes)) << i;
+        for (auto const& zero : crossings.zeros()) EXPECT_NEAR(wave(zero), 0, 1e-13);
+    }
 }
 
 }  // namespace
