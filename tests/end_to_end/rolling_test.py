@@ -201,7 +201,7 @@ class Rolling(EndToEndTest):
         self.assertEqual(line["contacts"], near[touches].sum())
 
     def test_measuring_does_not_touch_the_motion(self):
-        """Every digit of the cycles and of the phases, across a checkpoint, for each kind of rotation and for two ranks' worth of forces."""
+        """Every digit of the cycles and of the phases, across a checkpoint, for each kind of rotation."""
         kinds = ({}, {"grains.rotation": "blocked"}, {"grains.rotation": "rolling", "grains.rolling_friction": 0.1})
         for kind in kinds:
             with self.subTest(kind):
