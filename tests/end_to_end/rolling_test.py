@@ -201,7 +201,7 @@ class Rolling(EndToEndTest):
         self.assertEqual(line["contacts"], near[touches].sum())
 
     def test_measuring_does_not_touch_the_motion(self):
-        """Every digit of the cycles and of the phases, across a checkpoint, for each kind of rotation and for two ranks' worth of forces."""
+        """Every digit of the cycles and of the phases, across a checkpoint, for each kind of rotation."""
         kinds = ({}, {"grains.rotation": "blocked"}, {"grains.rotation": "rolling", "grains.rolling_friction": 0.1})
         for kind in kinds:
             with self.subTest(kind):
@@ -281,7 +281,7 @@ class Rolling(EndToEndTest):
             self.assertIn(words, self.call("status", self.output).stdout)
 
     def test_where_it_cannot_be_measured(self):
-        for changes in ({"grains.shape": "cube"}, {"trough.side_wall_friction": 0.3}, {"layer.grains": None, "layer.block": "point", "grains.diameter_spread": 0}):
+        for changes in ({"grains.shape": "cube", "grains.diameter_spread": 0}, {"trough.side_wall_friction": 0.3}, {"layer.grains": None, "layer.block": "point", "grains.diameter_spread": 0}):
             campaign = self.write_campaign(LAYER | changes)
             done = self.call("check", campaign)
             self.assert_one_line_error(done, 2, "measure.rolling", "only in layers of spheres")

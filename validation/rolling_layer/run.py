@@ -11,6 +11,7 @@ import numpy as np
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
+import contacts  # noqa: E402
 import draw  # noqa: E402
 import held_out  # noqa: E402
 import tables  # noqa: E402
@@ -29,6 +30,7 @@ THEORIES: dict[str, Mapping[str, float] | None] = {"A0": {}, POINT_MASS: None, "
 
 def measure(run: ValidationCase) -> None:
     """Simulates what is held out; of four layers and of two of the held-out groups the mean curves over the cycle are kept, too."""
+    measure_contacts(run)
     rows, curves = [], []
     table = run.campaign("phases", FEW_PACKINGS, PHASES)
     for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
@@ -42,6 +44,16 @@ def measure(run: ValidationCase) -> None:
                 curves += phase_rows(run, name, row, "blocked" if group == held_out.BLOCKED else "free")
         run.write_table("held_out.csv", COLUMNS, rows)  # after each group: what there is can be judged
         run.write_table("phases.csv", draw.PHASE_COLUMNS, curves)
+
+
+def measure_contacts(run: ValidationCase) -> None:
+    """The contacts at the floor of the four layers, measured by the engine."""
+    rows = []
+    table = run.campaign("contacts", {**FEW_PACKINGS, **contacts.MEASURED}, PHASES)
+    for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
+        result = vibrotrough.open_result(run.runs / "contacts" / "cases" / row["case"] / "result.h5")
+        rows += contacts.contact_rows(result, row, rotation)
+    run.write_table(contacts.TABLE, contacts.COLUMNS, rows)
 
 
 def phase_rows(run: ValidationCase, campaign: str, row: Row, rotation: str) -> list[list[object]]:
@@ -143,6 +155,7 @@ def main() -> None:
     refit(run)
     judge_laws(run)
     judge_phases(run)
+    contacts.judge_contacts(run)
     run.finish()
 
 
