@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 import vibrotrough
-from figure_portraits import finish, has
-from figure_style import COLOURS, DASHES, GREY, new_figure, plain_axes, save
+from figure_portraits import has
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -81,5 +81,7 @@ def plot_rolling(source: "Source", case: str, result: vibrotrough.File, output: 
     draw_curves(axes[2][1], c.cycles, [("first diameter", c["first_fraction"], 0), ("second diameter", c["second_fraction"], 6)], "solid fraction  [-]")
     for one in axes[2]:
         one.set_xlabel("time in cycles, t / T  [-]")
-    finish(figure, source, case, axes[2][1])
+    figure.suptitle(case_title(source.row_of(case)), fontsize=10)
+    corner(figure, source.attributes)
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, output)
