@@ -18,7 +18,7 @@ using detail::RollingState;
 using detail::RollingWalk;
 using detail::two_pi;
 
-constexpr double settled = 1e-12;        // omega r cos(beta): change of the state from period to period
+constexpr double settled = 1e-11;        // omega r cos(beta): change of the state from period to period
 constexpr int most_periods = 3000;       // of the map, before a mean is given instead
 constexpr double shortest_phase = 1e-9;  // rad; shorter phases are rounding errors, not motion
 
@@ -108,6 +108,7 @@ class Search {
 /// Goes from period to period until the state repeats. @return whether it does
 bool settle(RollingWalk const& walk, RollingNormal const& normal, Search& search, RollingState& s) {
     search.restart();
+    bool close = false;
     for (int i = 0; i < most_periods; ++i) {
         RollingState const next = walk.follow(normal, s, nullptr), change{next.v - s.v, next.w - s.w};
         double const scale = settled * (1 + std::abs(next.v));
@@ -115,8 +116,9 @@ bool settle(RollingWalk const& walk, RollingNormal const& normal, Search& search
         RollingState const proposed = search.propose(s, change);
         bool const plain = i % 100 >= 80;
         s = plain ? next : proposed;
-        if (size(change) <= scale && (search.distance() <= 10 * scale || size(change) <= 1e-3 * scale))
-            return true;
+        // One more period makes the answer independent of where the search began.
+        if (close || size(change) <= 1e-3 * scale) return true;
+        close = size(change) <= scale && search.distance() <= 10 * scale;
         if (plain) search = Search{};
     }
     return false;

@@ -95,6 +95,7 @@ class Integrator {
         CVodeSetUserData(cvode_, &problem_);
         CVodeSetNonlinearSolver(cvode_, solver_);
         CVodeSetMaxNumSteps(cvode_, 100000);
+        CVodeSetMaxStep(cvode_, 0.5);  // or it steps over two roots
         CVodeRootInit(cvode_, 3, events);
         CVodeSetNoInactiveRootWarn(cvode_);
     }
@@ -146,7 +147,6 @@ class Integrator {
             u[2] = u[3] = 0;
         } else if (problem_.phase == rest) {
             problem_.phase = problem_.needed(t_) < 0 ? forwards : backwards;
-            u[1] = problem_.phase == forwards ? 1e-14 : -1e-14;
         } else if (found[1] != 0) {
             u[1] = 0;
             problem_.phase = problem_.in_contact(t_, 0);
