@@ -55,7 +55,8 @@ class Measure(EndToEndTest):
         before = sorted(path for path in self.case.rglob("*"))
         done = self.call("measure", ".", cwd=self.case / "packing-1")
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        self.assertRegex(done.stdout, r"velocity efficiency: \d\.\d{4} \+- \d\.\d{4} \(95 %\), from 1 packing of 24 cycles")
+        self.assertRegex(done.stdout, r"  velocity efficiency: \d\.\d{4} \+- \d\.\d{4} \(95 %, from the scatter of its own cycles only\)\n")
+        self.assertRegex(done.stdout, r"velocity efficiency: \d\.\d{4}, with an unbounded interval .*, from 1 packing of 24 cycles")
         self.assertIn("deck: unchanged\n", done.stdout)
         self.assertIn("read: ", done.stdout)
         self.assertEqual(before, sorted(path for path in self.case.rglob("*")))
@@ -107,8 +108,11 @@ class Measure(EndToEndTest):
         shutil.copytree(packing, moved)
         self.assert_one_line_error(self.call("measure", moved), 2, "scenario.toml", "--scenario")
         scenario = self.case / "scenario.toml"
-        here, there = self.measure(packing, 0), self.measure(moved, 0, "--scenario", scenario)
+        here, there = self.measure(packing, 1), self.measure(moved, 1, "--scenario", scenario)
         self.assertEqual(there["efficiency"], here["efficiency"])
+        # One packing does not tell how packings differ: only its own cycles give an interval.
+        self.assertEqual((here["outcome"], here["efficiency_half_width"]), ("not-precise", None))
+        self.assertGreater(here["packings"][0]["own_half_width"], 0)
         # A run that was stopped is measured as far as it is.
         table = moved / "cycles.csv"
         lines = table.read_text().splitlines(keepends=True)

@@ -2,9 +2,12 @@
 #include "app/exit_code.hpp"
 #include "core/text.hpp"
 #include "evaluate/by_hand.hpp"
+#include "measure/estimate.hpp"
 
+#include <cmath>
 #include <memory>
 #include <numeric>
+#include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,13 +34,25 @@ std::optional<double> theory(evaluate::HandRun const& run) {
     return motion.converged ? std::optional(motion.velocity_efficiency) : std::nullopt;
 }
 
-Json describe(evaluate::HandPacking const& packing, int used) {
+/// The mean of one run and the interval that follows from its own cycles, which says nothing of how packings
+/// differ.
+measure::PackingEstimate by_itself(evaluate::HandPacking const& packing,
+                                   scenario::MeasurementPlan const& plan, int used) {
+    std::span const all(packing.efficiency);
+    return measure::estimate_packing(all.first(static_cast<std::size_t>(used)),
+                                     {plan.confidence, plan.half_width});
+}
+
+Json describe(evaluate::HandPacking const& packing, scenario::MeasurementPlan const& plan, int used) {
     auto const first = packing.efficiency.begin();
     double const mean = std::accumulate(first, first + used, 0.0) / used;
+    measure::PackingEstimate const own = by_itself(packing, plan, used);
     return {{"packing", packing.number},
             {"folder", packing.folder.string()},
             {"cycles", packing.cycles},
             {"mean_of_all_cycles_used", mean},
+            {"own_efficiency", own.mean},
+            {"own_half_width", std::isfinite(own.half_width) ? Json(own.half_width) : Json(nullptr)},
             {"mode", packing.mode.empty() ? Json(nullptr) : Json(packing.mode)},
             {"deck", name_of(packing.deck)},
             {"deck_changes", packing.edits},
@@ -54,7 +69,8 @@ void print_json(evaluate::HandRun const& run) {
         return value ? Json(*value * scale) : Json(nullptr);
     };
     Json packings = Json::array();
-    for (evaluate::HandPacking const& one : run.packings) packings.push_back(describe(one, run.cycles_used));
+    for (evaluate::HandPacking const& one : run.packings)
+        packings.push_back(describe(one, run.prepared.scenario.measure, run.cycles_used));
     std::string const open = not_covered(run.prepared.scenario.engine);
     Json const json{{"outcome", name_of(run.outcome)},
                     {"efficiency", number(e.mean)},
@@ -72,9 +88,12 @@ void print_json(evaluate::HandRun const& run) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-void print_packing(evaluate::HandPacking const& packing) {
+void print_packing(evaluate::HandPacking const& packing, scenario::MeasurementPlan const& plan, int used) {
     fmt::print("{}: {} cycles{}\n", core::harmless(packing.folder.string()), packing.cycles,
                packing.mode.empty() ? "" : ", mode " + packing.mode);
+    measure::PackingEstimate const own = by_itself(packing, plan, used);
+    fmt::print("  velocity efficiency: {:.4f} +- {:.4f} ({:g} %, from the scatter of its own cycles only)\n",
+               own.mean, own.half_width, 100 * plan.confidence);
     fmt::print("  end of the run: {}\n", core::harmless(packing.end));
     fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edits.empty() ? "" : ": ",
                core::harmless(fmt::format("{}", fmt::join(packing.edits, "; "))));
@@ -87,14 +106,17 @@ void print_packing(evaluate::HandPacking const& packing) {
 void print_text(evaluate::HandRun const& run) {
     measure::CaseEstimate const& e = run.estimate;
     scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
-    for (evaluate::HandPacking const& one : run.packings) print_packing(one);
+    for (evaluate::HandPacking const& one : run.packings) print_packing(one, plan, run.cycles_used);
     fmt::print("scenario: {}\n", core::harmless(run.scenario_file.string()));
     if (std::string const open = not_covered(run.prepared.scenario.engine); !open.empty())
         fmt::print("not covered by the engine's certificate: {}\n", open);
-    std::string const interval = !e.mean        ? "unknown"
-                                 : e.half_width ? fmt::format("{:.4f} +- {:.4f} ({:g} %)", *e.mean,
-                                                              *e.half_width, 100 * plan.confidence)
-                                                : fmt::format("{:.4f}, with an unbounded interval", *e.mean);
+    std::string const interval =
+        !e.mean ? "unknown"
+        : e.half_width
+            ? fmt::format("{:.4f} +- {:.4f} ({:g} %)", *e.mean, *e.half_width, 100 * plan.confidence)
+            : fmt::format(
+                  "{:.4f}, with an unbounded interval because one packing does not tell how packings differ",
+                  *e.mean);
     fmt::print("velocity efficiency: {}, from {} packing{} of {} cycles, {} of them cut as start-up\n",
                interval, run.packings.size(), run.packings.size() == 1 ? "" : "s", run.cycles_used,
                e.discarded);
