@@ -59,7 +59,8 @@ std::vector<std::string> const contract{"case",
                                         "outcome",
                                         "efficiency_dem_numerical_error",
                                         "numerical_error_case",
-                                        "larger_error"};
+                                        "larger_error",
+                                        "not_covered"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

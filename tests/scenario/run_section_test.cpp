@@ -85,7 +85,7 @@ TEST(RunSection, MistakesNameTheirPlace) {
              {"[run]\nexecutor = 3\n", "is not a text"},
              {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
              {"[run.slurm]\nqueue = \"a\"\n",
-              "partition, account, time, memory, concurrent_tasks, extra, setup"},
+              "partition, account, time, memory, concurrent_tasks, minutes_per_task, extra, setup"},
              {"[run]\nretries = -1\n", "out of range"},
              {"[run]\nranks = 1.5\n", "not a whole number"},
              {"[run.slurm]\ntime = \"3 m\"\n", "run.slurm.time"},
