@@ -94,6 +94,7 @@ class Measure(EndToEndTest):
         self.assertIsNone(found["packings"][0]["fault"])
         # A comment is not a change of what is simulated.
         deck.write_text("# mine\n" + original)
+        self.run_by_hand(packing, ["in.liggghts"])
         found = json.loads(self.call("measure", packing, "--json").stdout)
         self.assertEqual(found["packings"][0]["deck"], "changed in comments or in the speed of the start")
 
@@ -116,7 +117,7 @@ class Measure(EndToEndTest):
         # A run that was stopped is measured as far as it is.
         table = moved / "cycles.csv"
         lines = table.read_text().splitlines(keepends=True)
-        table.write_text("".join(lines[:13]))
+        table.write_text("".join(lines[:14]))
         stopped = self.call("measure", moved, "--scenario", scenario)
         self.assertIn(": 10 cycles", stopped.stdout)
         self.assertIn("a campaign would not count it: outputs-incomplete, phases.csv holds 24 cycles, cycles.csv 10", stopped.stdout)

@@ -162,9 +162,11 @@ Exit codes:
     2  a file is missing or damaged
 
 Example:
+  vibrotrough measure decks/case-001/packing-1
+
+The folder of that example comes from
   vibrotrough deck validation/demo/campaign.toml --output decks
-  cd decks/case-001/packing-1 && liggghts -in settle.liggghts && liggghts -in in.liggghts
-  vibrotrough measure .)");
+  cd decks/case-001/packing-1 && liggghts -in settle.liggghts && liggghts -in in.liggghts)");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

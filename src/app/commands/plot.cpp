@@ -98,7 +98,7 @@ void add_plot(CLI::App& program, int& exit_code) {
   cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded
   portraits   for each case: layer and point mass in phase space
   spin        for each case: spin and slip of the floor grains, and friction, over the cycle
-  rolling     for each case with measure.rolling: spin, slip, forces and torques at the floor over the cycle
+  rolling     for each case with measure.rolling: spin, slip and forces at the floor over the cycle
   profiles    for each case: velocity over height
 
 Prints the path of every file that it wrote. Works while the campaign runs.
