@@ -285,11 +285,11 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     double const length = normal.pieces.back().end - normal.pieces.front().start;
     // The next point probably changes as much as the last one.
     RollingState s{2 * state.v - state_before.v, 2 * state.w - state_before.w};
-    bool const settled = settle(walk, normal, search, s);
-    state_before = settled ? state : RollingState{};
-    state = settled ? s : RollingState{};
-    if (!settled) search = {};
-    bool const repeats = settled && normal.cycles > 0;
+    bool const is_steady = settle(walk, normal, search, s);
+    state_before = is_steady ? state : RollingState{};
+    state = is_steady ? s : RollingState{};
+    if (!is_steady) search = {};
+    bool const repeats = is_steady && normal.cycles > 0;
     RollingMotion answer{};
     auto period = std::make_shared<RollingPeriod>();
     RollingWalk::Record record;
