@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -66,8 +67,9 @@ def run_deck(folder: pathlib.Path, deck: str | pathlib.Path, variables: Mapping[
     command = [program, "-in", str(deck), "-log", f"{deck.stem}.log"]
     for name, value in (variables or {}).items():
         command += ["-var", name, str(value)]
-    environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": str(folder), "OMP_NUM_THREADS": "1"}
-    with open(screen, "w", encoding="utf-8") as file:
+    # A folder of its own for Open MPI: an engine that has just ended may still be removing its session from a shared one.
+    with tempfile.TemporaryDirectory(prefix=".mpi-", dir=folder, ignore_cleanup_errors=True) as session, open(screen, "w", encoding="utf-8") as file:
+        environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": session, "OMP_NUM_THREADS": "1"}
         code = subprocess.run(command, cwd=folder, stdout=file, stderr=subprocess.STDOUT, env=environment, check=False).returncode
     text = screen_text(screen)
     if code != 0 or wanted not in text:
