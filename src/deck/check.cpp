@@ -84,7 +84,7 @@ void check_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const&
                             0.3, stiffen));
 }
 
-/// Attraction of grains. A bond number above 1 is no mistake, but the theory knows no attraction. A single
+/// Attraction of grains. A bond number above 1 is not an error, but the theory knows no attraction. A single
 /// grain at rest on the trough is pulled off it with (Gamma - 1) times its weight at most. A layer pulls more
 /// at each of its contacts, and was seen to fly at a bond number of 2.9 Gamma.
 void check_cohesion(std::vector<Finding>& findings, prepare::PreparedCase const& c) {

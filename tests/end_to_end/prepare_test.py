@@ -108,8 +108,8 @@ class Prepare(EndToEndTest):
         self.addCleanup(self.end, work)
         wait_until(lambda: engines_in(self.output), "the task ran", work)
         done = self.prepare(campaign)
-        self.assertIn("1 tasks in ", done.stdout)
-        self.assertIn("without 1 that are being simulated now", done.stdout)
+        self.assertIn("1 task in ", done.stdout)
+        self.assertIn("without 1 packing being simulated now", done.stdout)
         self.assertEqual([line.split()[1] for line in self.tasks()], ["1"])
 
     def test_the_schedulers_that_there_is_no_executor_for(self):
@@ -117,6 +117,14 @@ class Prepare(EndToEndTest):
             campaign = self.write_campaign()
             campaign.write_text(campaign.read_text() + f'[run]\nexecutor = "{name}"\n')
             self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 2, f"'{name}' is not an executor", "vibrotrough prepare")
+
+    def test_a_file_that_is_not_a_list_is_not_replaced(self):
+        campaign = self.write_campaign()
+        before = campaign.read_bytes()
+        self.list = campaign
+        done = self.prepare(campaign, wanted=2)
+        self.assertIn("is not a task list, so it is not replaced", done.stderr.splitlines()[-1])
+        self.assertEqual(campaign.read_bytes(), before)
 
     def test_a_list_that_cannot_be_written(self):
         campaign = self.write_campaign()

@@ -92,8 +92,13 @@ void print_packing(evaluate::HandPacking const& packing, scenario::MeasurementPl
     fmt::print("{}: {} cycles{}\n", core::harmless(packing.folder.string()), packing.cycles,
                packing.mode.empty() ? "" : ", mode " + packing.mode);
     measure::PackingEstimate const own = by_itself(packing, plan, used);
-    fmt::print("  velocity efficiency: {:.4f} +- {:.4f} ({:g} %, from the scatter of its own cycles only)\n",
-               own.mean, own.half_width, 100 * plan.confidence);
+    if (std::isfinite(own.half_width)) {
+        fmt::print(
+            "  velocity efficiency: {:.4f} +- {:.4f} ({:g} %, from the scatter of its own cycles only)\n",
+            own.mean, own.half_width, 100 * plan.confidence);
+    } else {
+        fmt::print("  velocity efficiency: {:.4f}, from too few cycles for an interval\n", own.mean);
+    }
     fmt::print("  end of the run: {}\n", core::harmless(packing.end));
     fmt::print("  deck: {}{}{}\n", name_of(packing.deck), packing.edits.empty() ? "" : ": ",
                core::harmless(fmt::format("{}", fmt::join(packing.edits, "; "))));

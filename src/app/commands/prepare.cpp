@@ -36,13 +36,23 @@ void explain(std::size_t tasks, fs::path const& list, fs::path const& folder, fs
         "when they have ended, call the same 'vibrotrough prepare' again: it lists what is still missing\n");
 }
 
+/// Empties the list of an earlier call, which would be run again when nothing is missing any more.
+/// @throws core::InputError when the file holds something else, which may be the person's own
+void clear_list(fs::path const& list) {
+    if (fs::exists(list) && (!fs::is_regular_file(list) || !campaign::read_task_list(list)))
+        throw core::InputError(
+            fmt::format("{} exists and is not a task list, so it is not replaced; give --task-list "
+                        "another file, or remove this one",
+                        list.string()));
+    core::write_file_atomically(list, "");
+}
+
 int run(Options const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
     size_tasks(ready, options.minutes > 0 ? std::optional(options.minutes) : std::nullopt);
     fs::path const list = options.task_list;
-    // A list of an earlier call would be run again when nothing is missing any more.
-    core::write_file_atomically(list, "");
+    clear_list(list);
     ready.inputs.task_list = list;
     campaign::Summary summary;
     {

@@ -30,8 +30,10 @@ class TaskListExecutor : public Executor {
             make_tasks(free, {inputs_.task_duration, inputs_.speed, settings.ranks.value_or(1)});
         core::write_file_atomically(inputs_.task_list, write_task_list(tasks));
         std::size_t const busy = orders.size() - free.size();
-        std::string text = fmt::format("{} tasks in {}", tasks.size(), inputs_.task_list.string());
-        if (busy > 0) text += fmt::format(", without {} that are being simulated now", busy);
+        std::string text = fmt::format("{} task{} in {}", tasks.size(), tasks.size() == 1 ? "" : "s",
+                                       inputs_.task_list.string());
+        if (busy > 0)
+            text += fmt::format(", without {} packing{} being simulated now", busy, busy == 1 ? "" : "s");
         return text;
     }
 
