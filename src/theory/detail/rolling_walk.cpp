@@ -53,7 +53,17 @@ RollingWalk::RollingWalk(RollingLayer const& layer)
       dry_(layer.law.dry_torque),
       inertia_(layer.law.spin_inertia),
       torque_(layer.law.torque),
+      weight_(layer.point.tan_vibration_angle / layer.point.throw_number),
       no_spin_(std::isinf(layer.law.torque)) {}
+
+/// The mean of N is the weight. From I w' = -F - c w with |F| <= mu N, |w| is at most mu weight (length / I +
+/// 1 / c). The mean of F is gravity, which is below mu N, so that the slip v - w is zero at some time; from
+/// there v changes by at most 2 (the trough) and the impulses of gravity and friction. Twice the sum is safe
+/// against rounding.
+double RollingWalk::greatest_velocity(double length) const {
+    double const spin = no_spin_ ? 0 : friction_ * weight_ * (length / inertia_ + 1 / torque_);
+    return 2 * (spin + 2 + (std::abs(gravity_) + friction_ * weight_) * length);
+}
 
 Relaxation RollingWalk::velocity(RollingPhase const& p) const {
     return velocity(p, p.normal.force.from(p.start));
@@ -250,18 +260,65 @@ RollingState RollingWalk::land(RollingState s, double impulse) const {
     return s;
 }
 
-RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Record* record) const {
+/// The rates of v and w at t within a phase, in state s.
+RollingState RollingWalk::rates(RollingPhase const& p, double t, RollingState s) const {
+    double const drive = std::sin(t) - gravity_, decay = no_spin_ ? 0 : torque_ * s.w;
+    if (!p.contact) return {drive, -decay / inertia_};
+    double const normal = tangent_ * p.normal.force(t);
+    if (p.slip != 0) {
+        double const friction = p.slip * friction_ * normal;
+        return {drive - friction, p.turn == 0 ? 0 : (friction - p.turn * dry_ * normal - decay) / inertia_};
+    }
+    double const both = p.turn == 0 ? 0 : (drive - p.turn * dry_ * normal - decay) / (1 + inertia_);
+    return {both, both};
+}
+
+/// From the start of a phase to its end, at a given time.
+void RollingWalk::carry(RollingSensitivity& by, RollingPhase const& p) const {
+    bool const rolls = p.contact && p.slip == 0;
+    double fades = 0;  // to 0: no spin in contact
+    if (!p.contact || p.turn != 0) {
+        double const rate = torque_ / (rolls ? 1 + inertia_ : inertia_);
+        fades = no_spin_ ? 0 : std::exp(-rate * (p.end - p.start));
+    }
+    by.w = {by.w.v * fades, by.w.w * fades};
+    if (rolls) by.v = by.w;
+}
+
+/// Over the end of slip or spin, whose time depends on the state. @param state  at that time
+void RollingWalk::pass(RollingSensitivity& by, RollingPhase const& before, int what, RollingState state,
+                       RollingPhase const& after) const {
+    RollingState const now = rates(before, before.end, state), then = rates(after, after.start, state);
+    RollingState const margin = what == slip_stops ? RollingState{by.v.v - by.w.v, by.v.w - by.w.w} : by.w;
+    double const fall = what == slip_stops ? now.w - now.v : -now.w;
+    if (fall == 0) return;
+    RollingState const later{margin.v / fall, margin.w / fall};  // how much later it ends
+    by.v = {by.v.v + (now.v - then.v) * later.v, by.v.w + (now.v - then.v) * later.w};
+    by.w = {by.w.v + (now.w - then.w) * later.v, by.w.w + (now.w - then.w) * later.w};
+}
+
+RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Record* record,
+                                 RollingSensitivity* by) const {
+    if (by != nullptr) *by = {};
+    if (record != nullptr) {
+        record->travel = 0;
+        record->phases.clear();
+    }
+    RollingPhase last{};
+    int what = of_piece;
     for (NormalPiece const& piece : normal.pieces) {
         if (no_spin_) s.w = 0;
         if (piece.impulse > 0) s = land(s, piece.impulse);
+        if (by != nullptr && piece.impulse > 0) by->known = false;
         double t = piece.start;
         int leaving = 0;
         for (int i = 0; t < piece.end; ++i) {
             if (i > most_phases) throw PhaseError("the floor grains chatter between rolling and sliding");
             RollingPhase p = next_phase(piece, t, s, leaving);
+            if (by != nullptr && (what == spin_stops || what == slip_stops)) pass(*by, last, what, s, p);
             ContactForce const n = piece.force.from(t);
             Forces const f{n, velocity(p, n), spin(p, n)};
-            int what = of_piece;
+            what = of_piece;
             p.end = end_of(p, f, piece.end, what);
             s = {f.v(p.end), p.turn == 0 && p.contact ? 0 : f.w(p.end)};
             if (p.contact && p.slip == 0) s.v = s.w;
@@ -269,6 +326,10 @@ RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Re
             if (what == slip_stops) s.v = s.w;
             leaving = what == friction_forwards ? 1 : what == friction_backwards ? -1 : 0;
             t = p.end;
+            if (by != nullptr) {
+                carry(*by, p);
+                last = p;
+            }
             if (record == nullptr) continue;
             record->travel += f.v.travel(p.end);
             if (p.end > p.start) record->phases.push_back(p);

@@ -34,6 +34,13 @@ struct RollingState {
     double v = 0, w = 0;
 };
 
+/// How v and w at one time depend on the state before.
+struct RollingSensitivity {
+    RollingState v{1, 0};  ///< derivatives of v by the earlier v and w
+    RollingState w{0, 1};  ///< and of w
+    bool known = true;     ///< false behind a rigid landing
+};
+
 /// Follows the motion along the trough through the pieces of the normal motion.
 class RollingWalk {
   public:
@@ -44,8 +51,13 @@ class RollingWalk {
         double travel = 0;                 ///< r cos(beta)
         std::vector<RollingPhase> phases;  ///< in order
     };
-    /// The state after the pieces, from that before them. @param record  nothing when it is not needed
-    RollingState follow(RollingNormal const& normal, RollingState s, Record* record) const;
+    /// The state after the pieces, from that before them.
+    /// @param record  nothing when it is not needed; what it holds is replaced
+    /// @param by  becomes how the state after depends on that before; nothing when it is not needed
+    RollingState follow(RollingNormal const& normal, RollingState s, Record* record,
+                        RollingSensitivity* by = nullptr) const;
+    /// What neither |v| nor |w| exceeds in a motion that repeats after `length`.
+    double greatest_velocity(double length) const;
     /// The velocity of the layer within a phase, from its start.
     Relaxation velocity(RollingPhase const& phase) const;
     /// The spin within a phase.
@@ -69,8 +81,12 @@ class RollingWalk {
     std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
                                        double t) const;
     RollingState land(RollingState s, double impulse) const;
+    RollingState rates(RollingPhase const& phase, double t, RollingState s) const;
+    void carry(RollingSensitivity& by, RollingPhase const& phase) const;
+    void pass(RollingSensitivity& by, RollingPhase const& before, int what, RollingState state,
+              RollingPhase const& after) const;
 
-    double gravity_, tangent_, friction_, dry_, inertia_, torque_;
+    double gravity_, tangent_, friction_, dry_, inertia_, torque_, weight_;
     bool no_spin_;
 };
 
