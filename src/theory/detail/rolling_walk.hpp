@@ -4,6 +4,7 @@
 #include "theory/detail/relaxation.hpp"
 #include "theory/detail/rolling_normal.hpp"
 
+#include <optional>
 #include <vector>
 
 // The motion of a rolling layer along the trough. Internal to this room.
@@ -66,25 +67,37 @@ class RollingWalk {
     double friction_force(RollingPhase const& phase, double t) const;
 
   private:
-    RollingPhase next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const;
-    RollingPhase from_no_slip(RollingPhase phase, double normal_force, int leaving) const;
-    /// The velocities of a phase and the contact force, with the decays counted from its start.
+    /// The contact force with its decays counted from the start of a phase, and its value there.
+    struct Contact {
+        ContactForce n;
+        Instant start;
+        double normal_force;  ///< N
+    };
+    RollingPhase next_phase(NormalPiece const& piece, Contact const& contact, RollingState s,
+                            int leaving) const;
+    RollingPhase from_no_slip(RollingPhase phase, Contact const& contact, int leaving) const;
+    /// The velocities of a phase and the contact force.
     struct Forces {
         ContactForce n;
         Relaxation v, w;
+        std::optional<PhaseSum> v_sum, w_sum;  ///< the same velocities; nothing for decays of equal rates
+        PhaseBasis basis;
     };
-    Relaxation velocity(RollingPhase const& phase, ContactForce const& n) const;
-    Relaxation spin(RollingPhase const& phase, ContactForce const& n) const;
+    Forces forces(RollingPhase const& phase, Contact const& contact) const;
+    struct Progress;
+    void step(Progress& now, RollingPhase& phase, Contact const& contact, double end, Record* record) const;
+    Relaxation velocity(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
+    Relaxation spin(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
     double end_of(RollingPhase const& phase, Forces const& f, double end, int& what) const;
     /// The same for decays with about equal rates.
     double end_of_close_rates(RollingPhase const& phase, Forces const& f, double end, int& what) const;
     std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
                                        double t) const;
     RollingState land(RollingState s, double impulse) const;
-    RollingState rates(RollingPhase const& phase, double t, RollingState s) const;
+    RollingState rates(RollingPhase const& phase, double sine, double normal_force, RollingState s) const;
     void carry(RollingSensitivity& by, RollingPhase const& phase) const;
-    void pass(RollingSensitivity& by, RollingPhase const& before, int what, RollingState state,
-              RollingPhase const& after) const;
+    void pass(RollingSensitivity& by, RollingPhase const& before, Progress const& now,
+              RollingPhase const& after, Contact const& contact) const;
 
     double gravity_, tangent_, friction_, dry_, inertia_, torque_, weight_;
     bool no_spin_;
