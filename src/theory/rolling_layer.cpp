@@ -16,7 +16,6 @@ namespace {
 
 using detail::RollingNormal;
 using detail::RollingSearch;
-using detail::RollingState;
 using detail::RollingWalk;
 using detail::two_pi;
 

@@ -43,14 +43,14 @@ std::vector<PointMass> unrelated_points() {
 }
 
 void time(char const* name, std::vector<PointMass> const& points, bool print) {
-    using clock = std::chrono::steady_clock;
+    using Clock = std::chrono::steady_clock;
     RollingLayerSolver solver{RollingLaw{}};
     std::vector<double> took;
     std::clock_t const begin = std::clock();
     for (PointMass const& point : points) {
-        auto const start = clock::now();
+        auto const start = Clock::now();
         double const efficiency = solver(point).motion.velocity_efficiency;
-        took.push_back(std::chrono::duration<double, std::micro>(clock::now() - start).count());
+        took.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
         if (print) std::printf("%.15g\n", efficiency);
     }
     double const cpu = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
