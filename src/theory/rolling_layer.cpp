@@ -203,6 +203,7 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     bool const slides_away = std::abs(point.tan_inclination) > point.friction;
     if (slides_away || (point.friction == 0 && point.tan_inclination == 0)) return endless(point);
     if (point.throw_number != throw_number) {
+        search.forget();
         throw_number = 0;  // stays so if the next line throws
         normal = detail::find_rolling_normal(point.throw_number, law);
         throw_number = point.throw_number;

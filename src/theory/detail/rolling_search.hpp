@@ -35,6 +35,9 @@ class RollingSearch {
     /// @return whether the state repeats
     bool settle(RollingWalk const& walk, RollingNormal const& normal, RollingWalk::Record& record);
 
+    /// Begins at rest, which for layers that have little in common is a better guess than the last states.
+    void forget() { state_ = before_ = {}; }
+
   private:
     bool newton(RollingWalk const& walk, RollingNormal const& normal, RollingState& s, double most,
                 RollingWalk::Record& record) const;
