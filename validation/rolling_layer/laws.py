@@ -61,13 +61,13 @@ LAWS = [
     Law("path", (0.1,), ("d",), "path", (0.0279,)),
     Law("landing friction", (0.05,), ("mu_landing",), "landing", (0.0502,)),
 ]
-# The second round (README.md, section 5): constants of fit() with 1000 steps per cycle.
+# The second round (README.md, section 5): constants of fit() with 1000 steps per cycle and 40 cycles.
 SMEARED = [
-    Law("smeared", (0.15,), ("a",), "smeared"),
-    Law("smeared, decaying", (0.3, 0.3), ("a", "T"), "smeared-decaying"),
-    Law("smeared, geared", (0.15,), ("a",), "smeared-geared"),
-    Law("smeared, geared, free torque", (0.15, 1.7), ("a", "c"), "smeared-geared-torque"),
-    Law("smeared, geared, sinking", (0.1, 0.1), ("a", "b"), "smeared-geared-sinking"),
+    Law("smeared", (0.15,), ("a",), "smeared", (0.00589,)),
+    Law("smeared, decaying", (0.3, 0.3), ("a", "T"), "smeared-decaying", (1.01, 0.265)),
+    Law("smeared, geared", (0.15,), ("a",), "smeared-geared", (0.0513,)),
+    Law("smeared, geared, free torque", (0.15, 1.7), ("a", "c"), "smeared-geared-torque", (0.124, 0.755)),
+    Law("smeared, geared, sinking", (0.1, 0.1), ("a", "b"), "smeared-geared-sinking", (0.0829, 5.10)),
 ]
 
 

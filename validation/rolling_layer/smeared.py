@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 TORQUE = 1.7  # of the other grains on the floor grains over their spin, as measured: 1.5 to 1.9
 LEAST_SCATTER = 1e-6  # omega r cos(beta); less is Coulomb's friction
-NEWTON, HALVINGS = 10, 30
+NEWTON, HALVINGS = 10, 18
 
 
 def exact_share(ratio: Floats) -> Floats:
