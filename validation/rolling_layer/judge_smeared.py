@@ -15,7 +15,7 @@ KNOWN = ("throw number", "downhill", "uphill", "trough friction 0.6", held_out.B
 NAMED = "smeared, geared"  # the law named in advance
 LANDING = {1.7: (275.0, 300.0), 2.0: (300.0, 320.0)}  # degrees; the layer lands later at 2.0
 PUSHED = (335.0, 375.0)
-STEPS, CYCLES = 500, 30
+STEPS, CYCLES = 300, 20
 
 
 def implied_scatter(curves: Phases, gamma: float, low: float, high: float) -> float:
