@@ -3,6 +3,7 @@
 #include "theory/detail/first_zero.hpp"
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
+#include "theory/detail/rolling_search.hpp"
 #include "theory/detail/rolling_walk.hpp"
 
 #include <algorithm>
@@ -14,12 +15,10 @@ namespace vibrotrough::theory {
 namespace {
 
 using detail::RollingNormal;
-using detail::RollingState;
+using detail::RollingSearch;
 using detail::RollingWalk;
 using detail::two_pi;
 
-constexpr double settled = 1e-11;        // omega r cos(beta): change of the state from period to period
-constexpr int most_periods = 3000;       // of the map, before a mean is given instead
 constexpr double shortest_phase = 1e-9;  // rad; shorter phases are rounding errors, not motion
 
 struct Constant {
@@ -50,78 +49,6 @@ std::string inputs_text(RollingLayer const& layer) {
     for (Constant const& c : constants)
         text += std::string(" ") + c.name + "=" + detail::number_text(layer.law.*c.value);
     return text;
-}
-
-double size(RollingState const& s) {
-    return std::hypot(s.v, s.w);
-}
-
-/// Looks for the state that repeats, by Broyden's method on the change of the state over a period.
-///
-/// Friction and torque only bring states closer together, so that plain periods converge, too. The method
-/// starts as plain periods do, and starts anew when its steps grow although the change does not.
-class Search {
-  public:
-    /// The next state to try, after one that changes by `change` over a period.
-    RollingState propose(RollingState s, RollingState change) {
-        double const now = size(change);
-        if (known_ && now > 4 * size(change_)) *this = Search{};
-        if (known_) update({change.v - change_.v, change.w - change_.w});
-        change_ = change;
-        // The step is -(inverse Jacobian) change, at first the change itself.
-        step_ = {-(a_ * change.v + b_ * change.w), -(c_ * change.v + d_ * change.w)};
-        double const most = known_ ? 4 * std::max(last_, now) : now, length = size(step_);
-        if (length > most) step_ = {step_.v * most / length, step_.w * most / length};
-        last_ = size(step_);
-        known_ = true;
-        return {s.v + step_.v, s.w + step_.w};
-    }
-    /// Forgets the states, but not how changes depend on them.
-    void restart() { known_ = false; }
-    /// The distance to the state that repeats, as far as it is known after propose().
-    double distance() const { return size(step_); }
-
-  private:
-    /// Broyden's update of the inverse Jacobian for a step that changed the change by y.
-    void update(RollingState y) {
-        RollingState const hy{a_ * y.v + b_ * y.w, c_ * y.v + d_ * y.w};
-        double const scale = step_.v * hy.v + step_.w * hy.w;
-        if (!(std::abs(scale) > 1e-9 * (step_.v * step_.v + step_.w * step_.w))) {
-            a_ *= 2;  // the change does not depend on the state: go further
-            d_ *= 2;
-            return;
-        }
-        RollingState const miss{(step_.v - hy.v) / scale, (step_.w - hy.w) / scale};
-        RollingState const row{step_.v * a_ + step_.w * c_, step_.v * b_ + step_.w * d_};
-        a_ += miss.v * row.v;
-        b_ += miss.v * row.w;
-        c_ += miss.w * row.v;
-        d_ += miss.w * row.w;
-    }
-
-    double a_ = -1, b_ = 0, c_ = 0, d_ = -1;  // inverse Jacobian, by rows
-    RollingState step_{}, change_{};
-    double last_ = 0;
-    bool known_ = false;
-};
-
-/// Goes from period to period until the state repeats. @return whether it does
-bool settle(RollingWalk const& walk, RollingNormal const& normal, Search& search, RollingState& s) {
-    search.restart();
-    bool close = false;
-    for (int i = 0; i < most_periods; ++i) {
-        RollingState const next = walk.follow(normal, s, nullptr), change{next.v - s.v, next.w - s.w};
-        double const scale = settled * (1 + std::abs(next.v));
-        if (i % 100 == 99) search = Search{};
-        RollingState const proposed = search.propose(s, change);
-        bool const plain = i % 100 >= 80;
-        s = plain ? next : proposed;
-        // One more period makes the answer independent of where the search began.
-        if (close || size(change) <= 1e-3 * scale) return true;
-        close = size(change) <= scale && search.distance() <= 10 * scale;
-        if (plain) search = Search{};
-    }
-    return false;
 }
 
 PhaseKind kind_of(double velocity, bool contact, bool landed) {
@@ -266,8 +193,8 @@ struct RollingLayerSolver::Memory {
     RollingLaw law;
     double throw_number = 0;  // that `normal` belongs to
     RollingNormal normal;
-    RollingState state{}, state_before{};  // at the start of the period, for the last two points
-    Search search;                         // for the last one
+    RollingSearch search;  // with what is known from the last points
+    RollingWalk::Record record;
 
     RollingMotion solve(PointMass const& point);
 };
@@ -276,6 +203,7 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     bool const slides_away = std::abs(point.tan_inclination) > point.friction;
     if (slides_away || (point.friction == 0 && point.tan_inclination == 0)) return endless(point);
     if (point.throw_number != throw_number) {
+        search.forget();
         throw_number = 0;  // stays so if the next line throws
         normal = detail::find_rolling_normal(point.throw_number, law);
         throw_number = point.throw_number;
@@ -283,24 +211,16 @@ RollingMotion RollingLayerSolver::Memory::solve(PointMass const& point) {
     RollingLayer const layer{point, law};
     RollingWalk const walk(layer);
     double const length = normal.pieces.back().end - normal.pieces.front().start;
-    // The next point probably changes as much as the last one.
-    RollingState s{2 * state.v - state_before.v, 2 * state.w - state_before.w};
-    bool const is_steady = settle(walk, normal, search, s);
-    state_before = is_steady ? state : RollingState{};
-    state = is_steady ? s : RollingState{};
-    if (!is_steady) search = {};
-    bool const repeats = is_steady && normal.cycles > 0;
+    bool const repeats = search.settle(walk, normal, record) && normal.cycles > 0;
     RollingMotion answer{};
-    auto period = std::make_shared<RollingPeriod>();
-    RollingWalk::Record record;
-    walk.follow(normal, s, &record);
     answer.motion.velocity_efficiency = record.travel / length;
     if (!repeats) {
         answer.motion.outcome = Outcome::unsettled;
         return answer;
     }
     answer.motion.outcome = Outcome::periodic;
-    period->phases = std::move(record.phases);
+    auto period = std::make_shared<RollingPeriod>();
+    period->phases = record.phases;
     period->layer = layer;
     period->start = normal.pieces.front().start;
     period->end = normal.pieces.back().end;

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+import smeared
+
 Floats = NDArray[np.float64]
 TWO_PI = 2 * np.pi
 STIFFNESS, DAMPING, INERTIA = 14.0, 2.2, 0.10  # kappa, zeta, I: not fitted here (README.md)
@@ -38,7 +40,7 @@ class Law:
     name: str
     start: tuple[float, ...]  # constants from which a fit starts; of A0 and A1/2 those that were published
     names: tuple[str, ...]
-    kind: str  # viscous, root, dry, compacted-dry, compacted-viscous, path, landing, none
+    kind: str  # viscous, root, dry, compacted-dry, compacted-viscous, path, landing, none, smeared...
     constants: tuple[Any, ...] = field(default=())
 
     def fitted(self, constants: tuple[Any, ...]) -> "Law":
@@ -59,6 +61,14 @@ LAWS = [
     Law("path", (0.1,), ("d",), "path", (0.0279,)),
     Law("landing friction", (0.05,), ("mu_landing",), "landing", (0.0502,)),
 ]
+# The second round (README.md, section 5): constants of fit() with 1000 steps per cycle and 40 cycles.
+SMEARED = [
+    Law("smeared", (0.15,), ("a",), "smeared", (0.00589,)),
+    Law("smeared, decaying", (0.3, 0.3), ("a", "T"), "smeared-decaying", (1.01, 0.265)),
+    Law("smeared, geared", (0.15,), ("a",), "smeared-geared", (0.0513,)),
+    Law("smeared, geared, free torque", (0.15, 1.7), ("a", "c"), "smeared-geared-torque", (0.124, 0.755)),
+    Law("smeared, geared, sinking", (0.1, 0.1), ("a", "b"), "smeared-geared-sinking", (0.0829, 5.10)),
+]
 
 
 @dataclass(frozen=True)
@@ -68,6 +78,8 @@ class Normal:
     force: Floats       # n, in m omega^2 r sin(beta)
     compaction: Floats  # its elastic part, kappa^2 |y|
     sinking: NDArray[np.bool_]  # in contact, and the centre of mass still falls towards the trough
+    speed: Floats       # |y'| in contact
+    since: Floats       # time in contact since the landing
 
 
 def normal_motion(throw_number: Floats, steps: int, cycles: int = 6) -> Normal:
@@ -76,6 +88,7 @@ def normal_motion(throw_number: Floats, steps: int, cycles: int = 6) -> Normal:
     y, rate = np.zeros_like(throw_number), np.zeros_like(throw_number)
     force = np.zeros((steps, len(throw_number)))
     compaction, sinking = np.zeros_like(force), np.zeros(force.shape, dtype=bool)
+    speed, since, touched = np.zeros_like(force), np.zeros_like(force), np.zeros_like(y)
     spring, damper = STIFFNESS**2, 2 * DAMPING * STIFFNESS
     for cycle in range(cycles):
         for i in range(steps):
@@ -85,11 +98,14 @@ def normal_motion(throw_number: Floats, steps: int, cycles: int = 6) -> Normal:
             touching = (y + h * free < 0) & (n > 0)
             rate = np.where(touching, held, free)
             y = y + h * rate
+            touched = np.where(touching, touched + h, 0)
             if cycle == cycles - 1:
                 force[i] = np.where(touching, n, 0)
                 compaction[i] = np.where(touching, spring * np.maximum(-y, 0), 0)
                 sinking[i] = touching & (rate < 0)
-    return Normal(force, compaction, sinking)
+                speed[i] = np.where(touching, np.abs(rate), 0)
+                since[i] = touched
+    return Normal(force, compaction, sinking, speed, since)
 
 
 def soft_threshold(value: Floats, limit: Floats) -> Floats:
@@ -110,6 +126,8 @@ def torques(law: Law, cases: Cases, force: Floats, compaction: Floats) -> tuple[
         dry = p[0] * compaction
     elif law.kind == "compacted-viscous":
         viscous = p[1] + p[0] * compaction
+    elif law.kind.startswith("smeared-geared"):
+        viscous = zero + smeared.torque(law.kind, p)
     return viscous, dry + cases.rolling_friction * force
 
 
@@ -130,9 +148,10 @@ def integrate(law: Law, cases: Cases, steps: int = 600, cycles: int = 30, keep: 
     h, tau = TWO_PI / steps, cases.tan_vibration_angle
     normal = normal_motion(cases.throw_number, steps)
     g = cases.tan_inclination * tau / cases.throw_number
-    blocked = cases.blocked | (law.kind in ("none", "path", "landing"))
+    blocked = cases.blocked | (law.kind in ("none", "path", "landing", "smeared", "smeared-decaying"))
+    gear = 2 if law.kind.startswith("smeared-geared") else 1
     u, w, path = np.zeros(len(cases)) + 0.3, np.zeros(len(cases)), np.zeros(len(cases))
-    late = round(shift / h)
+    late, dry_torque = round(shift / h), bool(np.any(cases.rolling_friction[~blocked] > 0))
     total = np.zeros(len(cases))
     kept = History(*(np.zeros((steps, len(cases))) for _ in range(3)))
     for cycle in range(cycles):
@@ -148,9 +167,17 @@ def integrate(law: Law, cases: Cases, steps: int = 600, cycles: int = 30, keep: 
             if law.kind == "path":
                 limit = limit * np.minimum(path / (law.values()[0] * cases.grain), 1)
                 path = np.where(n > 0, path + h * np.abs(a), 0)
-            f = np.clip(sticking_friction(a, b, m, h * dry, h), -limit, limit)
+            if law.kind.startswith("smeared"):
+                sigma = scatter_of(law, cases, normal.since[i - late], normal.speed[i - late])
+                if dry_torque:
+                    f = smeared.friction_with_dry_torque(lambda x: a + h * x - gear * spin_after(b - h * x, h * dry, m, blocked), limit, sigma)
+                else:
+                    turns = np.where(blocked, 0, gear / m)
+                    f = smeared.friction(a - turns * b, h * (1 + turns), limit, sigma)
+            else:
+                f = np.clip(sticking_friction(a, b, m, h * dry, h), -limit, limit)
             u = u + h * (f - g)
-            w = np.where(blocked, 0, soft_threshold(b - h * f, np.where(blocked, 0, h * dry)) / m)
+            w = spin_after(b - h * f, h * dry, m, blocked)
             if law.kind != "viscous":
                 w = np.where(n > 0, w, 0)  # the spin is gone before the landing
             if cycle >= cycles - 2:
@@ -158,6 +185,17 @@ def integrate(law: Law, cases: Cases, steps: int = 600, cycles: int = 30, keep: 
             if keep and cycle == cycles - 1:
                 kept.velocity[i], kept.spin[i], kept.friction[i] = u - trough, w, f
     return total / (2 * steps), kept if keep else None
+
+
+def spin_after(momentum: Floats, dry: Floats, m: Floats, blocked: NDArray[np.bool_]) -> Floats:
+    """The spin at the end of a step; the dry torque takes its impulse `dry` from the angular momentum at most."""
+    return np.where(blocked, 0, soft_threshold(momentum, np.where(blocked, 0, dry)) / m)
+
+
+def scatter_of(law: Law, cases: Cases, since: Floats, speed: Floats) -> Floats:
+    """sigma of a smeared law; rolling friction hinders it, and grains without rotation have none."""
+    free = np.where(cases.blocked, 0, np.maximum(1 - cases.rolling_friction / cases.friction, 0))
+    return free * smeared.scatter(law.kind, law.values(), since, speed * cases.tan_vibration_angle)
 
 
 def sticking_friction(a: Floats, b: Floats, m: Floats, dry: Floats, h: float) -> Floats:

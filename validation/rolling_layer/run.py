@@ -14,6 +14,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import contacts  # noqa: E402
 import draw  # noqa: E402
 import held_out  # noqa: E402
+import judge_smeared  # noqa: E402
 import tables  # noqa: E402
 import vibrotrough  # noqa: E402
 from campaign_program import Row  # noqa: E402
@@ -127,6 +128,7 @@ def judge_laws(run: ValidationCase) -> None:
             run.finding(f"{law}: predicts {len(rows)} held-out free layers", verdict,
                         f"rms of eta {score[law]:.3f}, point mass {point:.3f}; it holds up to {HOLDS}, is refuted above {REFUTED}")
     draw.laws(run, rows, errors)
+    judge_smeared.judge(run, rows, errors)
 
 
 def judge_phases(run: ValidationCase) -> None:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "theory/detail/contact.hpp"
 #include "theory/detail/first_zero.hpp"
 
 #include <algorithm>
@@ -23,11 +24,12 @@ struct PhaseBasis {
     std::array<double, 3> rates;  ///< of the phase itself and of the two decays of the contact force
 
     PhaseTime at(double t) const {
+        Instant const now = Instant::at(t);
         double const h = t - start;
         return {t,
                 h,
-                std::sin(t),
-                std::cos(t),
+                now.sine,
+                now.cosine,
                 {std::exp(-rates[0] * h), std::exp(-rates[1] * h), std::exp(-rates[2] * h)}};
     }
 };
@@ -40,6 +42,21 @@ struct PhaseSum {
     double operator()(PhaseTime const& at) const {
         return constant + slope * at.h + sine * at.sine + cosine * at.cosine + decays[0] * at.decays[0] +
                decays[1] * at.decays[1] + decays[2] * at.decays[2];
+    }
+    /// Its integral over the phase. @param from, to  the start and the end of the phase
+    double integral(PhaseBasis const& basis, Instant const& from, PhaseTime const& to) const {
+        double const h = to.h;
+        double x = (constant + slope * h / 2) * h + sine * (from.cosine - to.cosine) +
+                   cosine * (to.sine - from.sine);
+        for (std::size_t i = 0; i < decays.size(); ++i) {
+            double const rate = basis.rates[i];
+            if (decays[i] == 0) continue;
+            if (rate * h > 0.01)
+                x += decays[i] * (1 - to.decays[i]) / rate;
+            else
+                x += decays[i] * (rate == 0 ? h : -std::expm1(-rate * h) / rate);
+        }
+        return x;
     }
     PhaseSum derivative(PhaseBasis const& basis) const {
         return {slope,

@@ -21,13 +21,14 @@ double integral_of_decay(double a, double h) {
 
 }  // namespace
 
-Relaxation::Relaxation(double rate, ContactForce const& force, double first) : rate_(rate), force_(force) {
+Relaxation::Relaxation(double rate, ContactForce const& force, double first, Instant const& start)
+    : rate_(rate), force_(force) {
     double const size = 1 + rate * rate;
     sine_ = (rate * force.sine + force.cosine) / size;
     cosine_ = (rate * force.cosine - force.sine) / size;
     mean_ = rate > 0 ? force.constant / rate : 0;
     wave_ = std::sqrt(sine_ * sine_ + cosine_ * cosine_);
-    free_ = first - mean_ - sine_ * std::sin(force.start) - cosine_ * std::cos(force.start);
+    free_ = first - mean_ - sine_ * start.sine - cosine_ * start.cosine;
 }
 
 double Relaxation::operator()(double t) const {

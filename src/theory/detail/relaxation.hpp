@@ -22,7 +22,10 @@ struct Clock {
 class Relaxation {
   public:
     /// @param force  its decays are counted from `start`
-    Relaxation(double rate, ContactForce const& force, double first);
+    Relaxation(double rate, ContactForce const& force, double first)
+        : Relaxation(rate, force, first, Instant::at(force.start)) {}
+    /// @param start  that of the force
+    Relaxation(double rate, ContactForce const& force, double first, Instant const& start);
 
     /// x, x' and x'' at one time, and bounds to the right of it.
     struct At {

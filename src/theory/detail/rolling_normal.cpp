@@ -195,6 +195,7 @@ double ContactForce::operator()(double t) const {
 }
 
 ContactForce ContactForce::from(double t) const {
+    if (t == start) return *this;
     ContactForce moved = *this;
     for (Decay& d : moved.decays) {
         if (d.amplitude != 0) d.amplitude *= std::exp(-d.rate * (t - start));

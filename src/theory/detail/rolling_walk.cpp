@@ -53,33 +53,55 @@ RollingWalk::RollingWalk(RollingLayer const& layer)
       dry_(layer.law.dry_torque),
       inertia_(layer.law.spin_inertia),
       torque_(layer.law.torque),
+      weight_(layer.point.tan_vibration_angle / layer.point.throw_number),
       no_spin_(std::isinf(layer.law.torque)) {}
 
+/// The mean of N is the weight. From I w' = -F - c w with |F| <= mu N, |w| is at most mu weight (length / I +
+/// 1 / c). The mean of F is gravity, which is below mu N, so that the slip v - w is zero at some time; from
+/// there v changes by at most 2 (the trough) and the impulses of gravity and friction. Twice the sum is safe
+/// against rounding.
+double RollingWalk::greatest_velocity(double length) const {
+    double const spin = no_spin_ ? 0 : friction_ * weight_ * (length / inertia_ + 1 / torque_);
+    return 2 * (spin + 2 + (std::abs(gravity_) + friction_ * weight_) * length);
+}
+
 Relaxation RollingWalk::velocity(RollingPhase const& p) const {
-    return velocity(p, p.normal.force.from(p.start));
+    return velocity(p, p.normal.force.from(p.start), Instant::at(p.start));
 }
 
 Relaxation RollingWalk::spin(RollingPhase const& p) const {
-    return spin(p, p.normal.force.from(p.start));
+    return spin(p, p.normal.force.from(p.start), Instant::at(p.start));
 }
 
-Relaxation RollingWalk::velocity(RollingPhase const& p, ContactForce const& n) const {
-    if (p.slip == 0 && p.contact) return spin(p, n);
+Relaxation RollingWalk::velocity(RollingPhase const& p, ContactForce const& n, Instant const& start) const {
+    if (p.slip == 0 && p.contact) return spin(p, n, start);
     double const push = p.contact ? -p.slip * friction_ * tangent_ : 0;
-    return {0, sum(n, push, -gravity_, 1), p.velocity};
+    return {0, sum(n, push, -gravity_, 1), p.velocity, start};
 }
 
-Relaxation RollingWalk::spin(RollingPhase const& p, ContactForce const& n) const {
+Relaxation RollingWalk::spin(RollingPhase const& p, ContactForce const& n, Instant const& start) const {
     if (!p.contact) {
         ContactForce none{.start = p.start};
-        return {no_spin_ ? 0 : torque_ / inertia_, none, p.spin};
+        return {no_spin_ ? 0 : torque_ / inertia_, none, p.spin, start};
     }
-    if (p.turn == 0) return {0, ContactForce{.start = p.start}, 0};
+    if (p.turn == 0) return {0, ContactForce{.start = p.start}, 0, start};
     if (p.slip == 0) {
         double const mass = 1 + inertia_;
-        return {torque_ / mass, sum(n, -p.turn * dry_ * tangent_ / mass, -gravity_ / mass, 1 / mass), p.spin};
+        return {torque_ / mass, sum(n, -p.turn * dry_ * tangent_ / mass, -gravity_ / mass, 1 / mass), p.spin,
+                start};
     }
-    return {torque_ / inertia_, n.scaled((p.slip * friction_ - p.turn * dry_) * tangent_ / inertia_), p.spin};
+    return {torque_ / inertia_, n.scaled((p.slip * friction_ - p.turn * dry_) * tangent_ / inertia_), p.spin,
+            start};
+}
+
+RollingWalk::Forces RollingWalk::forces(RollingPhase const& p, Contact const& contact) const {
+    Relaxation const w = spin(p, contact.n, contact.start);
+    Relaxation const v = p.contact && p.slip == 0 ? w : velocity(p, contact.n, contact.start);
+    // The first decay of the phase: v has none of its own while it slips or flies.
+    bool const turns = p.contact ? p.turn != 0 : !no_spin_;
+    double const own = turns ? torque_ / (p.contact && p.slip == 0 ? 1 + inertia_ : inertia_) : 0;
+    return {contact.n, v,       w,
+            v.sum(),   w.sum(), {p.start, {own, contact.n.decays[0].rate, contact.n.decays[1].rate}}};
 }
 
 double RollingWalk::friction_force(RollingPhase const& p, double t) const {
@@ -91,7 +113,9 @@ double RollingWalk::friction_force(RollingPhase const& p, double t) const {
 
 /// The phase that begins in state s. @param leaving  a rolling or resting phase ended here because its
 /// friction force reached its limit in this direction; else 0
-RollingPhase RollingWalk::next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const {
+RollingPhase RollingWalk::next_phase(NormalPiece const& piece, Contact const& contact, RollingState s,
+                                     int leaving) const {
+    double const t = contact.start.t;
     RollingPhase p{
         .start = t, .end = t, .slip = 0, .turn = 0, .contact = piece.contact, .velocity = s.v, .spin = s.w};
     p.normal = piece;
@@ -103,12 +127,12 @@ RollingPhase RollingWalk::next_phase(NormalPiece const& piece, double t, Rolling
         if (p.turn == 0 && may_turn) p.turn = p.slip;
         return p;
     }
-    return from_no_slip(p, tangent_ * piece.force(t), leaving);
+    return from_no_slip(p, contact, leaving);
 }
 
-RollingPhase RollingWalk::from_no_slip(RollingPhase p, double normal_force, int leaving) const {
+RollingPhase RollingWalk::from_no_slip(RollingPhase p, Contact const& contact, int leaving) const {
     bool const may_turn = !no_spin_ && friction_ > dry_;
-    double const needed = gravity_ - std::sin(p.start);
+    double const needed = gravity_ - contact.start.sine, normal_force = contact.normal_force;
     if (p.turn == 0) {
         double const bears = std::min(friction_, no_spin_ ? friction_ : dry_) * normal_force;
         if (leaving == 0 && std::abs(needed) <= bears) return p;  // rests
@@ -130,11 +154,9 @@ RollingPhase RollingWalk::from_no_slip(RollingPhase p, double normal_force, int 
 double RollingWalk::end_of(RollingPhase const& p, Forces const& f, double end, int& what) const {
     what = of_piece;
     if (!p.contact) return end;
-    auto const w = f.w.sum(), v = p.slip == 0 ? w : f.v.sum();
+    auto const &w = f.w_sum, &v = f.v_sum;
     if (!v || !w) return end_of_close_rates(p, f, end, what);
-    // The first decay of the phase: v has none of its own while it slips.
-    double const own = p.turn == 0 ? 0 : torque_ / (p.slip == 0 ? 1 + inertia_ : inertia_);
-    PhaseBasis const basis{p.start, {own, f.n.decays[0].rate, f.n.decays[1].rate}};
+    PhaseBasis const& basis = f.basis;
     Margin const turning = p.turn == 0 ? Margin() : Margin(PhaseSum{}.add(p.turn, *w));
     if (p.slip != 0) {
         Margin const slipping(PhaseSum{}.add(p.slip, *v).add(-p.slip, *w));
@@ -250,31 +272,105 @@ RollingState RollingWalk::land(RollingState s, double impulse) const {
     return s;
 }
 
-RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Record* record) const {
+/// The rates of v and w within a phase in state s. @param sine  of the time
+RollingState RollingWalk::rates(RollingPhase const& p, double sine, double normal, RollingState s) const {
+    double const drive = sine - gravity_, decay = no_spin_ ? 0 : torque_ * s.w;
+    if (!p.contact) return {drive, -decay / inertia_};
+    if (p.slip != 0) {
+        double const friction = p.slip * friction_ * normal;
+        return {drive - friction, p.turn == 0 ? 0 : (friction - p.turn * dry_ * normal - decay) / inertia_};
+    }
+    double const both = p.turn == 0 ? 0 : (drive - p.turn * dry_ * normal - decay) / (1 + inertia_);
+    return {both, both};
+}
+
+/// Where a walk is: the state at a time, and what ended there.
+struct RollingWalk::Progress {
+    RollingState s;
+    Instant at;
+    int what, leaving;
+};
+
+/// From the start of a phase to its end, at a given time.
+void RollingWalk::carry(RollingSensitivity& by, RollingPhase const& p) const {
+    bool const rolls = p.contact && p.slip == 0;
+    double fades = 0;  // to 0: no spin in contact
+    if (!p.contact || p.turn != 0) {
+        double const rate = torque_ / (rolls ? 1 + inertia_ : inertia_);
+        fades = no_spin_ ? 0 : std::exp(-rate * (p.end - p.start));
+    }
+    by.w = {by.w.v * fades, by.w.w * fades};
+    if (rolls) by.v = by.w;
+}
+
+/// Over the end of slip or spin, whose time depends on the state.
+void RollingWalk::pass(RollingSensitivity& by, RollingPhase const& before, Progress const& now,
+                       RollingPhase const& after, Contact const& contact) const {
+    bool const same_piece = before.normal.start == after.normal.start;
+    double const sine = now.at.sine, force = contact.normal_force;
+    double const earlier_force = same_piece ? force : tangent_ * before.normal.force(now.at.t);
+    RollingState const old = rates(before, sine, earlier_force, now.s),
+                       then = rates(after, sine, force, now.s);
+    bool const slip = now.what == slip_stops;
+    RollingState const margin = slip ? RollingState{by.v.v - by.w.v, by.v.w - by.w.w} : by.w;
+    double const fall = slip ? old.w - old.v : -old.w;
+    if (fall == 0) return;
+    RollingState const later{margin.v / fall, margin.w / fall};  // how much later it ends
+    by.v = {by.v.v + (old.v - then.v) * later.v, by.v.w + (old.v - then.v) * later.w};
+    by.w = {by.w.v + (old.w - then.w) * later.v, by.w.w + (old.w - then.w) * later.w};
+}
+
+/// Goes to the end of a phase, at most `end`.
+void RollingWalk::step(Progress& now, RollingPhase& p, Contact const& contact, double end,
+                       Record* record) const {
+    Forces const f = forces(p, contact);
+    now.what = of_piece;
+    p.end = end_of(p, f, end, now.what);
+    PhaseTime const to = f.basis.at(p.end);
+    bool const sums = f.v_sum && f.w_sum;
+    now.s = sums ? RollingState{(*f.v_sum)(to), (*f.w_sum)(to)} : RollingState{f.v(p.end), f.w(p.end)};
+    if (p.contact && p.turn == 0) now.s.w = 0;
+    if (p.contact && p.slip == 0) now.s.v = now.s.w;
+    if (now.what == spin_stops) now.s = {p.slip == 0 ? 0 : now.s.v, 0};
+    if (now.what == slip_stops) now.s.v = now.s.w;
+    now.leaving = now.what == friction_forwards ? 1 : now.what == friction_backwards ? -1 : 0;
+    now.at = {to.t, to.sine, to.cosine};
+    if (record == nullptr) return;
+    record->travel += sums ? f.v_sum->integral(f.basis, contact.start, to) : f.v.travel(p.end);
+    if (p.end > p.start) record->phases.push_back(p);
+}
+
+RollingState RollingWalk::follow(RollingNormal const& normal, RollingState s, Record* record,
+                                 RollingSensitivity* by) const {
+    if (by != nullptr) *by = {};
+    if (record != nullptr) {
+        record->travel = 0;
+        record->phases.clear();
+    }
+    RollingPhase last{};
+    Progress now{s, Instant::at(normal.pieces.front().start), of_piece, 0};
     for (NormalPiece const& piece : normal.pieces) {
-        if (no_spin_) s.w = 0;
-        if (piece.impulse > 0) s = land(s, piece.impulse);
-        double t = piece.start;
-        int leaving = 0;
-        for (int i = 0; t < piece.end; ++i) {
+        if (no_spin_) now.s.w = 0;
+        if (piece.impulse > 0) now.s = land(now.s, piece.impulse);
+        if (by != nullptr && piece.impulse > 0) by->known = false;
+        if (now.at.t != piece.start) now.at = Instant::at(piece.start);
+        now.leaving = 0;
+        for (int i = 0; now.at.t < piece.end; ++i) {
             if (i > most_phases) throw PhaseError("the floor grains chatter between rolling and sliding");
-            RollingPhase p = next_phase(piece, t, s, leaving);
-            ContactForce const n = piece.force.from(t);
-            Forces const f{n, velocity(p, n), spin(p, n)};
-            int what = of_piece;
-            p.end = end_of(p, f, piece.end, what);
-            s = {f.v(p.end), p.turn == 0 && p.contact ? 0 : f.w(p.end)};
-            if (p.contact && p.slip == 0) s.v = s.w;
-            if (what == spin_stops) s = {p.slip == 0 ? 0 : s.v, 0};
-            if (what == slip_stops) s.v = s.w;
-            leaving = what == friction_forwards ? 1 : what == friction_backwards ? -1 : 0;
-            t = p.end;
-            if (record == nullptr) continue;
-            record->travel += f.v.travel(p.end);
-            if (p.end > p.start) record->phases.push_back(p);
+            ContactForce const n = piece.force.from(now.at.t);
+            double const force = n.constant + n.sine * now.at.sine + n.cosine * now.at.cosine +
+                                 n.decays[0].amplitude + n.decays[1].amplitude;
+            Contact const contact{n, now.at, tangent_ * force};
+            RollingPhase p = next_phase(piece, contact, now.s, now.leaving);
+            bool const passes = by != nullptr && (now.what == spin_stops || now.what == slip_stops);
+            if (passes) pass(*by, last, now, p, contact);
+            step(now, p, contact, piece.end, record);
+            if (by == nullptr) continue;
+            carry(*by, p);
+            last = p;
         }
     }
-    return s;
+    return now.s;
 }
 
 }  // namespace vibrotrough::theory::detail

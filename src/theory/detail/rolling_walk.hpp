@@ -4,6 +4,7 @@
 #include "theory/detail/relaxation.hpp"
 #include "theory/detail/rolling_normal.hpp"
 
+#include <optional>
 #include <vector>
 
 // The motion of a rolling layer along the trough. Internal to this room.
@@ -34,6 +35,13 @@ struct RollingState {
     double v = 0, w = 0;
 };
 
+/// How v and w at one time depend on the state before.
+struct RollingSensitivity {
+    RollingState v{1, 0};  ///< derivatives of v by the earlier v and w
+    RollingState w{0, 1};  ///< and of w
+    bool known = true;     ///< false behind a rigid landing
+};
+
 /// Follows the motion along the trough through the pieces of the normal motion.
 class RollingWalk {
   public:
@@ -44,8 +52,13 @@ class RollingWalk {
         double travel = 0;                 ///< r cos(beta)
         std::vector<RollingPhase> phases;  ///< in order
     };
-    /// The state after the pieces, from that before them. @param record  nothing when it is not needed
-    RollingState follow(RollingNormal const& normal, RollingState s, Record* record) const;
+    /// The state after the pieces, from that before them.
+    /// @param record  nothing when it is not needed; what it holds is replaced
+    /// @param by  becomes how the state after depends on that before; nothing when it is not needed
+    RollingState follow(RollingNormal const& normal, RollingState s, Record* record,
+                        RollingSensitivity* by = nullptr) const;
+    /// What neither |v| nor |w| exceeds in a motion that repeats after `length`.
+    double greatest_velocity(double length) const;
     /// The velocity of the layer within a phase, from its start.
     Relaxation velocity(RollingPhase const& phase) const;
     /// The spin within a phase.
@@ -54,23 +67,39 @@ class RollingWalk {
     double friction_force(RollingPhase const& phase, double t) const;
 
   private:
-    RollingPhase next_phase(NormalPiece const& piece, double t, RollingState s, int leaving) const;
-    RollingPhase from_no_slip(RollingPhase phase, double normal_force, int leaving) const;
-    /// The velocities of a phase and the contact force, with the decays counted from its start.
+    /// The contact force with its decays counted from the start of a phase, and its value there.
+    struct Contact {
+        ContactForce n;
+        Instant start;
+        double normal_force;  ///< N
+    };
+    RollingPhase next_phase(NormalPiece const& piece, Contact const& contact, RollingState s,
+                            int leaving) const;
+    RollingPhase from_no_slip(RollingPhase phase, Contact const& contact, int leaving) const;
+    /// The velocities of a phase and the contact force.
     struct Forces {
         ContactForce n;
         Relaxation v, w;
+        std::optional<PhaseSum> v_sum, w_sum;  ///< the same velocities; nothing for decays of equal rates
+        PhaseBasis basis;
     };
-    Relaxation velocity(RollingPhase const& phase, ContactForce const& n) const;
-    Relaxation spin(RollingPhase const& phase, ContactForce const& n) const;
+    Forces forces(RollingPhase const& phase, Contact const& contact) const;
+    struct Progress;
+    void step(Progress& now, RollingPhase& phase, Contact const& contact, double end, Record* record) const;
+    Relaxation velocity(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
+    Relaxation spin(RollingPhase const& phase, ContactForce const& n, Instant const& start) const;
     double end_of(RollingPhase const& phase, Forces const& f, double end, int& what) const;
     /// The same for decays with about equal rates.
     double end_of_close_rates(RollingPhase const& phase, Forces const& f, double end, int& what) const;
     std::array<Sample, 3> without_slip(RollingPhase const& phase, ContactForce const& n, Relaxation const& w,
                                        double t) const;
     RollingState land(RollingState s, double impulse) const;
+    RollingState rates(RollingPhase const& phase, double sine, double normal_force, RollingState s) const;
+    void carry(RollingSensitivity& by, RollingPhase const& phase) const;
+    void pass(RollingSensitivity& by, RollingPhase const& before, Progress const& now,
+              RollingPhase const& after, Contact const& contact) const;
 
-    double gravity_, tangent_, friction_, dry_, inertia_, torque_;
+    double gravity_, tangent_, friction_, dry_, inertia_, torque_, weight_;
     bool no_spin_;
 };
 
