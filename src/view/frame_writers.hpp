@@ -1,5 +1,6 @@
 #pragma once
 
+#include "view/colour_scales.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frames.hpp"
 #include "view/trough_motion.hpp"
@@ -20,15 +21,22 @@ class GrainWriter {
   public:
     /// `source` must outlive the writer.
     explicit GrainWriter(FrameSource const& source) : source_(source) {}
-    /// Writes one frame at `time` (s). @throws MissingError when the disk refuses
-    void write(std::filesystem::path const& path, GrainFrame& frame, double time);
+    /// Writes one frame at `time` (s); `surface` is the height of the trough's surface, m.
+    /// @throws MissingError when the disk refuses
+    void write(std::filesystem::path const& path, GrainFrame& frame, double surface, double time);
 
     /// Velocities of the grains in the last frame written: m/s, x y z of each grain, relative to the trough.
     std::vector<float> const& relative_velocity() const { return relative_; }
+    /// m/s, mean velocity of the layer along the trough in the last frame written, relative to the ground.
+    double mean_velocity() const { return mean_velocity_; }
+    /// How far the values of all frames written so far reach.
+    ColourScales const& scales() const { return scales_; }
 
   private:
     FrameSource const& source_;
-    std::vector<float> relative_;
+    std::vector<float> relative_, from_mean_, turns_, height_;
+    double mean_velocity_ = 0;
+    ColourScales scales_;
     vtkNew<vtkPolyData> data_;
 };
 

@@ -110,12 +110,12 @@ class FrameExport {
     void write(GrainFrame& frame, TroughPosition const& position) {
         double const time = static_cast<double>(frame.step) * source_.time_step;
         std::string const name = fmt::format("{:06}.vtp", files_.size());
-        grains_.write(target_ / "grains" / name, frame, time);
+        double const surface = trough_.bounds()[4] + position.z;
+        grains_.write(target_ / "grains" / name, frame, surface, time);
         trough_.write(target_ / "trough" / name, position, time);
-        write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(),
-                      trough_.bounds()[4] + position.z, time);
+        write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(), surface, time);
         if (point_mass_) {
-            auto const block = block_.at(point_mass_->at(time), position.z);
+            auto const block = block_.at(point_mass_->at(time), position.z, grains_.mean_velocity());
             set_time(*block, source_, time);
             write_vtp(target_ / "point_mass" / name, *block);
         }
@@ -133,6 +133,7 @@ class FrameExport {
     }
 
     int frames() const { return static_cast<int>(files_.size()); }
+    ColourScales const& scales() const { return grains_.scales(); }
 
   private:
     static constexpr std::array objects{"grains", "trough", "profile", "point_mass"};
@@ -158,7 +159,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
                             .trough = target / "trough.pvd",
                             .point_mass = target / "point_mass.pvd",
                             .profile = target / "profile.pvd",
-                            .scene = write_scene(source, target)};
+                            .scene = write_scene(source, {}, target)};
     frames.write_collections();
 
     DumpReader reader;
@@ -184,6 +185,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
         }
     }
     frames.write_collections();
+    write_scene(source, frames.scales(), target);
     exported.frames = frames.frames();
     return exported;
 }

@@ -2,6 +2,7 @@
 
 #include "scenario/model/drive.hpp"
 #include "theory/conveyor.hpp"
+#include "view/colour_scales.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -30,6 +31,7 @@ struct FrameSource {
     std::optional<TheoryMotion> point_mass = {};  ///< nothing when the theory has no periodic motion
     std::string caption;  ///< one line shown in the scene, without Greek letters (ParaView cannot show them);
                           ///< may be empty
+    Colour colour = Colour::velocity;  ///< what the scene colours the grains by
 };
 
 /// The files that an export wrote.

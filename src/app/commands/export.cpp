@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "view/frames.hpp"
+#include "view/scene.hpp"
 #include "view/table_vtk.hpp"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct Options {
     std::string folder;
     std::string id;
     bool table = false;
+    std::string colour = "velocity";
 };
 
 /// Writes the campaign's table for ParaView and returns its path.
@@ -55,7 +57,7 @@ std::optional<view::TheoryMotion> theory_motion(prepare::PreparedCase const& pre
 }
 
 /// Exports the frames that a case's first packing has written so far. None when there are no frames.
-std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
+std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned, view::Colour colour) {
     fs::path const packing = planned.packing_folder(1);
     if (planned.scenario().output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
         return {};
@@ -70,7 +72,8 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .point_mass = theory_motion(*planned.prepared),
         .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                                planned.scenario().campaign, planned.id, planned.prepared->throw_number,
-                               planned.prepared->machine_number, trough.friction)};
+                               planned.prepared->machine_number, trough.friction),
+        .colour = colour};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     auto exported = view::export_frames(source, planned.folder / "frames", [&](int written, int all) {
         if (terminal) tell("\r{}: {} of {} frames\x1b[K", planned.id, written, all);
@@ -85,12 +88,13 @@ int run(Options const& options) {
         print_table(plan);
         return all_well;
     }
+    view::Colour const colour = view::colour_named(options.colour);
     bool known = options.id.empty();
     int exported = 0;
     for (campaign::PlannedCase const& planned : plan.cases) {
         if (!options.id.empty() && planned.id != options.id) continue;
         known = true;
-        auto const frames = export_case(planned);
+        auto const frames = export_case(planned, colour);
         if (!frames) continue;
         ++exported;
         fmt::print(
@@ -128,6 +132,13 @@ void add_export(CLI::App& program, int& exit_code) {
         ->type_name("ID");
     command->add_flag("--table", options->table,
                       "Write only the table of all cases (view/campaign.vtt), and no frames");
+    command
+        ->add_option("--colour", options->colour,
+                     "What the scene colours the grains by: velocity (along the trough, less the layer's "
+                     "mean), spin (across the trough), height, or trough (velocity relative to it); default: "
+                     "velocity")
+        ->check(CLI::IsMember({"velocity", "spin", "height", "trough"}))
+        ->type_name("NAME");
     command->footer(
         R"(Frames are snapshots of the grains. They are written while the first packing of each case is
 simulated if the campaign file asks for them with frames_per_cycle under [output].
