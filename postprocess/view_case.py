@@ -23,6 +23,7 @@ from paraview.simple import (
     ColorBy,
     CreateLayout,
     CreateView,
+    FindSource,
     GetActiveViewOrCreate,
     GetAnimationScene,
     GetColorTransferFunction,
@@ -192,6 +193,21 @@ def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, An
     return block, lane
 
 
+def open_contacts(view: Any) -> None:
+    """The contacts as lines between centres, or to the trough, not shown at first. Press the eye beside them; the filter
+    Tube, scaled by normal_force, draws force chains."""
+    shown = Show(open_collection("contacts"), view)
+    ColorBy(shown, ("CELLS", "normal_force"))
+    shown.LineWidth = 3.0
+    colours = GetColorTransferFunction("normal_force")
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    bar = GetScalarBar(colours, view)
+    bar.Title, bar.ComponentTitle = "normal force of a contact, N", ""
+    bar.TitleColor = bar.LabelColor = INK
+    shown.SetScalarBarVisibility(view, False)
+    Hide(FindSource("contacts"), view)
+
+
 def annotate(view: Any, grains: Any, block: Any) -> None:
     time = AnnotateTimeFilter(registrationName="time", Input=grains)
     time.Format = "t = {time:.4f} s"
@@ -297,6 +313,8 @@ def main() -> None:
     quantity = chosen_quantity(view, grains)
     block, lane = show_point_mass(view, trough, quantity) if has_frames("point_mass.pvd") else (None, None)
     show_grains(view, grains, quantity)
+    if os.path.exists(os.path.join(FOLDER, "contacts.pvd")) and has_frames("contacts.pvd"):
+        open_contacts(view)
     annotate(view, grains, block)
     height = look_along_the_width(view, trough, lane, grains)
     show_profile(view, 1.8 * height)

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -132,6 +133,36 @@ void TroughWriter::write(std::filesystem::path const& path, TroughPosition const
     moved_->SetPoints(points);
     set_time(*moved_, source_, time);
     write_vtp(path, *moved_);
+}
+
+void write_contacts(std::filesystem::path const& path, FrameSource const& source, ContactFrame& frame,
+                    double time) {
+    std::size_t const contacts = frame.contacts();
+    std::vector<float> normal(contacts), tangential(contacts), force(3 * contacts);
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> lines;
+    for (std::size_t i = 0; i < contacts; ++i) {
+        float const* const n = &frame.normal_force[3 * i];
+        float const* const t = &frame.tangential_force[3 * i];
+        normal[i] = std::hypot(n[0], n[1], n[2]);
+        tangential[i] = std::hypot(t[0], t[1], t[2]);
+        for (std::size_t axis = 0; axis < 3; ++axis) force[3 * i + axis] = n[axis] + t[axis];
+        vtkIdType const ends[2] = {points->InsertNextPoint(&frame.start[3 * i]),
+                                   points->InsertNextPoint(&frame.end[3 * i])};
+        lines->InsertNextCell(2, ends);
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetLines(lines);
+    vtkCellData& values = *data->GetCellData();
+    values.AddArray(view_of<vtkFloatArray>(normal, "normal_force", 1));
+    values.AddArray(view_of<vtkFloatArray>(tangential, "tangential_force", 1));
+    values.AddArray(view_of<vtkFloatArray>(force, "force", 3));
+    values.AddArray(view_of<vtkFloatArray>(frame.overlap, "overlap", 1));
+    values.AddArray(view_of<vtkIntArray>(frame.first, "first_grain", 1));
+    values.AddArray(view_of<vtkIntArray>(frame.second, "second_grain", 1));
+    set_time(*data, source, time);
+    write_vtp(path, *data);
 }
 
 void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,

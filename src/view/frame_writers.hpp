@@ -1,6 +1,7 @@
 #pragma once
 
 #include "view/colour_scales.hpp"
+#include "view/contact_reader.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frames.hpp"
 #include "view/trough_motion.hpp"
@@ -56,6 +57,11 @@ class TroughWriter {
     vtkSmartPointer<vtkPolyData> rest_;
     vtkNew<vtkPolyData> moved_;
 };
+
+/// Writes the contacts of one frame: a line for each, from the centre of the first grain to that of the
+/// second or to the point on the trough, with the forces. @throws MissingError when the disk refuses
+void write_contacts(std::filesystem::path const& path, FrameSource const& source, ContactFrame& frame,
+                    double time);
 
 /// Writes the profile over the height of the layer for one frame: a point per slab, joined by a line;
 /// `surface` is the height of the trough's surface, m.

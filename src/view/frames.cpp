@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "view/contact_reader.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frame_writers.hpp"
 #include "view/point_mass.hpp"
@@ -105,6 +106,10 @@ class FrameExport {
         : source_(source), target_(target), trough_(source), grains_(source), block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
         for (char const* const object : objects) core::make_folder(target / object);
+        if (has_contacts(source.folder)) {
+            contacts_.emplace();
+            core::make_folder(target / "contacts");
+        }
     }
 
     void write(GrainFrame& frame, TroughPosition const& position) {
@@ -120,6 +125,12 @@ class FrameExport {
             write_vtp(target_ / "point_mass" / name, *block);
         }
         files_.emplace_back(time, name);
+        if (!contacts_) return;
+        // Older frames of a run may have none, and those of the last frame may be incomplete.
+        auto const state = read_contacts(source_.folder, frame.step, frame.box, contact_frame_);
+        if (state == DumpState::unfinished) return;
+        write_contacts(target_ / "contacts" / name, source_, contact_frame_, time);
+        contacts_->emplace_back(time, name);
     }
 
     void write_collections() const {
@@ -130,7 +141,12 @@ class FrameExport {
             }
             write_collection(target_ / (object + ".pvd"), entries);
         }
+        if (!contacts_) return;
+        std::vector<CollectionEntry> entries;
+        for (auto const& [time, name] : *contacts_) entries.push_back({time, "contacts/" + name});
+        write_collection(target_ / "contacts.pvd", entries);
     }
+    bool with_contacts() const { return contacts_.has_value(); }
 
     int frames() const { return static_cast<int>(files_.size()); }
     ColourScales const& scales() const { return grains_.scales(); }
@@ -145,6 +161,8 @@ class FrameExport {
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;
     std::vector<std::pair<double, std::string>> files_;
+    std::optional<std::vector<std::pair<double, std::string>>> contacts_;
+    ContactFrame contact_frame_;
 };
 
 }  // namespace
@@ -159,6 +177,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
                             .trough = target / "trough.pvd",
                             .point_mass = target / "point_mass.pvd",
                             .profile = target / "profile.pvd",
+                            .contacts = frames.with_contacts() ? target / "contacts.pvd" : fs::path(),
                             .scene = write_scene(source, {}, target)};
     frames.write_collections();
 
