@@ -1,6 +1,7 @@
 """Renders an exported case to PNG with ParaView, without a window.
 
     pvbatch --force-offscreen-rendering render_case.py FOLDER FILE.png [--time SECONDS] [--size WIDTH HEIGHT] [--with-profile]
+            [--colour velocity|spin|height|trough]
 
 FOLDER is what `vibrotrough export` left (with view_case.py); the frame nearest to the time is drawn, by default the last.
 Debian's pvbatch renders through X: put xvfb-run -a -s "-screen 0 1600x1000x24 +extension GLX -noreset" before it on a
@@ -13,11 +14,11 @@ import os
 from paraview.simple import FindSource, GetActiveView, GetAnimationScene, GetLayout, Render, SaveScreenshot
 
 
-def open_scene(folder: str) -> None:
+def open_scene(folder: str, colour: str | None) -> None:
     """Runs the case's own scene, so that the picture is what a person sees."""
     path = os.path.join(os.path.abspath(folder), "view_case.py")
     with open(path, encoding="utf-8") as file:
-        exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__"})
+        exec(compile(file.read(), path, "exec"), {"__file__": path, "__name__": "__main__", "CHOSEN_COLOUR": colour})
 
 
 def go_to(time: float | None) -> float:
@@ -45,10 +46,13 @@ def main() -> None:
     parser.add_argument("picture")
     parser.add_argument("--time", type=float)
     parser.add_argument("--size", type=int, nargs=2, default=[1600, 1000], metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--colour", choices=["velocity", "spin", "height", "trough"],
+                        help="what the grains are coloured by: velocity along the trough less the layer's mean; spin across the "
+                        "trough; height above it; velocity relative to it. Default: what 'vibrotrough export' chose")  # fmt: skip
     parser.add_argument("--with-profile", action="store_true", help="draw the charts beside the layer, too")
     options = parser.parse_args()
 
-    open_scene(options.folder)
+    open_scene(options.folder, options.colour)
     view = GetActiveView()
     if options.with_profile:
         drawn = GetLayout(view)

@@ -1,17 +1,20 @@
 """Opens an exported case in ParaView: the grains as spheres of true size, coloured by their velocity along the trough
-relative to the trough, the moving trough, the point mass of the theory as a block on its own lane in front, the phase of
+less the layer's mean, the moving trough, the point mass of the theory as a block on its own lane in front, the phase of
 the vibration, and beside them the layer's velocity and solid fraction over height.
 
     paraview --state=FOLDER/view_case.py
 
-works from any folder. `vibrotrough export` writes this file beside the .pvd files, with the three values below filled in;
-postprocess/view_case.py is its template.
+works from any folder. `vibrotrough export` writes this file beside the .pvd files, with the values below filled in;
+postprocess/view_case.py is its template. `vibrotrough export --colour spin` (or height, or trough) and
+`render_case.py --colour spin` colour the grains by something else.
 """
 
 from __future__ import annotations
 
+import math
 import os
-from typing import Any
+import sys
+from typing import Any, NamedTuple
 
 import paraview
 from paraview.simple import (
@@ -20,6 +23,7 @@ from paraview.simple import (
     ColorBy,
     CreateLayout,
     CreateView,
+    FindSource,
     GetActiveViewOrCreate,
     GetAnimationScene,
     GetColorTransferFunction,
@@ -40,9 +44,32 @@ from paraview.simple import (
 CAPTION = "@CAPTION@"
 FREQUENCY = "@FREQUENCY@"  # Hz, of the vibration
 SPEED: Any = "@SPEED@"  # m/s, largest speed of the trough along itself
+# How far the colours reach, so that they mean the same in every frame; 0: as far as the values of the first frame shown.
+VELOCITY_REACH: Any = "@VELOCITY_REACH@"  # m/s
+SPIN_REACH: Any = "@SPIN_REACH@"  # over the angular frequency of the vibration
+HEIGHT_REACH: Any = "@HEIGHT_REACH@"  # m
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
-COLOURED_BY = "velocity_relative_to_trough"
+
+
+class Quantity(NamedTuple):
+    """What the grains are coloured by: an array, how far its values reach, and whether they go both ways."""
+
+    array: str
+    title: str
+    reach: float
+    both_ways: bool = True
+    preset: str = "Cool to Warm"
+    component: tuple[str, ...] = ()
+
+
+QUANTITIES = {
+    "velocity": Quantity("velocity_from_mean", "velocity along the trough less the layer's mean, m/s", VELOCITY_REACH),
+    "spin": Quantity("spin_over_omega", "spin across the trough over the angular frequency of the vibration, 1", SPIN_REACH),
+    "height": Quantity("height", "height of the centre above the trough, m", HEIGHT_REACH, False, "Viridis (matplotlib)"),
+    "trough": Quantity("velocity_relative_to_trough", "velocity along the trough, relative to it, m/s", 2.0 * SPEED, component=("X",)),
+}
+COLOUR = globals().get("CHOSEN_COLOUR") or "@COLOUR@"  # render_case.py chooses
 MOST_SPHERES = 5000  # above, grains are drawn as Gaussian points shaded like spheres, which need no triangles
 INK = [0.1, 0.1, 0.1]
 
@@ -58,28 +85,53 @@ def open_collection(name: str) -> Any:
     return reader
 
 
-def colour_by_velocity(view: Any, shown: Any) -> None:
-    """Blue where grains lag behind the trough, red where they run ahead, to twice the trough's largest speed."""
-    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
-    colours = GetColorTransferFunction(COLOURED_BY)
-    colours.ApplyPreset("Cool to Warm", True)
+def chosen_quantity(view: Any, grains: Any) -> Quantity:
+    """What was asked for, or the velocity where the frames lack it."""
+    quantity = QUANTITIES[COLOUR]
+    if quantity.array in grains.PointData.keys() or grains.GetDataInformation().GetNumberOfPoints() == 0:
+        return quantity
+    note = f"These frames do not contain {quantity.array} (older versions wrote no spin); run the case again to see it."
+    print("view_case.py:", note, file=sys.stderr)
+    show_text(view, Text(registrationName="missing", Text=note), "Any Location").Position = [0.008, 0.87]
+    return QUANTITIES["velocity"]
+
+
+def reach_of(quantity: Quantity, source: Any) -> float:
+    """How far the colours reach; without a value for the whole case, as far as the first frame's grains do."""
+    if quantity.reach > 0:
+        return quantity.reach
+    if source.GetDataInformation().GetNumberOfPoints() == 0:
+        return 1.0
+    low, high = source.PointData[quantity.array].GetRange()
+    return max(abs(low), abs(high)) or 1.0
+
+
+def colour_by(view: Any, shown: Any, quantity: Quantity, reach: float) -> None:
+    """The same colours in every frame, with few labels on the bar, which do not touch each other."""
+    ColorBy(shown, ("POINTS", quantity.array, *quantity.component))
+    colours = GetColorTransferFunction(quantity.array)
+    colours.ApplyPreset(quantity.preset, True)
     colours.AutomaticRescaleRangeMode = "Never"
-    colours.RescaleTransferFunction(-2.0 * SPEED, 2.0 * SPEED)
+    low = -reach if quantity.both_ways else 0.0
+    colours.RescaleTransferFunction(low, reach)
     bar = GetScalarBar(colours, view)
-    bar.Title = "velocity along the trough, relative to it, m/s"
+    bar.Title = quantity.title
     bar.ComponentTitle = ""
     bar.Orientation = "Horizontal"
     bar.WindowLocation = "Lower Center"
     bar.ScalarBarLength = 0.4
+    bar.AddRangeLabels = 0
+    bar.UseCustomLabels = 1
+    bar.CustomLabels = [low + share * (reach - low) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
     bar.AutomaticLabelFormat = 0
-    bar.LabelFormat = bar.RangeLabelFormat = "%.2f"
+    bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
     bar.TitleColor = bar.LabelColor = INK
     bar.TitleFontSize = 16
     bar.LabelFontSize = 15
     shown.SetScalarBarVisibility(view, True)
 
 
-def show_grains(view: Any, grains: Any) -> None:
+def show_grains(view: Any, grains: Any, quantity: Quantity) -> None:
     if grains.GetDataInformation().GetNumberOfPoints() > MOST_SPHERES:
         shown = Show(grains, view)
         shown.SetRepresentationType("Point Gaussian")
@@ -100,7 +152,7 @@ def show_grains(view: Any, grains: Any) -> None:
         Hide(grains, view)
         shown = Show(spheres, view)
         SetActiveSource(grains)
-    colour_by_velocity(view, shown)
+    colour_by(view, shown, quantity, reach_of(quantity, grains))
 
 
 def show_trough(view: Any, trough: Any) -> None:
@@ -119,7 +171,7 @@ def show_text(view: Any, source: Any, where: str) -> Any:
     return shown
 
 
-def show_point_mass(view: Any, trough: Any) -> tuple[Any, Any]:
+def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, Any]:
     """The theory's block on a lane that is the trough once more, narrower and in front of it."""
     block = open_collection("point_mass")
     lane = Transform(registrationName="lane of the point mass", Input=trough)
@@ -133,8 +185,27 @@ def show_point_mass(view: Any, trough: Any) -> tuple[Any, Any]:
     shown = Show(block, view)
     shown.SetRepresentationType("Surface With Edges")
     shown.EdgeColor = INK
-    ColorBy(shown, ("POINTS", COLOURED_BY, "X"))
+    if quantity.array in block.PointData.keys():
+        ColorBy(shown, ("POINTS", quantity.array, *quantity.component))
+    else:
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
     return block, lane
+
+
+def open_contacts(view: Any) -> None:
+    """The contacts as lines between centres, or to the trough, not shown at first. Press the eye beside them; the filter
+    Tube, scaled by normal_force, draws force chains."""
+    shown = Show(open_collection("contacts"), view)
+    ColorBy(shown, ("CELLS", "normal_force"))
+    shown.LineWidth = 3.0
+    colours = GetColorTransferFunction("normal_force")
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    bar = GetScalarBar(colours, view)
+    bar.Title, bar.ComponentTitle = "normal force of a contact, N", ""
+    bar.TitleColor = bar.LabelColor = INK
+    shown.SetScalarBarVisibility(view, False)
+    Hide(FindSource("contacts"), view)
 
 
 def annotate(view: Any, grains: Any, block: Any) -> None:
@@ -150,6 +221,15 @@ def annotate(view: Any, grains: Any, block: Any) -> None:
         motion.ArrayAssociation = "Field Data"
         motion.Expression = "'theory: the point mass ' + motion.GetValue(0)"
         show_text(view, motion, "Lower Left Corner")
+
+
+def axis_labels(low: float, high: float, unit: float) -> list[str]:
+    """Places along an axis and their texts, which are `unit` times as large: multiples of 1, 2 or 5 times a power of ten
+    between the two ends, at most six."""
+    step = 10.0 ** math.floor(math.log10((high - low) / 5))
+    step *= next(digit for digit in (1, 2, 5, 10) if (high - low) / (digit * step) <= 5)
+    places = [number * step for number in range(math.ceil(low / step), math.floor(high / step) + 1)]
+    return [text for place in places for text in (f"{place:.9g}", f"{unit * place:.4g}")]
 
 
 def show_chart(layout: Any, location: int, share: float, profile: Any, what: str, axis_title: str, reach: tuple[float, float], height: float) -> int:
@@ -170,10 +250,15 @@ def show_chart(layout: Any, location: int, share: float, profile: Any, what: str
     chart.BottomAxisTitleFontSize = chart.LeftAxisTitleFontSize = 14
     chart.BottomAxisTitleBold = chart.LeftAxisTitleBold = 0
     chart.BottomAxisTitle = axis_title
-    chart.LeftAxisTitle = "height above the trough, m"
+    chart.LeftAxisTitle = "height above the trough, mm"
     chart.BottomAxisUseCustomRange = chart.LeftAxisUseCustomRange = 1
     chart.BottomAxisRangeMinimum, chart.BottomAxisRangeMaximum = reach
     chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 0.0, height
+    # Few and short labels: ParaView keeps less room for them than they need beside the axis's title.
+    chart.LeftAxisUseCustomLabels = chart.BottomAxisUseCustomLabels = 1
+    chart.LeftAxisLabels = axis_labels(0.0, height, 1000.0)
+    chart.BottomAxisLabels = axis_labels(*reach, 1.0)
+    chart.LeftAxisLabelFontSize = chart.BottomAxisLabelFontSize = 13
     return layout_location
 
 
@@ -225,8 +310,11 @@ def main() -> None:
     trough = open_collection("trough")
     GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     show_trough(view, trough)
-    block, lane = show_point_mass(view, trough) if has_frames("point_mass.pvd") else (None, None)
-    show_grains(view, grains)
+    quantity = chosen_quantity(view, grains)
+    block, lane = show_point_mass(view, trough, quantity) if has_frames("point_mass.pvd") else (None, None)
+    show_grains(view, grains, quantity)
+    if os.path.exists(os.path.join(FOLDER, "contacts.pvd")) and has_frames("contacts.pvd"):
+        open_contacts(view)
     annotate(view, grains, block)
     height = look_along_the_width(view, trough, lane, grains)
     show_profile(view, 1.8 * height)

@@ -36,6 +36,14 @@ std::string command_in(std::string_view line) {
     return command;
 }
 
+/// Older versions wrote frames without the spin of the grains. What a frame says of a grain is not part
+/// of what the engine simulates, so that a case keeps its id, and a run its checkpoint.
+std::string without_spin(std::string command) {
+    constexpr std::string_view begin = "dump frames all custom ", end = " omegax omegay omegaz";
+    if (command.starts_with(begin) && command.ends_with(end)) command.resize(command.size() - end.size());
+    return command;
+}
+
 bool is_deck(std::string_view name) {
     return name.ends_with(".liggghts") || name.ends_with(".in");
 }
@@ -47,7 +55,7 @@ std::string commands_of(std::string_view deck) {
     bool goes_on = false;
     while (!deck.empty()) {
         std::size_t const length = std::min(deck.find('\n'), deck.size());
-        std::string command = command_in(deck.substr(0, length));
+        std::string command = without_spin(command_in(deck.substr(0, length)));
         deck.remove_prefix(std::min(length + 1, deck.size()));
         if (command.empty() && !goes_on) continue;
         goes_on = command.ends_with('&');

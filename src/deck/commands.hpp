@@ -10,8 +10,9 @@
 namespace vibrotrough::deck {
 
 /// The commands of a deck, one per line, without comments, blank lines and the blanks that only align words.
-/// A line that ends in & continues on the next. A # within quotes belongs to the text. Two decks with the
-/// same commands make the engine do the same.
+/// A line that ends in & continues on the next. A # within quotes belongs to the text. The columns with the
+/// spin of the grains in the frames are left out. Two decks with the same commands make the engine do the
+/// same.
 std::string commands_of(std::string_view deck);
 
 /// SHA-256 over the names and commands of a deck's files, 64 hexadecimal digits. Other files, such as meshes,

@@ -52,8 +52,8 @@ struct PackingPlan {
     int next_stop(int done) const;
 };
 
-/// The deck of one packing. The packings of a case differ in their seeds and in how they start, and the first
-/// one may write frames. The number of cycles stands in control.in only, with a checkpoint after the last of
+/// The deck of one packing. The packings of a case differ in their seeds, in how they start, and in whether
+/// they write frames. The number of cycles stands in control.in only, with a checkpoint after the last of
 /// them, so that the same run can be continued later.
 /// @throws std::invalid_argument when the number is below 1 or above 1000
 Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing);

@@ -14,6 +14,12 @@ namespace {
 /// A mean row of rolling.csv has 240 bytes, and there are 100/3 of them.
 constexpr double rolling_bytes_per_cycle = 8000;
 
+/// The contacts of a frame: a line has 175 bytes, and a frame of a layer that is thrown high has a third of a
+/// contact for each sphere, one of a layer at rest 2.5.
+double contact_bytes(double spheres) {
+    return 1000 + 175 * 0.8 * spheres;
+}
+
 /// Whether the contacts are those of Hertz without attraction, whose formulas are closed.
 bool is_plain_hertz(scenario::EnginePlan const& engine) {
     return engine.contact == scenario::ContactModel::hertz && engine.cohesion == 0;
@@ -131,12 +137,14 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
     double const per_cycle = 253.0 * prepare::phases_per_cycle +
                              (s.measure.rolling ? rolling_bytes_per_cycle : 0) + 140 +
                              snapshots * (25 + 22.5 * bins + 35 * columns);
-    double const frames = s.output.frames_per_cycle * cycles;  // of the first packing
+    double const frames = s.output.frames_per_cycle * cycles *
+                          packings_with_frames(s.output, static_cast<int>(std::ceil(packings)));
+    double const per_frame = 300 + 102 * spheres + (s.output.contacts ? contact_bytes(spheres) : 0);
     // The engine's output, the deck and the marker of the run and of its settling; settled.restart and one
     // checkpoint.
     double const per_packing = 175e3 + (350 + 310) * spheres;
     double const result = 100e3 + packings * (15e3 + 72 * cycles);
-    return packings * (per_packing + cycles * per_cycle) + frames * (300 + 75 * spheres) + result;
+    return packings * (per_packing + cycles * per_cycle) + frames * per_frame + result;
 }
 
 double expected_memory(prepare::PreparedCase const& c, int ranks) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -104,6 +105,18 @@ void add_grains(RollingCurves& curves, Folder const& fold, RollingSeries const& 
     curves.second_spin = ratio(fold.of(s.second_spin), fold.of(s.second));
 }
 
+std::optional<double> mean_of_known(Values const& curve) {
+    double sum = 0;
+    int known = 0;
+    for (double const value : curve) {
+        if (!std::isfinite(value)) continue;
+        sum += value;
+        ++known;
+    }
+    if (known == 0) return {};
+    return sum / known;
+}
+
 void check_length(RollingSeries const& series, PhaseSeries const& phases, RollingFacts const& facts) {
     std::size_t const hundredths = static_cast<std::size_t>(std::max(facts.used, 0)) * per_cycle;
     if (phases.lines() >= hundredths && series.lines() >= hundredths / RollingSeries::stride) return;
@@ -157,6 +170,7 @@ RollingCurves rolling_curves(RollingSeries const& s, PhaseSeries const& phases, 
         double const with_floor = curves.floor_grains[j] / facts.grains;
         curves.contacts_per_grain.push_back(between[j] + with_floor);
     }
+    curves.coordination_number = mean_of_known(curves.contacts_per_grain);
     curves.first_fraction = fold.mean(s.first_volume, facts.slice);
     curves.second_fraction = less(fold.mean(s.second_volume, facts.slice), curves.first_fraction);
     return curves;

@@ -4,6 +4,7 @@
 #include "measure/phase_series.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace vibrotrough::measure {
@@ -64,6 +65,8 @@ struct RollingCurves {
     std::vector<double> contacts_per_floor_grain;  ///< with other grains, of the grains that touch the floor
     std::vector<double> contacts_per_grain;        ///< with other grains and the floor, of all grains
     std::vector<double> first_fraction, second_fraction;  ///< solid fraction of the first and second diameter
+    /// Mean over the cycle of contacts_per_grain, where it is known; none without lines.
+    std::optional<double> coordination_number;
 };
 
 /// Reads rolling.csv as written by the deck. A last line without a line end is left out.

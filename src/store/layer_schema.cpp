@@ -1,6 +1,9 @@
 #include "store/layer_schema.hpp"
 
+#include "measure/mass_flow.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 namespace vibrotrough::store {
 namespace {
@@ -48,6 +51,30 @@ std::optional<double> relative_dissipation(Packing packing, scenario::Trough con
     return *packing.motion.dissipation / (packing.mass * speed * speed);
 }
 
+/// Half-width of Student's interval of the mean over the packings that have this number; none with fewer than
+/// two.
+template <class Value>
+std::optional<double> half_width(Case record, Value const& value_of) {
+    std::vector<double> values;
+    for (Packing packing : record.packings) {
+        if (std::optional<double> const value = value_of(packing)) values.push_back(*value);
+    }
+    return measure::student_half_width(values, record.scenario.measure.confidence);
+}
+
+std::optional<double> scaled(double factor, std::optional<double> const& value) {
+    if (!value) return {};
+    return factor * *value;
+}
+
+/// None when no mean is known.
+std::optional<double> gravity_power(Case record) {
+    if (record.packings.empty() || !record.estimate.mean) return {};
+    scenario::Trough const& trough = record.scenario.trough;
+    return -record.packings.front().mass * scenario::gravity * std::sin(trough.inclination) *
+           *record.estimate.mean * velocity_scale(trough);
+}
+
 std::optional<double> per_area(Case record, std::optional<double> const& value) {
     if (!value) return {};
     return *value / (record.scenario.layer.length * record.scenario.layer.width);
@@ -86,6 +113,25 @@ std::vector<CaseValue> layer_case_values() {
           "landing and next take-off over its falling speed before landing; NaN without landings; mean over "
           "the packings"},
          Real([](Case c) { return mean(c, [](Packing p) { return p.motion.restitution; }); })},
+        {{"coordination_number", "1",
+          "Mean contacts per grain, with other grains (counted for both) and with the floor, over the cycle; "
+          "NaN without measure.rolling; mean over the packings"},
+         Real([](Case c) { return mean(c, [](Packing p) { return p.rolling.coordination_number; }); })},
+        {{"coordination_number_half_width", "1",
+          "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
+          "packing"},
+         Real([](Case c) { return half_width(c, [](Packing p) { return p.rolling.coordination_number; }); })},
+        {{"gravity_power", "W",
+          "Mean power of gravity on the conveyed layer, negative uphill: - m g sin(alpha) times the "
+          "conveying "
+          "speed"},
+         Real(gravity_power)},
+        {{"dissipated_power", "W",
+          "Dissipation times frequency; of a steady layer it is the power of the trough and of gravity"},
+         Real([](Case c) {
+             return scaled(c.scenario.trough.frequency,
+                           mean(c, [](Packing p) { return p.motion.dissipation; }));
+         })},
         {{"dissipation", "J",
           "Energy dissipated per cycle: work of trough and gravity on the layer less its gain of kinetic "
           "energy; mean over the packings"},
@@ -189,6 +235,11 @@ std::vector<PackingValue> layer_packing_values() {
           "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "
           "square over the snapshots"},
          packing_field([](auto& p) -> auto& { return p.surface.wiggle_amplitude; })},
+        {{"coordination_number", "1",
+          "Mean contacts per grain, with other grains (counted for both) and with the floor, over the cycle; "
+          "NaN without measure.rolling"},
+         packing_field([](auto& p) -> auto& { return p.rolling.coordination_number; }),
+         true},
         {{"rolling_problem", "1",
           "Why the table rolling is empty although measure.rolling asks for it; else empty"},
          packing_field([](auto& p) -> auto& { return p.rolling_problem; }),

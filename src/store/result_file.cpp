@@ -220,6 +220,11 @@ std::string result_bytes(CaseRecord const& record) {
     put(scenario_files_entry(), files_as_json(record.scenario));
     file.table("case", columns_of(case_values(), std::span(&record, 1)), Rank::scalar);
     file.table("packings", columns_of(packing_values(), std::span(record.packings)), Rank::array);
+    measure::MassFlow const flow = mass_flow_of(record);
+    std::vector<Hdf5Column> columns;
+    for (auto const& [entry, field] : mass_flow_columns())
+        columns.push_back({entry.name, entry.units, entry.meaning, flow.*field});
+    file.table("mass_flow", columns, Rank::array);
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());

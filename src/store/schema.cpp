@@ -324,6 +324,28 @@ std::vector<PackingSeries> const& packing_series() {
     return series;
 }
 
+std::vector<MassFlowColumn> const& mass_flow_columns() {
+    static std::vector<MassFlowColumn> const columns{
+        {{"height", "m", "Middle of the slab above the surface of the trough"}, &measure::MassFlow::height},
+        {{"flow", "kg/(m2 s)",
+          "Mass flow along the trough per area of a section that moves with it: mean over the cycle of "
+          "density "
+          "times solid fraction times velocity relative to the trough; mean over the packings"},
+         &measure::MassFlow::flow},
+        {{"half_width", "kg/(m2 s)",
+          "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
+          "packing"},
+         &measure::MassFlow::half_width},
+    };
+    return columns;
+}
+
+measure::MassFlow mass_flow_of(CaseRecord const& record) {
+    std::vector<measure::Profiles const*> profiles;
+    for (PackingRecord const& packing : record.packings) profiles.push_back(&packing.profiles);
+    return measure::mass_flow(profiles, record.scenario.grains.density, record.scenario.measure.confidence);
+}
+
 Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/mass_flow.hpp"
 #include "scenario/reader/keys.hpp"
 #include "store/case_record.hpp"
 
@@ -113,6 +114,13 @@ struct PackingTable {
     Field<PackingRecord, std::vector<double>> field;  ///< its place in the record
 };
 
+/// One column of the table `mass_flow` of a case: `mass_flow/<name>` of result.h5. It follows from the
+/// packings, so that it is written and not read.
+struct MassFlowColumn {
+    Entry entry;                                    ///< its description
+    std::vector<double> measure::MassFlow::*field;  ///< its place in the mass flow
+};
+
 /// All facts of a case, in the order of the files.
 std::vector<CaseFact> const& case_facts();
 /// All values of a case, in the order of the files.
@@ -125,6 +133,12 @@ std::vector<PackingSeries> const& packing_series();
 std::vector<PackingTable> const& packing_tables();
 /// The columns of the table `rolling` of a packing, which only a case with measure.rolling has.
 std::vector<PackingTable> const& rolling_tables();
+
+/// The columns of the table `mass_flow`.
+std::vector<MassFlowColumn> const& mass_flow_columns();
+
+/// The mass flow over depth of a case, from the profiles of its packings.
+measure::MassFlow mass_flow_of(CaseRecord const& record);
 
 /// The frozen scenario as TOML, dataset `scenario` of result.h5.
 Entry scenario_entry();

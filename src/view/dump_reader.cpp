@@ -34,8 +34,10 @@ void read_into(std::filesystem::path const& path, std::string& text) {
 }
 
 /// The meaning of a column of the dump.
-enum class Column { id, x, y, z, vx, vy, vz, radius, other };
-constexpr std::array<std::string_view, 8> column_names{"id", "x", "y", "z", "vx", "vy", "vz", "radius"};
+enum class Column { id, x, y, z, vx, vy, vz, radius, omegax, omegay, omegaz, other };
+constexpr std::array<std::string_view, 11> column_names{"id", "x",      "y",      "z",      "vx",    "vy",
+                                                        "vz", "radius", "omegax", "omegay", "omegaz"};
+constexpr std::size_t needed_columns = 8;  // older versions wrote no spin
 
 std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
     std::vector<Column> found;
@@ -50,7 +52,8 @@ std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
         if (which < column_names.size()) ++seen[which];
     }
     for (std::size_t which = 0; which < column_names.size(); ++which) {
-        if (seen[which] != 1)
+        bool const spin = which >= needed_columns;
+        if (seen[which] != (spin ? seen[needed_columns] : 1) || seen[which] > 1)
             cursor.refuse(fmt::format("comes after a list of columns that does not contain exactly one '{}'",
                                       column_names[which]));
     }
@@ -85,6 +88,14 @@ void read_grain(TextCursor& cursor, std::vector<Column> const& order, std::size_
             case Column::radius:
                 frame.radius[grain] = cursor.number<float>();
                 break;
+            case Column::omegax:
+            case Column::omegay:
+            case Column::omegaz: {
+                auto const axis = static_cast<std::size_t>(column) - static_cast<std::size_t>(Column::omegax);
+                // A spin may be smaller than any float.
+                frame.spin[3 * grain + axis] = static_cast<float>(cursor.number<double>());
+                break;
+            }
             case Column::other:
                 cursor.number<double>();
                 break;
@@ -119,6 +130,8 @@ void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
     frame.position.resize(3 * grains);
     frame.velocity.resize(3 * grains);
     frame.radius.resize(grains);
+    bool const spins = std::ranges::find(order, Column::omegay) != order.end();
+    frame.spin.resize(spins ? 3 * grains : 0);
     for (std::size_t grain = 0; grain < grains; ++grain) read_grain(cursor, order, grain, frame);
     if (!cursor.at_end()) cursor.refuse("comes after the last grain");
 }

@@ -17,6 +17,7 @@ struct GrainFrame {
     std::vector<float> position;  ///< m, x y z of each grain
     std::vector<float> velocity;  ///< m/s, x y z of each grain, relative to the ground
     std::vector<float> radius;    ///< m
+    std::vector<float> spin;      ///< rad/s, x y z of each grain; empty when the dump does not contain it
 
     /// Number of grains.
     std::size_t grains() const { return id.size(); }
@@ -28,8 +29,8 @@ enum class DumpState {
     unfinished,  ///< the file is incomplete: the engine is still writing it or was stopped
 };
 
-/// Reads LIGGGHTS dumps (`dump custom` with at least id x y z vx vy vz radius, in any order) and reuses its
-/// memory from one file to the next.
+/// Reads LIGGGHTS dumps (`dump custom` with at least id x y z vx vy vz radius, in any order, and perhaps
+/// omegax omegay omegaz) and reuses its memory from one file to the next.
 class DumpReader {
   public:
     /// @throws InputError naming file and line when the text is not a dump, a column is missing or a value is

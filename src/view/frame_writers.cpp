@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -48,6 +49,17 @@ void set_vertices(vtkPolyData& data, std::size_t grains) {
     data.SetVerts(vertices);
 }
 
+/// m/s, mean velocity along the trough, each grain counted with its volume; 0 without grains.
+double mean_velocity_of(GrainFrame const& frame) {
+    double volume = 0.0, flow = 0.0;
+    for (std::size_t i = 0; i < frame.grains(); ++i) {
+        double const cube = std::pow(static_cast<double>(frame.radius[i]), 3);
+        volume += cube;
+        flow += cube * frame.velocity[3 * i];
+    }
+    return volume > 0.0 ? flow / volume : 0.0;
+}
+
 }  // namespace
 
 void set_time(vtkPolyData& data, FrameSource const& source, double time) {
@@ -60,24 +72,42 @@ void set_time(vtkPolyData& data, FrameSource const& source, double time) {
     set_number(data, "vibration_phase", 360.0 * std::max(0.0, turns - cycle));
 }
 
-void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, double time) {
+void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, double surface, double time) {
     TroughState const trough = trough_state(source_, time);
     auto const trough_x = static_cast<float>(trough.vx);
     auto const trough_z = static_cast<float>(trough.vz);
+    mean_velocity_ = mean_velocity_of(frame);
+    std::size_t const grains = frame.grains();
+    bool const spins = frame.spin.size() == 3 * grains;
     relative_ = frame.velocity;
-    for (std::size_t i = 0; i < relative_.size(); i += 3) {
-        relative_[i] -= trough_x;
-        relative_[i + 2] -= trough_z;
+    from_mean_.resize(grains);
+    height_.resize(grains);
+    turns_.resize(spins ? grains : 0);
+    for (std::size_t i = 0; i < grains; ++i) {
+        from_mean_[i] = static_cast<float>(frame.velocity[3 * i] - mean_velocity_);
+        height_[i] = static_cast<float>(frame.position[3 * i + 2] - surface);
+        if (spins) turns_[i] = static_cast<float>(frame.spin[3 * i + 1] / source_.angular_frequency);
+        relative_[3 * i] -= trough_x;
+        relative_[3 * i + 2] -= trough_z;
     }
+    scales_.add(from_mean_, turns_, height_);
 
     vtkNew<vtkPoints> points;
     points->SetData(view_of<vtkFloatArray>(frame.position, "Points", 3));
     data_->SetPoints(points);
-    set_vertices(*data_, frame.grains());
+    set_vertices(*data_, grains);
     vtkPointData& values = *data_->GetPointData();
     values.AddArray(view_of<vtkFloatArray>(frame.radius, "radius", 1));
     values.AddArray(view_of<vtkFloatArray>(frame.velocity, "velocity", 3));
     values.AddArray(view_of<vtkFloatArray>(relative_, "velocity_relative_to_trough", 3));
+    values.AddArray(view_of<vtkFloatArray>(from_mean_, "velocity_from_mean", 1));
+    values.AddArray(view_of<vtkFloatArray>(height_, "height", 1));
+    values.RemoveArray("spin");
+    values.RemoveArray("spin_over_omega");
+    if (spins) {
+        values.AddArray(view_of<vtkFloatArray>(frame.spin, "spin", 3));
+        values.AddArray(view_of<vtkFloatArray>(turns_, "spin_over_omega", 1));
+    }
     values.AddArray(view_of<vtkIntArray>(frame.id, "id", 1));
     set_time(*data_, source_, time);
     write_vtp(path, *data_);
@@ -103,6 +133,36 @@ void TroughWriter::write(std::filesystem::path const& path, TroughPosition const
     moved_->SetPoints(points);
     set_time(*moved_, source_, time);
     write_vtp(path, *moved_);
+}
+
+void write_contacts(std::filesystem::path const& path, FrameSource const& source, ContactFrame& frame,
+                    double time) {
+    std::size_t const contacts = frame.contacts();
+    std::vector<float> normal(contacts), tangential(contacts), force(3 * contacts);
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> lines;
+    for (std::size_t i = 0; i < contacts; ++i) {
+        float const* const n = &frame.normal_force[3 * i];
+        float const* const t = &frame.tangential_force[3 * i];
+        normal[i] = std::hypot(n[0], n[1], n[2]);
+        tangential[i] = std::hypot(t[0], t[1], t[2]);
+        for (std::size_t axis = 0; axis < 3; ++axis) force[3 * i + axis] = n[axis] + t[axis];
+        vtkIdType const ends[2] = {points->InsertNextPoint(&frame.start[3 * i]),
+                                   points->InsertNextPoint(&frame.end[3 * i])};
+        lines->InsertNextCell(2, ends);
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetLines(lines);
+    vtkCellData& values = *data->GetCellData();
+    values.AddArray(view_of<vtkFloatArray>(normal, "normal_force", 1));
+    values.AddArray(view_of<vtkFloatArray>(tangential, "tangential_force", 1));
+    values.AddArray(view_of<vtkFloatArray>(force, "force", 3));
+    values.AddArray(view_of<vtkFloatArray>(frame.overlap, "overlap", 1));
+    values.AddArray(view_of<vtkIntArray>(frame.first, "first_grain", 1));
+    values.AddArray(view_of<vtkIntArray>(frame.second, "second_grain", 1));
+    set_time(*data, source, time);
+    write_vtp(path, *data);
 }
 
 void write_profile(std::filesystem::path const& path, FrameSource const& source, GrainFrame const& frame,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "view/colour_scales.hpp"
+#include "view/contact_reader.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frames.hpp"
 #include "view/trough_motion.hpp"
@@ -20,15 +22,22 @@ class GrainWriter {
   public:
     /// `source` must outlive the writer.
     explicit GrainWriter(FrameSource const& source) : source_(source) {}
-    /// Writes one frame at `time` (s). @throws MissingError when the disk refuses
-    void write(std::filesystem::path const& path, GrainFrame& frame, double time);
+    /// Writes one frame at `time` (s); `surface` is the height of the trough's surface, m.
+    /// @throws MissingError when the disk refuses
+    void write(std::filesystem::path const& path, GrainFrame& frame, double surface, double time);
 
     /// Velocities of the grains in the last frame written: m/s, x y z of each grain, relative to the trough.
     std::vector<float> const& relative_velocity() const { return relative_; }
+    /// m/s, mean velocity of the layer along the trough in the last frame written, relative to the ground.
+    double mean_velocity() const { return mean_velocity_; }
+    /// How far the values of all frames written so far reach.
+    ColourScales const& scales() const { return scales_; }
 
   private:
     FrameSource const& source_;
-    std::vector<float> relative_;
+    std::vector<float> relative_, from_mean_, turns_, height_;
+    double mean_velocity_ = 0;
+    ColourScales scales_;
     vtkNew<vtkPolyData> data_;
 };
 
@@ -48,6 +57,11 @@ class TroughWriter {
     vtkSmartPointer<vtkPolyData> rest_;
     vtkNew<vtkPolyData> moved_;
 };
+
+/// Writes the contacts of one frame: a line for each, from the centre of the first grain to that of the
+/// second or to the point on the trough, with the forces. @throws MissingError when the disk refuses
+void write_contacts(std::filesystem::path const& path, FrameSource const& source, ContactFrame& frame,
+                    double time);
 
 /// Writes the profile over the height of the layer for one frame: a point per slab, joined by a line;
 /// `surface` is the height of the trough's surface, m.

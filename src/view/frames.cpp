@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "view/contact_reader.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frame_writers.hpp"
 #include "view/point_mass.hpp"
@@ -105,21 +106,31 @@ class FrameExport {
         : source_(source), target_(target), trough_(source), grains_(source), block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
         for (char const* const object : objects) core::make_folder(target / object);
+        if (has_contacts(source.folder)) {
+            contacts_.emplace();
+            core::make_folder(target / "contacts");
+        }
     }
 
     void write(GrainFrame& frame, TroughPosition const& position) {
         double const time = static_cast<double>(frame.step) * source_.time_step;
         std::string const name = fmt::format("{:06}.vtp", files_.size());
-        grains_.write(target_ / "grains" / name, frame, time);
+        double const surface = trough_.bounds()[4] + position.z;
+        grains_.write(target_ / "grains" / name, frame, surface, time);
         trough_.write(target_ / "trough" / name, position, time);
-        write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(),
-                      trough_.bounds()[4] + position.z, time);
+        write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(), surface, time);
         if (point_mass_) {
-            auto const block = block_.at(point_mass_->at(time), position.z);
+            auto const block = block_.at(point_mass_->at(time), position.z, grains_.mean_velocity());
             set_time(*block, source_, time);
             write_vtp(target_ / "point_mass" / name, *block);
         }
         files_.emplace_back(time, name);
+        if (!contacts_) return;
+        // Older frames of a run may have none, and those of the last frame may be incomplete.
+        auto const state = read_contacts(source_.folder, frame.step, frame.box, contact_frame_);
+        if (state == DumpState::unfinished) return;
+        write_contacts(target_ / "contacts" / name, source_, contact_frame_, time);
+        contacts_->emplace_back(time, name);
     }
 
     void write_collections() const {
@@ -130,9 +141,15 @@ class FrameExport {
             }
             write_collection(target_ / (object + ".pvd"), entries);
         }
+        if (!contacts_) return;
+        std::vector<CollectionEntry> entries;
+        for (auto const& [time, name] : *contacts_) entries.push_back({time, "contacts/" + name});
+        write_collection(target_ / "contacts.pvd", entries);
     }
+    bool with_contacts() const { return contacts_.has_value(); }
 
     int frames() const { return static_cast<int>(files_.size()); }
+    ColourScales const& scales() const { return grains_.scales(); }
 
   private:
     static constexpr std::array objects{"grains", "trough", "profile", "point_mass"};
@@ -144,6 +161,8 @@ class FrameExport {
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;
     std::vector<std::pair<double, std::string>> files_;
+    std::optional<std::vector<std::pair<double, std::string>>> contacts_;
+    ContactFrame contact_frame_;
 };
 
 }  // namespace
@@ -158,7 +177,8 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
                             .trough = target / "trough.pvd",
                             .point_mass = target / "point_mass.pvd",
                             .profile = target / "profile.pvd",
-                            .scene = write_scene(source, target)};
+                            .contacts = frames.with_contacts() ? target / "contacts.pvd" : fs::path(),
+                            .scene = write_scene(source, {}, target)};
     frames.write_collections();
 
     DumpReader reader;
@@ -184,6 +204,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
         }
     }
     frames.write_collections();
+    write_scene(source, frames.scales(), target);
     exported.frames = frames.frames();
     return exported;
 }

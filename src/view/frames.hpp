@@ -2,6 +2,7 @@
 
 #include "scenario/model/drive.hpp"
 #include "theory/conveyor.hpp"
+#include "view/colour_scales.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -20,7 +21,8 @@ struct TheoryMotion {
 
 /// The frames of one run and the data needed to interpret them.
 struct FrameSource {
-    std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z)
+    std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z), and
+                                   ///< perhaps contacts.STEP.dump and trough_contacts.STEP.dump
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
     double time_step;              ///< s
     double angular_frequency;      ///< omega, rad/s
@@ -30,6 +32,7 @@ struct FrameSource {
     std::optional<TheoryMotion> point_mass = {};  ///< nothing when the theory has no periodic motion
     std::string caption;  ///< one line shown in the scene, without Greek letters (ParaView cannot show them);
                           ///< may be empty
+    Colour colour = Colour::velocity;  ///< what the scene colours the grains by
 };
 
 /// The files that an export wrote.
@@ -40,6 +43,7 @@ struct ExportedFrames {
     std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the
                                        ///< layer; empty if its motion is not periodic
     std::filesystem::path profile;     ///< profile.pvd: velocity and solid fraction over height
+    std::filesystem::path contacts;    ///< contacts.pvd; empty if the frames have no contacts
     std::filesystem::path scene;       ///< view_case.py: `paraview --state=<scene>` opens everything
 };
 

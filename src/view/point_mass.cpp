@@ -26,6 +26,14 @@ void add_vector(vtkPolyData& data, char const* name, std::array<double, 3> const
     data.GetPointData()->AddArray(array);
 }
 
+void add_values(vtkPolyData& data, char const* name, double value) {
+    vtkNew<vtkFloatArray> array;
+    array->SetName(name);
+    for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i)
+        array->InsertNextValue(static_cast<float>(value));
+    data.GetPointData()->AddArray(array);
+}
+
 void add_text(vtkPolyData& data, char const* name, std::string const& text) {
     vtkNew<vtkStringArray> array;
     array->SetName(name);
@@ -84,7 +92,8 @@ PointMassState PointMassMotion::at(double time) const {
 PointMassBlock::PointMassBlock(std::array<double, 6> const& trough_bounds)
     : trough_(trough_bounds), edge_(0.2 * std::sqrt((trough_[1] - trough_[0]) * (trough_[3] - trough_[2]))) {}
 
-vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, double trough_z) const {
+vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, double trough_z,
+                                                double layer_vx) const {
     double const length = trough_[1] - trough_[0];
     double const travel = 0.5 * length + state.x;
     double const centre_x = trough_[0] + travel - length * std::floor(travel / length);
@@ -106,6 +115,7 @@ vtkSmartPointer<vtkPolyData> PointMassBlock::at(PointMassState const& state, dou
     block->SetPolys(cells);
     add_vector(*block, "velocity", state.velocity);
     add_vector(*block, "velocity_relative_to_trough", state.relative_velocity);
+    add_values(*block, "velocity_from_mean", state.velocity[0] - layer_vx);
     add_text(*block, "phase_of_motion", theory::to_string(state.phase));
     add_text(*block, "motion", std::string(in_words(state.phase)));
     add_number(*block, "gap", state.gap);

@@ -42,8 +42,9 @@ class PointMassBlock {
     /// @param trough_bounds  m, lower and upper bounds of x, y and z of the trough at rest
     explicit PointMassBlock(std::array<double, 6> const& trough_bounds);
 
-    /// The cube in one frame; `trough_z` is the displacement of the trough from rest, m.
-    vtkSmartPointer<vtkPolyData> at(PointMassState const& state, double trough_z) const;
+    /// The cube in one frame; `trough_z` is the displacement of the trough from rest, m, and `layer_vx` the
+    /// mean velocity of the layer along the trough, m/s relative to the ground.
+    vtkSmartPointer<vtkPolyData> at(PointMassState const& state, double trough_z, double layer_vx) const;
 
   private:
     std::array<double, 6> trough_;

@@ -6,6 +6,7 @@
 #include "view/scene_template.hpp"
 
 #include <numbers>
+#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -28,14 +29,41 @@ std::string python_literal(std::string_view text) {
 
 }  // namespace
 
-std::filesystem::path write_scene(FrameSource const& source, std::filesystem::path const& target) {
-    // The trough's own largest speed sets the colours, so that they mean the same in every frame and case.
+std::string_view name_of(Colour colour) {
+    switch (colour) {
+        case Colour::velocity:
+            return "velocity";
+        case Colour::spin:
+            return "spin";
+        case Colour::height:
+            return "height";
+        case Colour::trough:
+            return "trough";
+    }
+    throw std::invalid_argument("no such colour");
+}
+
+Colour colour_named(std::string_view name) {
+    for (Colour const colour : {Colour::velocity, Colour::spin, Colour::height, Colour::trough}) {
+        if (name == name_of(colour)) return colour;
+    }
+    throw core::InputError(
+        fmt::format("grains cannot be coloured by '{}'; choose velocity, spin, height or trough", name));
+}
+
+std::filesystem::path write_scene(FrameSource const& source, ColourScales const& scales,
+                                  std::filesystem::path const& target) {
+    // The trough's own largest speed sets the colours of velocities relative to it and the width of a chart.
     double speed = scenario::largest_speed({source.drive.along, {}}, source.angular_frequency);
     if (!(speed > 0.0)) speed = largest_speed(source.drive, source.angular_frequency);
     core::TemplateData data;
     data.set("CAPTION", python_literal(source.caption));
     data.set("FREQUENCY", fmt::format("{}", source.angular_frequency / (2.0 * std::numbers::pi)));
     data.set("SPEED", fmt::format("{}", speed > 0.0 ? speed : 1.0));
+    data.set("COLOUR", python_literal(name_of(source.colour)));
+    data.set("VELOCITY_REACH", fmt::format("{}", scales.velocity()));
+    data.set("SPIN_REACH", fmt::format("{}", scales.spin()));
+    data.set("HEIGHT_REACH", fmt::format("{}", scales.height()));
     core::write_file_atomically(target / "view_case.py", core::Template(scene_template, tags).render(data));
 
     std::filesystem::path const starter = target / "view.sh";

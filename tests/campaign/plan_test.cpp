@@ -78,6 +78,9 @@ TEST(CaseId, ChangesWithEveryInput) {
         {"half_width = 0.02", "half_width = 0.03"},
         {"max_cycles = 200", "max_cycles = 201"},
         {"frames_per_cycle = 0", "frames_per_cycle = 1"},
+        {"frames_per_cycle = 0", "frames_per_cycle = 1\nframe_packings = [2]"},
+        {"frames_per_cycle = 0", "frames_per_cycle = 1\nframe_packings = \"all\""},
+        {"frames_per_cycle = 0", "frames_per_cycle = 1\ncontacts = true"},
     };
     std::set<std::string> ids{id_of(example_campaign)};
     for (auto const& [from, to] : changes) {

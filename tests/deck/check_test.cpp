@@ -158,8 +158,8 @@ TEST(Check, FindsWhatIsWrong) {
     auto const high = scenario(with("height = \"12 mm\"", "height = \"50 mm\""));
     EXPECT_EQ(finding(high, "periodic length / layer height").severity, Severity::warning);
     auto const many = scenario(with("frames_per_cycle = 0", "frames_per_cycle = 1000"));
-    // 75 bytes for each grain in each frame of the first packing outweigh everything else.
-    EXPECT_NEAR(finding(many, "disk").measured / (75.0 * 1000 * 24 * many.layer.grains), 1, 0.1);
+    // 102 bytes for each grain in each frame of the first packing outweigh everything else.
+    EXPECT_NEAR(finding(many, "disk").measured / (102.0 * 1000 * 24 * many.layer.grains), 1, 0.1);
 }
 
 TEST(Check, AContactMustBeShortAgainstTheFlight) {

@@ -28,6 +28,15 @@ TEST(Commands, DifferWhereDecksRunDifferently) {
     EXPECT_NE(commands_of("print \"a b\"\n"), commands_of("print \"a  b\"\n"));
 }
 
+// Frames of older versions have no spin, and a case that was filmed keeps its id.
+TEST(Commands, SpinInFramesDoesNotCount) {
+    std::string const before = "dump frames all custom 100 dump/frames.*.dump id type x y z vx vy vz radius";
+    EXPECT_EQ(commands_of(before + " omegax omegay omegaz # spin\n"), before + "\n");
+    EXPECT_NE(commands_of(before + " fx\n"), commands_of(before + "\n"));
+    EXPECT_NE(commands_of("dump mine all custom 100 a omegax omegay omegaz\n"),
+              commands_of("dump mine all custom 100 a\n"));
+}
+
 TEST(Commands, OfARealDeckDoNotChangeWithItsComments) {
     auto const prepared =
         prepare::prepare_case(scenario::parse_campaign(example_campaign, "c").cases.front());

@@ -113,6 +113,7 @@ TEST(RollingCurves, AreMeansOverTheCyclesKept) {
         EXPECT_NEAR(curves.grain_torque[j], 0.04, 1e-15);
         EXPECT_EQ(curves.contacts_per_floor_grain[j], 3);
         EXPECT_NEAR(curves.contacts_per_grain[j], 2.8 + 0.4, 1e-15);
+        EXPECT_NEAR(curves.coordination_number.value(), 2.8 + 0.4, 1e-13);  // a sum of 100 doubles
         EXPECT_NEAR(curves.first_fraction[j], 0.6, 1e-15);
         EXPECT_NEAR(curves.second_fraction[j], 0.2, 1e-15);
     }

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -77,6 +77,21 @@ def check_file(path, heading, readme):
     assert seen == set(table), f"{path}: documented but not written: {set(table) - seen}"
 
 
+def check_mass_flow(file):
+    """Two phases of two bins of 1.5 mm, from 0.25 mm above the trough upwards: three slabs. What flows in the bins flows in
+    the slabs, and the lowest slab has five sixths of the lower bin."""
+    flow, of_packings = file["mass_flow"], []
+    for packing in ("1", "2"):
+        profile = file["profiles"][packing]
+        of_packings.append(1400 * profile["solid_fraction"] * profile["velocity_x"] / 2)
+    assert np.allclose(flow["height"], [0.00075, 0.00225, 0.00375], rtol=1e-12)
+    assert math.isclose(flow["flow"].sum(), np.mean([one.sum() for one in of_packings]), rel_tol=1e-12)
+    lowest = [5 / 6 * (one[0] + one[2]) for one in of_packings]
+    assert math.isclose(flow["flow"][0], np.mean(lowest), rel_tol=1e-12)
+    wanted = math.tan(0.95 * math.pi / 2) * abs(lowest[1] - lowest[0]) / 2
+    assert math.isclose(flow["half_width"][0], wanted, rel_tol=1e-12)
+
+
 def check_result_values(file):
     assert file.attrs["schema_version"] == 2
     assert file.attrs["case"] == "0123456789abcdef"
@@ -110,6 +125,12 @@ def check_result_values(file):
     assert case["largest_overlap"] == 4.5e-5 and math.isnan(case["friction_ratio"])
     scale = 0.0099 * (omega * 0.006) ** 2
     assert math.isclose(case["dissipation_fraction"], (0.001 + 0.25 / 1024) / scale, rel_tol=1e-14)
+    # Student's t for one degree of freedom is tan(0.95 pi / 2); two packings with 2.5 and 3.
+    assert case["coordination_number"] == 2.75 and list(file["packings"]["coordination_number"]) == [2.5, 3.0]
+    assert math.isclose(case["coordination_number_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
+    assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["speed"], rel_tol=1e-13)
+    assert math.isclose(case["dissipated_power"], 13.5 * (0.001 + 0.25 / 1024), rel_tol=1e-13)
+    check_mass_flow(file)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
     assert list(file["surface/2"]["height"])[-1] > list(file["surface/1"]["height"])[-1]
     assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])

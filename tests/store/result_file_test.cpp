@@ -51,6 +51,7 @@ void expect_equal_layer(PackingRecord read, PackingRecord written) {
     for (PackingTable const& table : rolling_tables())
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
     EXPECT_EQ(read.rolling_problem, written.rolling_problem);
+    EXPECT_EQ(read.rolling.coordination_number, written.rolling.coordination_number);
     EXPECT_EQ(read.motion.mode, written.motion.mode);
     EXPECT_EQ(read.motion.period_cycles, written.motion.period_cycles);
     EXPECT_EQ(read.motion.friction_ratio, written.motion.friction_ratio);

@@ -27,6 +27,9 @@ inline void fill_layer(PackingRecord& packing, double first) {
         std::size_t const length = table.group == "phases" ? 5 : table.group == "profiles" ? 4 : 3;
         for (std::size_t i = 0; i < length; ++i) table.field(packing).push_back(value += 0.25);
     }
+    packing.profiles.phase = {0, 0, 3, 3};  // two phases of two bins
+    packing.profiles.height = {0.001, 0.0025, 0.001, 0.0025};
+    packing.rolling.coordination_number = 2.5 + first;
     for (PackingTable const& table : rolling_tables())
         for (int i = 0; i < 5; ++i) table.field(packing).push_back(value += 0.25);
 }

@@ -8,14 +8,23 @@ import os
 import sys
 
 from paraview import servermanager
-from paraview.simple import FindSource, GetActiveView, GetAnimationScene, GetViews, Render, SaveScreenshot
+from paraview.simple import (
+    FindSource,
+    GetActiveView,
+    GetAnimationScene,
+    GetColorTransferFunction,
+    GetScalarBar,
+    GetViews,
+    Render,
+    SaveScreenshot,
+)
 from paraview.vtk.vtkIOImage import vtkPNGReader
 
 STEPS = [60000, 60300, 60600]
 TIME_STEP = 2.4493014e-5
 OMEGA = 2 * math.pi / (3000 * TIME_STEP)
 AMPLITUDE_X, AMPLITUDE_Z = 0.00536656, 0.00268328
-ARRAYS = {"radius": 1, "velocity": 3, "velocity_relative_to_trough": 3, "id": 1}
+ARRAYS = {"radius": 1, "velocity": 3, "velocity_relative_to_trough": 3, "velocity_from_mean": 1, "height": 1, "id": 1}
 
 
 def open_scene(folder):
@@ -57,6 +66,13 @@ def check_frame(step, dumps):
     near(low, min(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, least")
     near(high, max(row[3] for row in rows) - trough_speed, 2e-7, "relative velocity, largest")
 
+    # The layer's mean counts each grain with its volume; single precision of velocities below 1 m/s, twice.
+    volumes = [row[6] ** 3 for row in rows]
+    mean = sum(row[3] * volume for row, volume in zip(rows, volumes)) / sum(volumes)
+    low, high = arrays["velocity_from_mean"].GetRange()
+    near(low, min(row[3] for row in rows) - mean, 2e-7, "velocity less the mean, least")
+    near(high, max(row[3] for row in rows) - mean, 2e-7, "velocity less the mean, largest")
+
     assert FindSource("grains").FieldData["cycle"].GetRange(0) == (20.0, 20.0)
     phase = 360 * (step - 60000) / 3000
     near(FindSource("grains").FieldData["vibration_phase"].GetRange(0)[0], phase, 1e-6, "phase")
@@ -96,13 +112,30 @@ def check_charts():
     charts = [view for view in GetViews() if view.GetXMLName() == "XYChartView"]
     assert len(charts) == 2, f"{len(charts)} charts"
     for chart in charts:
-        assert chart.LeftAxisTitle == "height above the trough, m" and chart.BottomAxisTitle
+        assert chart.LeftAxisTitle == "height above the trough, mm" and chart.BottomAxisTitle
         (shown,) = chart.Representations
         assert shown.Input == FindSource("profile") and "height" in list(shown.SeriesVisibility)
 
 
+def check_colours():
+    """The bar says quantity and unit, reaches as far to both sides, and most grains are within its reach."""
+    colours = GetColorTransferFunction("velocity_from_mean")
+    bar = GetScalarBar(colours, GetActiveView())
+    assert bar.Title == "velocity along the trough less the layer's mean, m/s" and bar.Visibility == 1, bar.Title
+    points = list(colours.RGBPoints)
+    low, high = points[0], points[-4]
+    assert low == -high, f"from {low} to {high}"
+    for label, wanted in zip(bar.CustomLabels, (low, low / 2, 0.0, high / 2, high)):
+        near(label, wanted, 1e-12, "label of the bar")
+    values = servermanager.Fetch(FindSource("grains")).GetPointData().GetArray("velocity_from_mean")
+    sizes = sorted(abs(values.GetValue(i)) for i in range(500))
+    # The reach is 1, 2 or 5 times a power of ten, so at most 2.5 times what 95 % of the grains have in a mean frame.
+    assert sizes[250] < high and sizes[475] > high / 5, f"{sizes[250]} {sizes[475]} of {high}"
+
+
 def check_picture(path):
-    """Grains faster than the trough are red: at least half as much of the picture as in a correct image (29 %)."""
+    """Some grains are faster than the layer, others slower: red and blue both cover a part of the picture (a correct one
+    has 3 % and more of each), and no colour covers all of the grains (20 %)."""
     view = GetActiveView()
     view.ViewSize = [400, 250]
     SaveScreenshot(path, view, ImageResolution=[400, 250])
@@ -112,8 +145,10 @@ def check_picture(path):
     pixels = reader.GetOutput().GetPointData().GetScalars()
     count = pixels.GetNumberOfTuples()
     red = sum(1 for i in range(count) if pixels.GetComponent(i, 0) > 1.3 * pixels.GetComponent(i, 2))
-    assert red > 0.15 * count, f"{path}: only {red} of {count} pixels are red"
-    print(f"{path}: {red} of {count} pixels are red")
+    blue = sum(1 for i in range(count) if pixels.GetComponent(i, 2) > 1.3 * pixels.GetComponent(i, 0))
+    print(f"{path}: {red} of {count} pixels are red, {blue} are blue")
+    for name, seen in (("red", red), ("blue", blue)):
+        assert 0.01 * count < seen < 0.2 * count, f"{path}: {seen} of {count} pixels are {name}"
 
 
 def main(folder, dumps, picture):
@@ -124,6 +159,7 @@ def main(folder, dumps, picture):
     for step in STEPS:
         check_frame(step, dumps)
     check_charts()
+    check_colours()
     check_picture(picture)
 
 

@@ -70,11 +70,23 @@ void export_maps(fs::path const& folder) {
     view::write_table(folder / "campaign.vtt", rows);
 }
 
+void export_contacts(fs::path const& dumps, fs::path const& folder) {
+    view::FrameSource const source{
+        .folder = dumps,
+        .trough = dumps / "trough.stl",
+        .time_step = 5.195752952985837e-05,
+        .angular_frequency = 2.0 * std::numbers::pi * 19.246488604223018,
+        .drive = {.along = {{1, 0.002683281573, 0}}, .normal = {{1, 0.001341640787, 0}}},
+        .width = 0.015,
+        .caption = "contacts"};
+    view::export_frames(source, folder);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        std::fprintf(stderr, "usage: view_export_sample DUMPS FOLDER\n");
+    if (argc != 4) {
+        std::fprintf(stderr, "usage: view_export_sample DUMPS FOLDER DUMPS_WITH_CONTACTS\n");
         return 2;
     }
     try {
@@ -83,6 +95,7 @@ int main(int argc, char** argv) {
         std::printf("%d frames, %s\n", exported.frames, exported.scene.c_str());
         export_poor(argv[1], folder / "poor");
         export_maps(folder / "maps");
+        export_contacts(argv[3], folder / "contacts");
         return 0;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 #include <regex>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -152,6 +153,53 @@ TEST_F(Frames, VelocityRelativeToTheTrough) {
                         component(*data, "velocity", i, axis) - trough[axis], 1.2e-7);
         }
     }
+}
+
+// Velocity from the mean = v_x - sum(R^3 v_x) / sum(R^3), so that its sum weighted with R^3 vanishes; height
+// = z - (height of the trough's surface).
+TEST_F(Frames, VelocityFromTheMeanAndHeight) {
+    export_frames(source, target);
+    auto const data = read("grains/000002.vtp");
+    EXPECT_EQ(data->GetPointData()->GetArray("spin"), nullptr);  // these dumps have none
+    double moved = 0.0, volume = 0.0;
+    double const first = component(*data, "velocity", 0, 0) - component(*data, "velocity_from_mean", 0, 0);
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        double const cube = std::pow(component(*data, "radius", i, 0), 3);
+        volume += cube;
+        moved += cube * component(*data, "velocity_from_mean", i, 0);
+        // Floats of speeds below 1 m/s: two roundings of 6e-8. Heights below 0.03 m: 2e-9 each.
+        EXPECT_NEAR(component(*data, "velocity", i, 0) - component(*data, "velocity_from_mean", i, 0), first,
+                    1.2e-7);
+        EXPECT_NEAR(component(*data, "height", i, 0), data->GetPoint(i)[2] - 0.00255195, 4e-9);
+    }
+    EXPECT_NEAR(moved / volume, 0.0, 6e-8);
+}
+
+// spin is that of the dump, and spin_over_omega its component across the trough over omega.
+TEST_F(Frames, SpinIsThatOfTheDump) {
+    std::string const text = core::read_file(source.folder / "frames.60600.dump");
+    std::string changed;
+    std::istringstream lines(text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line); ++number) {
+        if (number == 8) line += "omegax omegay omegaz ";
+        if (number > 8) line += fmt::format("{} {} 1e-60 ", number, -2.0 * number);
+        changed += line + "\n";
+    }
+    write("frames.60600.dump", changed);
+    export_frames(source, target);
+    auto const data = read("grains/000002.vtp");
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        double const line = 9.0 + static_cast<double>(i);
+        EXPECT_EQ(component(*data, "spin", i, 0), line);
+        EXPECT_EQ(component(*data, "spin", i, 1), -2.0 * line);
+        EXPECT_EQ(component(*data, "spin", i, 2), 0.0);  // below the smallest float
+        EXPECT_FLOAT_EQ(static_cast<float>(component(*data, "spin_over_omega", i, 0)),
+                        static_cast<float>(-2.0 * line / omega));
+    }
+    EXPECT_EQ(read("grains/000001.vtp")->GetPointData()->GetArray("spin"), nullptr);
+    write("frames.60600.dump", changed.replace(changed.find("omegaz"), 6, "omega_"));
+    EXPECT_THAT(refusal(), HasSubstr("exactly one 'omegaz'"));
 }
 
 TEST_F(Frames, TroughIsMovedByTheRowOfTheTable) {

@@ -140,7 +140,7 @@ TEST_F(PointMass, BlockStandsOnTheTroughBesideTheLayer) {
                                     .gap = 0.0005,
                                     .velocity = {0.2, 0, 0},
                                     .relative_velocity = {0.1, 0, 0}},
-                                   0.002);
+                                   0.002, 0.15);
         double bounds[6];
         data->GetBounds(bounds);
         // Single precision of 4 cm: 2e-9 m for each coordinate.
@@ -153,6 +153,7 @@ TEST_F(PointMass, BlockStandsOnTheTroughBesideTheLayer) {
         EXPECT_NEAR(std::remainder(centre - 0.018 - x, 0.036), 0.0, 1e-8) << "wrapped like the grains";
         EXPECT_NEAR(data->GetPointData()->GetArray("velocity_relative_to_trough")->GetComponent(0, 0), 0.1,
                     1e-8);
+        EXPECT_NEAR(data->GetPointData()->GetArray("velocity_from_mean")->GetComponent(0, 0), 0.05, 1e-8);
         auto* const motion = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("motion"));
         ASSERT_NE(motion, nullptr);
         EXPECT_EQ(motion->GetValue(0), "slides forwards");

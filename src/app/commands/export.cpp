@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "view/frames.hpp"
+#include "view/scene.hpp"
 #include "view/table_vtk.hpp"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct Options {
     std::string folder;
     std::string id;
     bool table = false;
+    std::string colour = "velocity";
 };
 
 /// Writes the campaign's table for ParaView and returns its path.
@@ -54,10 +56,16 @@ std::optional<view::TheoryMotion> theory_motion(prepare::PreparedCase const& pre
     return view::TheoryMotion{std::move(found->motion), scale.length_x, scale.length_z, scale.phase_at_start};
 }
 
-/// Exports the frames that a case's first packing has written so far. None when there are no frames.
-std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& planned) {
-    fs::path const packing = planned.packing_folder(1);
-    if (planned.scenario().output.frames_per_cycle == 0 || !fs::exists(packing / "dump" / "frames.csv"))
+/// "case ID", and from the second packing on its number.
+std::string title(campaign::PlannedCase const& planned, int packing) {
+    return fmt::format("case {}{}", planned.id, packing == 1 ? "" : fmt::format(", packing {}", packing));
+}
+
+/// Exports the frames that a packing of a case has written so far. None when there are no frames.
+std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& planned, int number,
+                                                   view::Colour colour) {
+    fs::path const packing = planned.packing_folder(number);
+    if (!writes_frames(planned.scenario().output, number) || !fs::exists(packing / "dump" / "frames.csv"))
         return {};
     scenario::Trough const& trough = planned.scenario().trough;
     view::FrameSource const source{
@@ -68,14 +76,31 @@ std::optional<view::ExportedFrames> export_case(campaign::PlannedCase const& pla
         .drive = planned.prepared->motion,
         .width = planned.scenario().layer.width,
         .point_mass = theory_motion(*planned.prepared),
-        .caption = fmt::format("{}, case {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
-                               planned.scenario().campaign, planned.id, planned.prepared->throw_number,
-                               planned.prepared->machine_number, trough.friction)};
+        .caption =
+            fmt::format("{}, {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
+                        planned.scenario().campaign, title(planned, number), planned.prepared->throw_number,
+                        planned.prepared->machine_number, trough.friction),
+        .colour = colour};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
-    auto exported = view::export_frames(source, planned.folder / "frames", [&](int written, int all) {
-        if (terminal) tell("\r{}: {} of {} frames\x1b[K", planned.id, written, all);
+    fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
+    auto exported = view::export_frames(source, target, [&](int written, int all) {
+        if (terminal) tell("\r{}: {} of {} frames\x1b[K", title(planned, number), written, all);
     });
     if (terminal) tell("\r\x1b[K");
+    return exported;
+}
+
+/// Exports the frames of all packings of a case, prints a line for each, and returns how many there were.
+int export_case(campaign::PlannedCase const& planned, view::Colour colour) {
+    int exported = 0;
+    for (int packing = 1; packing <= planned.scenario().measure.max_packings; ++packing) {
+        auto const frames = export_packing(planned, packing, colour);
+        if (!frames) continue;
+        ++exported;
+        fmt::print(
+            "{}: {} frames; open with: sh {}\n", title(planned, packing), frames->frames,
+            core::shell_word(fs::absolute(frames->scene).lexically_normal().parent_path() / "view.sh"));
+    }
     return exported;
 }
 
@@ -85,17 +110,13 @@ int run(Options const& options) {
         print_table(plan);
         return all_well;
     }
+    view::Colour const colour = view::colour_named(options.colour);
     bool known = options.id.empty();
     int exported = 0;
     for (campaign::PlannedCase const& planned : plan.cases) {
         if (!options.id.empty() && planned.id != options.id) continue;
         known = true;
-        auto const frames = export_case(planned);
-        if (!frames) continue;
-        ++exported;
-        fmt::print(
-            "case {}: {} frames; open with: sh {}\n", planned.id, frames->frames,
-            core::shell_word(fs::absolute(frames->scene).lexically_normal().parent_path() / "view.sh"));
+        exported += export_case(planned, colour);
     }
     if (!known) {
         throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
@@ -128,9 +149,20 @@ void add_export(CLI::App& program, int& exit_code) {
         ->type_name("ID");
     command->add_flag("--table", options->table,
                       "Write only the table of all cases (view/campaign.vtt), and no frames");
+    command
+        ->add_option("--colour", options->colour,
+                     "What the scene colours the grains by: velocity (along the trough, less the layer's "
+                     "mean), spin (across the trough), height, or trough (velocity relative to it); default: "
+                     "velocity")
+        ->check(CLI::IsMember({"velocity", "spin", "height", "trough"}))
+        ->type_name("NAME");
     command->footer(
         R"(Frames are snapshots of the grains. They are written while the first packing of each case is
-simulated if the campaign file asks for them with frames_per_cycle under [output].
+simulated if the campaign file asks for them with frames_per_cycle under [output], or while those packings are that
+frame_packings names. Those of the first packing are exported into the folder 'frames' of the case, those of packing 2
+into 'frames-2'.
+
+With contacts = true under [output], contacts.pvd holds the contacts of the grains with their forces.
 
 Four .pvd files are written for each case: the grains, the trough, the theory's point mass (a block that moves in step
 with the grains), and the velocity profile of the layer. The script view.sh beside them opens all four. Without --case,

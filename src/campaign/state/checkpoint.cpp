@@ -180,8 +180,11 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
     if (!fs::is_directory(folder / "dump")) return;
     std::vector<fs::path> later;
     for (auto const& entry : fs::directory_iterator(folder / "dump")) {
-        auto const frame = number_between(entry.path().filename().string(), "frames.", ".dump");
-        if (frame && *frame > step) later.push_back(entry.path());
+        std::string const name = entry.path().filename().string();
+        for (char const* const start : {"frames.", "contacts.", "trough_contacts."}) {
+            auto const frame = number_between(name, start, ".dump");
+            if (frame && *frame > step) later.push_back(entry.path());
+        }
     }
     for (fs::path const& frame : later) core::remove_file(frame);
 }

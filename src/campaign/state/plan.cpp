@@ -27,7 +27,10 @@ class Planner {
     std::deque<PlannedCase> place(fs::path const& folder, std::string const& engine_version) {
         OlderCases older(folder, engine_version, ids_);
         for (PlannedCase& planned : cases_) {
-            if (auto id = older.find(planned.current_id, *planned.prepared)) planned.id = std::move(*id);
+            // Older programs had frames of the first packing only.
+            bool const can_be_older = frame_toml(planned.scenario().output).empty();
+            auto id = can_be_older ? older.find(planned.current_id, *planned.prepared) : std::nullopt;
+            if (id) planned.id = std::move(*id);
             planned.folder = folder / "cases" / planned.id;
         }
         return std::move(cases_);
@@ -45,8 +48,11 @@ std::string case_id(prepare::PreparedCase const& prepared, std::string const& en
     scenario::MeasurementPlan const& measure = prepared.scenario.measure;
     // The packings differ by their seeds and by how they start, so that the first, at rest, stands for all.
     std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, {1}).files);
-    return core::sha256_hex(fmt::format("{}\n{}\npackings {} confidence {} half_width {}\n", engine_version,
-                                        commands, measure.packings, measure.confidence, measure.half_width))
+    // Frames of other packings than the first are not in these commands.
+    std::string const frames = frame_toml(prepared.scenario.output);
+    return core::sha256_hex(fmt::format("{}\n{}\npackings {} confidence {} half_width {}\n{}", engine_version,
+                                        commands, measure.packings, measure.confidence, measure.half_width,
+                                        frames))
         .substr(0, 12);
 }
 

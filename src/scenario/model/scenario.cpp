@@ -1,5 +1,6 @@
 #include "scenario/model/scenario.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -141,20 +142,43 @@ double layer_height(Scenario const& s) {
            (settled_solid_fraction * s.layer.length * s.layer.width);
 }
 
+bool writes_frames(OutputPlan const& output, int packing) {
+    if (output.frames_per_cycle == 0) return false;
+    return output.frame_packings.empty() || std::ranges::binary_search(output.frame_packings, packing);
+}
+
+int packings_with_frames(OutputPlan const& output, int packings) {
+    int count = 0;
+    for (int packing = 1; packing <= packings; ++packing) count += writes_frames(output, packing) ? 1 : 0;
+    return count;
+}
+
+std::string frame_toml(OutputPlan const& output) {
+    if (output.frames_per_cycle == 0) return {};
+    std::string text;
+    if (output.frame_packings.empty())
+        text = "frame_packings = \"all\"\n";
+    else if (output.frame_packings != std::vector<int>{1})
+        text = fmt::format("frame_packings = [{}]\n", fmt::join(output.frame_packings, ", "));
+    if (output.contacts) text += "contacts = true\n";
+    return text;
+}
+
 std::string to_toml(Scenario const& s) {
     return fmt::format("[campaign]\nname = \"{}\"\n\n", s.campaign) + trough_toml(s.trough) +
            grains_toml(s.grains) + layer_toml(s.layer) +
            fmt::format(
                "[measure]\npackings = {}\nconfidence = {}\nhalf_width = {}\nmax_cycles = {}\n"
                "max_packings = {}\n{}{}\n"
-               "[output]\nframes_per_cycle = {}\ncheckpoint_cycles = {}\n\n"
+               "[output]\nframes_per_cycle = {}\ncheckpoint_cycles = {}\n{}\n"
                "[solver]\nrayleigh_fraction = {}\nblock_stiffness = {}\n",
                s.measure.packings, s.measure.confidence, s.measure.half_width, s.measure.max_cycles,
                s.measure.max_packings,
                s.measure.max_core_time ? fmt::format("max_core_time = \"{} s\"\n", *s.measure.max_core_time)
                                        : "",
                s.measure.rolling ? "rolling = true\n" : "", s.output.frames_per_cycle,
-               s.output.checkpoint_cycles, s.solver.rayleigh_fraction, s.solver.block_stiffness) +
+               s.output.checkpoint_cycles, frame_toml(s.output), s.solver.rayleigh_fraction,
+               s.solver.block_stiffness) +
            (engine_toml(s.engine).empty() ? "" : "\n" + engine_toml(s.engine));
 }
 

@@ -79,9 +79,21 @@ struct MeasurementPlan {
 
 /// What a run writes in addition to its measurements.
 struct OutputPlan {
-    int frames_per_cycle;        ///< frames for ParaView per cycle of the first packing; 0 writes none
-    int checkpoint_cycles = 50;  ///< cycles between two checkpoints; 0 writes none
+    int frames_per_cycle;                   ///< frames for ParaView per cycle; 0 writes none
+    int checkpoint_cycles = 50;             ///< cycles between two checkpoints; 0 writes none
+    std::vector<int> frame_packings = {1};  ///< packings that write frames, in order; none: all of them
+    bool contacts = false;                  ///< whether the frames have the contacts of the grains, too
 };
+
+/// Whether packing number `packing` (from 1) writes frames.
+bool writes_frames(OutputPlan const& output, int packing);
+
+/// How many of the packings 1 to `packings` write frames.
+int packings_with_frames(OutputPlan const& output, int packings);
+
+/// The lines "frame_packings = ..." and "contacts = true" of a campaign file, with their ends; empty when
+/// there are no frames, or only those of the first packing without contacts.
+std::string frame_toml(OutputPlan const& output);
 
 /// Numerical settings, on which the results should depend as little as possible.
 struct SolverPlan {

@@ -26,12 +26,14 @@ class CaseBuilder {
             read_grains(given_),
             {},
             measure(),
-            {given_.integer("output.frames_per_cycle"), given_.integer("output.checkpoint_cycles")},
+            {},
             {given_.number("solver.rayleigh_fraction"), given_.number("solver.block_stiffness")},
             read_engine_plan(given_)};
         scenario.layer = layer(scenario);
+        scenario.output = output();
         if (scenario.layer.block != Block::none) check_block(scenario);
         if (scenario.measure.rolling) check_rolling(scenario);
+        check_frames(scenario);
         return scenario;
     }
 
@@ -131,6 +133,41 @@ class CaseBuilder {
                         : scenario.layer.block != Block::none ? "layer.block"
                                                               : "trough.side_wall_friction"),
             "leave one of the two out");
+    }
+
+    OutputPlan output() const {
+        OutputPlan plan{given_.integer("output.frames_per_cycle"),
+                        given_.integer("output.checkpoint_cycles")};
+        plan.contacts = given_.number("output.contacts") != 0;
+        Value const* const packings = given_.find("output.frame_packings");
+        if (packings == nullptr) return plan;
+        plan.frame_packings.clear();
+        if (auto const* const numbers = std::get_if<std::vector<double>>(&packings->content)) {
+            for (double const number : *numbers)
+                plan.frame_packings.push_back(static_cast<int>(std::lround(number)));
+        }
+        return plan;
+    }
+
+    void check_frames(Scenario const& scenario) const {
+        OutputPlan const& plan = scenario.output;
+        bool const lists = given_.find("output.frame_packings") != nullptr;
+        if ((lists || plan.contacts) && plan.frames_per_cycle == 0)
+            given_.fail(lists ? "output.frame_packings" : "output.contacts",
+                        "there are no frames, because frames_per_cycle is 0",
+                        "write frames_per_cycle = 20, or remove this key");
+        std::vector<int> const& packings = plan.frame_packings;
+        int const most = scenario.measure.max_packings;
+        if (lists && !packings.empty() && packings.back() > most)
+            given_.fail(
+                "output.frame_packings",
+                fmt::format("there is no packing {}, because there are at most {}", packings.back(), most),
+                "name fewer, or raise measure.max_packings");
+        if (plan.contacts && (scenario.layer.block != Block::none || is_clump(scenario.grains)))
+            given_.fail("output.contacts",
+                        fmt::format("contacts are written only for layers of spheres, and {} is given",
+                                    is_clump(scenario.grains) ? "grains.shape" : "layer.block"),
+                        "leave one of the two out");
     }
 
     MeasurementPlan measure() const {

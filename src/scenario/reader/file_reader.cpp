@@ -162,7 +162,8 @@ class CampaignFileReader {
     void read_axis(std::string const& path, Position where, toml::node const& node) {
         Key const& key = known_key(path, where);
         if (key.kind == KeyKind::name) fail(where, path, "a name cannot be swept", "sweep a physical input");
-        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts) {
+        if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts ||
+            key.kind == KeyKind::packings) {
             fail(where, path, "a list cannot be swept", "sweep a key with one value");
         }
         if (key.kind == KeyKind::truth)

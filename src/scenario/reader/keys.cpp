@@ -131,6 +131,11 @@ constexpr std::array keys{
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none"},
+    Key{"output.frame_packings", packings, "", 1, 1000, "numbers from 1 to 1000, or \"all\"", "", optional,
+        "[1, 2]", "packings that write the frames, by their numbers; without it, the first one"},
+    Key{"output.contacts", truth, "", 0, 1, "true or false", "", 0.0, "true",
+        "also write the contacts between grains and with the trough into the frames, with their forces; for "
+        "layers of spheres"},
     Key{"output.checkpoint_cycles", integer, "", 0, 1e6, "0 to 1000000", "", 50.0, "50",
         "cycles between two checkpoints, from which an interrupted run continues; 0 writes none"},
 

@@ -20,6 +20,7 @@ enum class KeyKind {
     numbers,     ///< a list of plain numbers
     texts,       ///< a list of texts
     truth,       ///< true or false, without quotes; 1 or 0 as a number
+    packings,    ///< a list of whole numbers, or the word "all"
 };
 
 /// Whether a key without default value has to be given.

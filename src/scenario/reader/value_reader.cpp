@@ -57,6 +57,24 @@ class ValueReader {
         return values;
     }
 
+    /// The numbers of packings in order, or the word "all".
+    Content packings(toml::node const& node) const {
+        if (node.is_string()) {
+            if (node.value<std::string>() == "all") return std::string("all");
+            fail(node, fmt::format("{} is neither a list nor the word 'all'", written(node)),
+                 write_instead(key_));
+        }
+        std::vector<double> list = numbers(node);
+        for (toml::node const& value : *node.as_array()) {
+            if (!value.is_integer())
+                fail(value, fmt::format("{} is not a whole number", written(value)), write_instead(key_));
+        }
+        std::ranges::sort(list);
+        if (std::ranges::adjacent_find(list) != list.end())
+            fail(node, "has a packing twice", write_instead(key_));
+        return list;
+    }
+
     /// 1 for true, 0 for false.
     double truth(toml::node const& node) const {
         std::optional<bool> const given = node.is_boolean() ? node.value<bool>() : std::nullopt;
@@ -152,6 +170,8 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
             return reader.words(node);
         case KeyKind::truth:
             return reader.truth(node);
+        case KeyKind::packings:
+            return reader.packings(node);
         default:
             return reader.number(node);
     }

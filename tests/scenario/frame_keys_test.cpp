@@ -1,0 +1,91 @@
+#include "core/error.hpp"
+#include "example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough {
+namespace {
+
+using testing::HasSubstr;
+
+scenario::Scenario scenario(std::string const& text) {
+    return scenario::parse_campaign(text, "test.toml").cases.front();
+}
+
+/// The example with frames and these lines of [output].
+std::string filming(std::string const& lines) {
+    return with("frames_per_cycle = 0", "frames_per_cycle = 10\n" + lines);
+}
+
+std::string error_of(std::string const& text) {
+    try {
+        scenario::parse_campaign(text, "test.toml");
+    } catch (core::InputError const& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(FramePackings, AreTheFirstUnlessOthersAreNamed) {
+    auto const first = scenario(filming("")).output,
+               some = scenario(filming("frame_packings = [5, 2]")).output,
+               all = scenario(filming("frame_packings = \"all\"")).output,
+               none = scenario(example_campaign).output;
+    EXPECT_EQ(some.frame_packings, (std::vector{2, 5}));
+    for (int packing = 1; packing <= 9; ++packing) {
+        EXPECT_EQ(writes_frames(first, packing), packing == 1);
+        EXPECT_EQ(writes_frames(some, packing), packing == 2 || packing == 5);
+        EXPECT_TRUE(writes_frames(all, packing));
+        EXPECT_FALSE(writes_frames(none, packing));
+    }
+    EXPECT_EQ(packings_with_frames(first, 4), 1);
+    EXPECT_EQ(packings_with_frames(some, 4), 1);
+    EXPECT_EQ(packings_with_frames(all, 4), 4);
+    EXPECT_EQ(packings_with_frames(none, 4), 0);
+}
+
+// A case without these keys has the text that it always had.
+TEST(FramePackings, AreWrittenOnlyWhenTheyAreNotTheFirst) {
+    for (char const* const lines : {"", "frame_packings = [1]", "contacts = false"}) {
+        EXPECT_EQ(to_toml(scenario(filming(lines))), to_toml(scenario(filming("")))) << lines;
+        EXPECT_EQ(to_toml(scenario(filming(lines))).find("frame_packings"), std::string::npos);
+    }
+    for (char const* const lines : {"frame_packings = [3, 1]", "frame_packings = \"all\"", "contacts = true",
+                                    "frame_packings = [2]\ncontacts = true"}) {
+        std::string const text = to_toml(scenario(filming(lines)));
+        EXPECT_NE(text, to_toml(scenario(filming(""))));
+        EXPECT_EQ(to_toml(scenario(text)), text);
+        EXPECT_EQ(scenario(text).output.frame_packings, scenario(filming(lines)).output.frame_packings);
+        EXPECT_EQ(scenario(text).output.contacts, scenario(filming(lines)).output.contacts);
+    }
+}
+
+TEST(FramePackings, MustBeThere) {
+    EXPECT_THAT(error_of(with("frames_per_cycle = 0", "frames_per_cycle = 0\nframe_packings = [1]")),
+                HasSubstr("output.frame_packings: there are no frames, because frames_per_cycle is 0"));
+    EXPECT_THAT(error_of(filming("frame_packings = [25]")),
+                HasSubstr("there is no packing 25, because there are at most 24"));
+    EXPECT_EQ(error_of(filming("frame_packings = [24]")), "no error");
+    EXPECT_THAT(error_of(filming("frame_packings = \"none\"")),
+                HasSubstr("neither a list nor the word 'all'"));
+    EXPECT_THAT(error_of(filming("frame_packings = [1.5]")), HasSubstr("1.5 is not a whole number"));
+    EXPECT_THAT(error_of(filming("frame_packings = [0]")), HasSubstr("0 is out of range"));
+    EXPECT_THAT(error_of(filming("frame_packings = [2, 2]")), HasSubstr("has a packing twice"));
+    EXPECT_THAT(error_of(filming("frame_packings = []")), HasSubstr("is not a list of 1 to 100 values"));
+    EXPECT_THAT(error_of(filming("") + "\n[sweep]\n\"output.frame_packings\" = [[1], [2]]\n"),
+                HasSubstr("a list cannot be swept"));
+}
+
+TEST(FrameContacts, NeedFramesOfSpheres) {
+    EXPECT_FALSE(scenario(filming("")).output.contacts);
+    EXPECT_TRUE(scenario(filming("contacts = true")).output.contacts);
+    EXPECT_THAT(error_of(with("frames_per_cycle = 0", "frames_per_cycle = 0\ncontacts = true")),
+                HasSubstr("output.contacts: there are no frames"));
+    EXPECT_THAT(error_of(with("diameter_spread = 0.1", "shape = \"cube\"", filming("contacts = true"))),
+                HasSubstr("only for layers of spheres, and grains.shape is given"));
+}
+
+}  // namespace
+}  // namespace vibrotrough
