@@ -32,7 +32,7 @@ std::string described(campaign::PlannedCase const& planned) {
     return planned.label.empty() ? planned.id : fmt::format("{} ({})", planned.id, planned.label);
 }
 
-Json describe(campaign::RunningPacking const& one) {
+Json as_json(campaign::RunningPacking const& one) {
     Json json{{"case", one.planned->id},
               {"label", one.planned->label},
               {"packing", one.packing},
@@ -81,7 +81,7 @@ void JsonProgress::progressed(campaign::Progress const& progress) {
     if (shown_ >= 0 && progress.elapsed - shown_ < 1) return;
     shown_ = progress.elapsed;
     Json engines = Json::array();
-    for (auto const& one : progress.engines) engines.push_back(describe(one));
+    for (auto const& one : progress.engines) engines.push_back(as_json(one));
     Json const json{{"event", "progress"},
                     {"time", core::utc_now()},
                     {"finished", progress.finished},

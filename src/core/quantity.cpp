@@ -1,5 +1,7 @@
 #include "core/quantity.hpp"
 
+#include "core/text.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -103,12 +105,6 @@ bool is_angular(ut_unit const* unit) {
     std::array<char, 256> definition{};
     int const size = ut_format(unit, definition.data(), definition.size(), UT_ASCII | UT_DEFINITION);
     return size > 0 && std::string_view(definition.data()).find("rad") != std::string_view::npos;
-}
-
-std::string_view trimmed(std::string_view text) {
-    auto const first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 }  // namespace

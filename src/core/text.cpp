@@ -5,6 +5,12 @@
 
 namespace vibrotrough::core {
 
+std::string_view trimmed(std::string_view text) {
+    auto const first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 std::string printable(std::string_view text, std::size_t longest) {
     std::string line(text.substr(0, longest));
     std::ranges::replace_if(

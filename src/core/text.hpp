@@ -6,6 +6,9 @@
 
 namespace vibrotrough::core {
 
+/// A text without the spaces and tabs at its ends; a view into the same text.
+std::string_view trimmed(std::string_view text);
+
 /// A text from outside, made suitable for one line of a message: bytes that are not printable ASCII become
 /// '?', and a text longer than `longest` bytes is cut there and ends in "...".
 std::string printable(std::string_view text, std::size_t longest);

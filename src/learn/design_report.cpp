@@ -1,8 +1,9 @@
 #include "learn/design_report.hpp"
 
+#include "learn/machine_keys.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double tonnes_per_hour = 3.6;  // in one kg/s
 
 constexpr char const* source_of_daesung = "Daesung Machinery, dsv.co.kr/vibrating_machinery_vc_06.html";

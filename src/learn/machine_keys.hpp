@@ -2,10 +2,13 @@
 
 #include "theory/drive_search.hpp"
 
+#include <numbers>
 #include <string_view>
 
 // Internal to this room.
 namespace vibrotrough::learn {
+
+inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
 /// An input of a campaign that says how the machine is set, and its value at a drive in SI units.
 struct MachineKey {

@@ -1,6 +1,7 @@
 #include "learn/point_mass_model.hpp"
 
 #include "core/error.hpp"
+#include "learn/machine_keys.hpp"
 #include "theory/conveyor.hpp"
 #include "theory/efficiency.hpp"
 
@@ -17,7 +18,6 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double gravity = 9.81;  // m/s^2
 
 using Values = std::map<std::string, double>;

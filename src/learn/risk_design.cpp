@@ -1,12 +1,12 @@
 #include "learn/risk_design.hpp"
 
+#include "learn/machine_keys.hpp"
 #include "learn/risk_search.hpp"
 #include "theory/design.hpp"
 #include "theory/plastic_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -14,7 +14,6 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double near_limit = 0.01;     // relative: a limit so close counts as active
 constexpr double depth_step = 1e-4;     // m, to which the depth is rounded up
 constexpr double largest_loss = 0.005;  // of the merit, by rounding the drive

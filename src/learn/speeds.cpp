@@ -1,18 +1,17 @@
 #include "learn/speeds.hpp"
 
 #include "core/csv.hpp"
+#include "learn/machine_keys.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::string_view header_example =
     "begin the file with a line such as stroke_mm,rpm,vibration_angle_deg,speed_m_per_s,uncertainty_m_per_s";
 

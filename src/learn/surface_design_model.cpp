@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,7 +15,6 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr char const* friction_key = "trough.friction";
 
 /// Where an input of the surface comes from: the drive, the friction, or the user.

@@ -6,15 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// The machine as it was set for a measurement whose vibration angle is known.
 theory::Drive drive_of(MeasuredSpeed const& m) {

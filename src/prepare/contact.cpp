@@ -7,10 +7,8 @@
 namespace vibrotrough::prepare {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double sphere_mass(scenario::Grains const& grains, double radius) {
-    return grains.density * 4 * pi / 3 * std::pow(radius, 3);
+    return grains.density * 4 * std::numbers::pi / 3 * std::pow(radius, 3);
 }
 
 /// 4/3 E* sqrt(R*), N/m^(3/2).
@@ -52,7 +50,7 @@ double hooke_stiffness(scenario::Grains const& grains, ContactPair const& pair, 
 
 double damping_ratio(double restitution) {
     double const loss = std::log(restitution);
-    return -loss / std::hypot(pi, loss);
+    return -loss / std::hypot(std::numbers::pi, loss);
 }
 
 LinearImpact linear_impact(double stiffness, double mass, double damping_ratio) {
@@ -63,12 +61,12 @@ LinearImpact linear_impact(double stiffness, double mass, double damping_ratio) 
 }
 
 double attraction_per_overlap(double cohesion, ContactPair const& pair) {
-    return 2 * pi * pair.radius * cohesion;
+    return 2 * std::numbers::pi * pair.radius * cohesion;
 }
 
 double pull_off_force(scenario::Grains const& grains, double cohesion, ContactPair const& pair) {
     double const modulus = effective_modulus(grains);
-    return 2 * std::pow(pi * cohesion, 3) / 3 * std::pow(pair.radius / modulus, 2);
+    return 2 * std::pow(std::numbers::pi * cohesion, 3) / 3 * std::pow(pair.radius / modulus, 2);
 }
 
 double overlap_under_force(scenario::Scenario const& s, ContactPair const& pair, double force, double speed) {

@@ -13,7 +13,6 @@
 namespace vibrotrough::prepare {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double fewest_steps = 500;   ///< per cycle
 constexpr double harmonic_steps = 50;  ///< per period of the highest harmonic
 constexpr double most_steps = 1e8;
@@ -24,13 +23,14 @@ constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 double rayleigh_time(scenario::Scenario const& s, double radius) {
     double const nu = s.grains.poisson_ratio;
     double const shear_modulus = s.grains.youngs_modulus / (2 * (1 + nu));
-    return pi * radius * std::sqrt(s.grains.density / shear_modulus) / (0.1631 * nu + 0.8766);
+    return std::numbers::pi * radius * std::sqrt(s.grains.density / shear_modulus) / (0.1631 * nu + 0.8766);
 }
 
 double hertz_time(scenario::Scenario const& s, double radius, double speed) {
     double const nu = s.grains.poisson_ratio;
-    double const mass = s.grains.density * pi / 6 * std::pow(2 * radius, 3) / 2;  // m* of two equal grains
-    double const modulus = s.grains.youngs_modulus / (2 * (1 - nu * nu));         // E* of two equal grains
+    double const mass =
+        s.grains.density * std::numbers::pi / 6 * std::pow(2 * radius, 3) / 2;  // m* of two equal grains
+    double const modulus = s.grains.youngs_modulus / (2 * (1 - nu * nu));       // E* of two equal grains
     return 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
 }
 

@@ -14,11 +14,13 @@ ROOT is the folder of the project. Ends with 77 when the tool is missing or has 
 answer would differ.
 """
 
+import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterable
 
 MOST_LINES = 400
@@ -56,12 +58,27 @@ def check_format(root: pathlib.Path) -> list[str]:
     return run([program, "--dry-run", "--Werror", *map(str, files(root, ("src", "tests"), (".hpp", ".cpp")))], root)
 
 
+def commands_of_files(build: pathlib.Path) -> list[dict[str, str]]:
+    """compile_commands.json with the batches in which CMake compiles (UNITY_BUILD) taken apart into their files."""
+    commands = []
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        batch = pathlib.Path(entry["file"])
+        if batch.parent.name != "Unity":
+            commands.append(entry)
+            continue
+        for source in re.findall(r'^#include "(.*)"', batch.read_text(encoding="utf-8"), flags=re.MULTILINE):
+            commands.append({**entry, "file": source, "command": entry["command"].replace(str(batch), source)})
+    return commands
+
+
 def check_tidy(root: pathlib.Path, build: str, room: str) -> list[str]:
     program = tool("clang-tidy-14", "clang-tidy", version=CLANG_VERSION)
     sources = [str(path) for path in files(root, (f"src/{room}",), (".cpp",))]
     if not sources:
         return [f"src/{room} has no sources"]
-    return run([program, "-quiet", "-p", build, *sources], root)
+    with tempfile.TemporaryDirectory(prefix="vibrotrough-tidy-") as folder:
+        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(commands_of_files(pathlib.Path(build))), encoding="utf-8")
+        return run([program, "-quiet", "-p", folder, *sources], root)
 
 
 def check_spelling(root: pathlib.Path) -> list[str]:

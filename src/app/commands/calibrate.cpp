@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CalibrateArguments {
     std::string campaign, output, measured, engine;
     Text budget, jobs;
     bool quiet = false, accept_findings = false, allow_extra = false;
@@ -33,7 +33,7 @@ struct Options {
 };
 
 /// The folder of the results: given itself, or that of a campaign file.
-fs::path folder_of(Options const& options) {
+fs::path folder_of(CalibrateArguments const& options) {
     if (fs::is_directory(options.campaign)) return options.campaign;
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign);
     return options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
@@ -45,8 +45,8 @@ struct OnSurface {
     learn::Calibration calibration;
 };
 
-OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& maker, Options const& options,
-                       std::vector<learn::MeasuredSpeed> const& speeds) {
+OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& maker,
+                       CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
     auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
     learn::SpeedModel const model = learn::surface_model(surface, maker, options.shared.free, speeds);
@@ -54,7 +54,7 @@ OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& ma
     return {surface, learn::calibrate(model, parameters, speeds, options.shared.settings())};
 }
 
-int print(Options const& options, OnSurface const& found) {
+int print(CalibrateArguments const& options, OnSurface const& found) {
     print_calibration(options.shared, found.calibration, {"the simulated layer"});
     for (std::string const& doubt : found.surface->doubts()) tell("surface: {}\n", doubt);
     return found.calibration.converged ? all_well : some_cases_failed;
@@ -72,8 +72,8 @@ double useful_half_width(std::vector<learn::MeasuredSpeed> const& speeds) {
 }
 
 /// Simulates where the posterior lies until the surface is precise there, or the budget is spent.
-int refine(Options const& options, std::vector<learn::MeasuredSpeed> const& speeds, RunOptions const& running,
-           double budget) {
+int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds,
+           RunOptions const& running, double budget) {
     ReadyCampaign ready = prepare_run(running);
     if (ready.is_interrupted) return interrupted;
     scenario::CaseMaker const maker(running.campaign_file);
@@ -99,7 +99,7 @@ int refine(Options const& options, std::vector<learn::MeasuredSpeed> const& spee
     }
 }
 
-int run(Options& options) {
+int run_calibrate(CalibrateArguments& options) {
     core::TextFile const table = core::read_text_file(options.measured);
     auto const speeds =
         learn::read_speeds(table.content, options.measured, options.shared.relative_uncertainty());
@@ -126,7 +126,7 @@ int run(Options& options) {
 void add_calibrate(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("calibrate", "Find inputs of a simulated layer from measured speeds");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<CalibrateArguments>();
     command
         ->add_option("campaign", options->campaign, "Folder of a campaign that was run, or its campaign file")
         ->required()
@@ -167,7 +167,7 @@ Example:
   vibrotrough calibrate runs/krakow --measured speeds.csv --free trough.friction
   vibrotrough calibrate domain.toml --measured speeds.csv --free trough.friction \
       --budget "1 core-hours")");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CheckArguments {
     std::string campaign_file;
     std::string engine;
     bool json = false;
@@ -140,7 +140,7 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                speed.source);
 }
 
-int run(Options const& options) {
+int run_check(CheckArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     deck::CampaignCheck const found = deck::check_campaign(campaign);
     Speed const speed = engine_speed(options.engine);
@@ -151,7 +151,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_check(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<CheckArguments>();
     CLI::App* const command = program.add_subcommand(
         "check", "Check a campaign before it is simulated, and estimate what it will cost");
     add_campaign_file(*command, options->campaign_file);
@@ -179,7 +179,7 @@ Exit codes:
 
 Example:
   vibrotrough check validation/demo/campaign.toml)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_check(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -23,7 +23,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct CompareArguments {
     std::string folder;
     bool json = false;
     bool csv = false;
@@ -48,7 +48,7 @@ compare::TableStyle style_for(std::string const& colour) {
 
 /// The table with both errors. @throws core::InputError when no numerical error is known
 void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
-                  Options const& options) {
+                  CompareArguments const& options) {
     bool const any =
         std::ranges::any_of(rows, [](auto const& row) { return row.numerical_error.has_value(); });
     if (!any && !rows.empty()) {
@@ -61,7 +61,7 @@ void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Colu
         fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
 }
 
-int run(Options const& options) {
+int run_compare(CompareArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto [cases, rows, columns] = compare::compared_cases(plan, campaign::activity_in(plan.folder));
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
@@ -83,7 +83,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<CompareArguments>();
     CLI::App* const command = program.add_subcommand(
         "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
     add_campaign_folder(*command, options->folder);
@@ -154,7 +154,7 @@ Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
   vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1')");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 
 }  // namespace vibrotrough::app

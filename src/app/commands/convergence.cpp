@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvergenceArguments {
     std::string campaign;
     std::string output;
     std::string engine;
@@ -43,7 +43,7 @@ struct Options {
 
 /// The campaign that is studied: a folder that was run, or a campaign file with the folder that it has or
 /// will have.
-campaign::Plan open_campaign(Options const& options, std::string const& engine_version) {
+campaign::Plan open_campaign(ConvergenceArguments const& options, std::string const& engine_version) {
     fs::path const given = options.campaign;
     if (fs::is_directory(given)) {
         if (!options.output.empty())
@@ -58,7 +58,8 @@ campaign::Plan open_campaign(Options const& options, std::string const& engine_v
 }
 
 /// The studies of the chosen cases. @throws core::InputError when there is no such case
-std::vector<campaign::NumericsStudy> plan_studies(campaign::Plan const& plan, Options const& options) {
+std::vector<campaign::NumericsStudy> plan_studies(campaign::Plan const& plan,
+                                                  ConvergenceArguments const& options) {
     std::vector<campaign::NumericsStudy> studies;
     if (options.cases.empty()) {
         for (std::size_t const number : campaign::representative_cases(plan.cases.size()))
@@ -142,7 +143,7 @@ void print_advice(std::vector<evaluate::NumericsBudget> const& budgets) {
             open, open == 1 ? " is" : "s are");
 }
 
-int run(Options const& options) {
+int run_convergence(ConvergenceArguments const& options) {
     std::optional<fs::path> const program =
         options.engine.empty() ? std::nullopt : std::optional<fs::path>(options.engine);
     if (!fs::exists(options.campaign)) scenario::read_campaign(options.campaign);  // throws with the cure
@@ -189,7 +190,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_convergence(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ConvergenceArguments>();
     CLI::App* const command = program.add_subcommand(
         "convergence", R"(Measure the numerical error of a campaign's velocity efficiencies
 
@@ -249,7 +250,7 @@ Exit codes:
 Examples:
   vibrotrough convergence runs/demo --jobs 2
   vibrotrough convergence validation/demo/campaign.toml --output runs/demo --half-width 0.01)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_convergence(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DeckArguments {
     std::string campaign_file;
     std::string output;
     std::string templates;
@@ -45,7 +45,7 @@ void write_case(fs::path const& folder, prepare::PreparedCase const& prepared,
     for (auto const& [name, deck] : decks) deck::make_frame_folder(deck, folder / name);
 }
 
-int run(Options const& options) {
+int run_deck(DeckArguments const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
     check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
     use_templates(options.templates, campaign.cases);
@@ -76,7 +76,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_deck(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<DeckArguments>();
     CLI::App* const command =
         program.add_subcommand("deck", "Write the LIGGGHTS decks of a campaign without running them");
     add_campaign_file(*command, options->campaign_file);
@@ -94,7 +94,7 @@ LIGGGHTS. It replaces the files of an earlier call, but none that you wrote or e
 
 Example:
   vibrotrough deck validation/demo/campaign.toml --output decks)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_deck(*options); });
 }
 
 }  // namespace vibrotrough::app

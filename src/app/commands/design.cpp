@@ -19,14 +19,14 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct DesignArguments {
     DesignOptions task;
     std::string campaign, page, python;
     Text grain_diameter;
     bool json = false;
 };
 
-int run(Options const& options) {
+int run_design(DesignArguments const& options) {
     learn::DesignTask const task = options.task.task();
     double const diameter =
         options.grain_diameter
@@ -94,7 +94,7 @@ Examples:
 void add_design(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "design", "Find stroke, speed, angle and layer depth for a mass flow, and how sure that is");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<DesignArguments>();
     options->task.add_to(*command);
     command
         ->add_option("--campaign", options->campaign,
@@ -109,7 +109,7 @@ void add_design(CLI::App& program, int& exit_code) {
     add_python(*command, options->python);
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(help);
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_design(*options); });
 }
 
 }  // namespace vibrotrough::app

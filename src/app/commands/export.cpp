@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportArguments {
     std::string folder;
     std::string id;
     bool table = false;
@@ -104,7 +104,7 @@ int export_case(campaign::PlannedCase const& planned, view::Colour colour) {
     return exported;
 }
 
-int run(Options const& options) {
+int run_export(ExportArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     if (options.table) {
         print_table(plan);
@@ -141,7 +141,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_export(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ExportArguments>();
     CLI::App* const command =
         program.add_subcommand("export", "Write the frames and the table of a campaign for ParaView");
     add_campaign_folder(*command, options->folder);
@@ -175,7 +175,7 @@ Exit codes:
 
 Example:
   vibrotrough export runs/demo)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FrictionTestArguments {
     std::string campaign_file;
     std::string output;
     std::string engine;
@@ -61,7 +61,7 @@ int exit_code_of(campaign::Summary const& summary, std::vector<evaluate::LayerFr
     return all ? all_well : some_cases_failed;
 }
 
-int run(Options const& options) {
+int run_friction_test(FrictionTestArguments const& options) {
     scenario::Campaign const campaign = scenario::read_campaign(options.campaign_file);
     check_extra_lines(options.campaign_file, campaign.cases, options.allow_extra);
     std::optional<fs::path> const program =
@@ -108,7 +108,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_friction_test(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<FrictionTestArguments>();
     CLI::App* const command = program.add_subcommand(
         "friction-test", R"(Measure the friction coefficient of a campaign's layers as a whole
 
@@ -153,7 +153,7 @@ Exit codes:
 
 Example:
   vibrotrough friction-test validation/demo/campaign.toml --output runs/demo --jobs 2)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_friction_test(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct InitArguments {
     std::string kind = "pellets";
     std::string output;
 };
@@ -30,7 +30,7 @@ std::vector<std::string> kinds() {
     return names;
 }
 
-int run(Options const& options) {
+int run_init(InitArguments const& options) {
     auto const* const found = std::ranges::find(campaign_templates, std::string_view(options.kind),
                                                 [](auto const& one) { return one.first; });
     fs::path const path =
@@ -50,7 +50,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_init(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<InitArguments>();
     CLI::App* const command = program.add_subcommand("init", "Write a commented campaign file to begin with");
     command->add_option("KIND", options->kind, "What the campaign is about; see below")
         ->check(CLI::IsMember(kinds()))
@@ -73,7 +73,7 @@ Exit codes:
 
 Example:
   vibrotrough init pellets --output my_trough.toml)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_init(*options); });
 }
 
 }  // namespace vibrotrough::app

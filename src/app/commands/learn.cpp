@@ -14,12 +14,12 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct LearnArguments {
     RunOptions shared;
     Text half_width, budget, batch;
 };
 
-learn::LearnGoal read_goal(Options const& options) {
+learn::LearnGoal read_goal(LearnArguments const& options) {
     learn::LearnGoal goal{};
     goal.half_width = read_number_within("--half-width", required("--half-width", options.half_width, "0.03"),
                                          "0.03", 1e-4, 1);
@@ -64,7 +64,7 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std
     return reached && status.doubts.empty() ? all_well : some_cases_failed;
 }
 
-int run(Options const& options) {
+int run_learn(LearnArguments const& options) {
     learn::LearnGoal const goal = read_goal(options);
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
@@ -91,7 +91,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_learn(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<LearnArguments>();
     CLI::App* const command = program.add_subcommand(
         "learn", "Learn the velocity efficiency over a domain with the least core-hours");
     options->shared.add_to(*command);
@@ -121,7 +121,7 @@ Exit codes:
 
 Example:
   vibrotrough learn domain.toml --half-width 0.03 --budget "4 core-hours" --output runs/domain)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_learn(*options); });
 }
 
 }  // namespace vibrotrough::app

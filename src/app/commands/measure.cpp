@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct MeasureArguments {
     std::string folder;
     std::string scenario;
     bool json = false;
@@ -130,7 +130,7 @@ void print_text(evaluate::HandRun const& run) {
     fmt::print("outcome: {}\n", name_of(run.outcome));
 }
 
-int run(Options const& options) {
+int run_measure(MeasureArguments const& options) {
     evaluate::HandRun const run = evaluate::measure_by_hand(options.folder, options.scenario);
     options.json ? print_json(run) : print_text(run);
     return run.outcome == core::Outcome::finished ? all_well : some_cases_failed;
@@ -139,7 +139,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_measure(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<MeasureArguments>();
     CLI::App* const command =
         program.add_subcommand("measure", "Measure a run of LIGGGHTS that was made by hand from a deck");
     command
@@ -172,7 +172,7 @@ Example:
 The folder of that example comes from
   vibrotrough deck validation/demo/campaign.toml --output decks
   cd decks/case-001/packing-1 && liggghts -in settle.liggghts && liggghts -in in.liggghts)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_measure(*options); });
 }
 
 }  // namespace vibrotrough::app

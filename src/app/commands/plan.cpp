@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PlanArguments {
     std::string campaign_file;
     std::string output;
     std::string engine;
@@ -41,7 +41,7 @@ struct Options {
 
 /// The version of the engine that a run would use: the one that the user gives, else the one on the PATH,
 /// else the one that the folder was planned with. The ids of the cases depend on it.
-std::string engine_version(Options const& options, fs::path const& folder) {
+std::string engine_version(PlanArguments const& options, fs::path const& folder) {
     if (!options.engine.empty()) return engine::find_engine(fs::path(options.engine)).version;
     try {
         return engine::find_engine(std::nullopt).version;
@@ -174,7 +174,7 @@ void print_text(PlanView const& view) {
         view.cost.speed, source_of(view.cost));
 }
 
-int run(Options const& options) {
+int run_plan(PlanArguments const& options) {
     scenario::Campaign campaign = scenario::read_campaign(options.campaign_file);
     use_templates(options.templates, campaign.cases);
     fs::path const folder =
@@ -191,7 +191,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_plan(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<PlanArguments>();
     CLI::App* const command = program.add_subcommand(
         "plan", "List the cases of a campaign, which of them have a result, and what the others will cost");
     add_campaign_file(*command, options->campaign_file);
@@ -216,7 +216,7 @@ Exit codes:
 
 Example:
   vibrotrough plan validation/demo/campaign.toml --output runs/demo)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_plan(*options); });
 }
 
 }  // namespace vibrotrough::app

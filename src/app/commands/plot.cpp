@@ -20,17 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlotArguments {
     std::string folder, output, python;
     std::vector<std::string> cases, only;
     bool report = false;
 };
 
-fs::path output_folder(Options const& options) {
+fs::path output_folder(PlotArguments const& options) {
     return options.output.empty() ? fs::path(options.folder) / "report" : fs::path(options.output);
 }
 
-void check_cases(Options const& options, campaign::Plan const& plan) {
+void check_cases(PlotArguments const& options, campaign::Plan const& plan) {
     for (std::string const& id : options.cases) {
         if (std::ranges::any_of(plan.cases, [&](auto const& planned) { return planned.id == id; })) continue;
         throw core::InputError(fmt::format("--case: {} has no case {}; 'vibrotrough status {}' lists them",
@@ -38,7 +38,7 @@ void check_cases(Options const& options, campaign::Plan const& plan) {
     }
 }
 
-int run(Options const& options) {
+int run_plot(PlotArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
@@ -63,8 +63,8 @@ int run(Options const& options) {
 }
 
 /// The options of both commands.
-std::shared_ptr<Options> add_common(CLI::App& command) {
-    auto const options = std::make_shared<Options>();
+std::shared_ptr<PlotArguments> add_common(CLI::App& command) {
+    auto const options = std::make_shared<PlotArguments>();
     add_campaign_folder(command, options->folder);
     command.add_option("--output", options->output, "Folder to write to; default DIR/report")
         ->type_name("DIR");
@@ -110,7 +110,7 @@ Exit codes:
 
 Example:
   vibrotrough plot runs/demo)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 
 void add_report(CLI::App& program, int& exit_code) {
@@ -130,7 +130,7 @@ Exit codes:
 
 Example:
   vibrotrough report runs/demo)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct PredictArguments {
     std::string folder;
     std::vector<std::string> places;
     bool json = false, csv = false;
@@ -149,7 +149,7 @@ void print_text(Prediction const& p) {
     if (!p.remark.empty()) fmt::print("{}\n", p.remark);
 }
 
-void run(Options const& options) {
+void run_predict(PredictArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     scenario::CaseMaker const maker(std::filesystem::path(options.folder) / "campaign.toml");
     std::vector<Prediction> predictions;
@@ -170,7 +170,7 @@ void run(Options const& options) {
 void add_predict(CLI::App& program, int& exit_code) {
     CLI::App* const command =
         program.add_subcommand("predict", "Predict the velocity efficiency between the cases of a campaign");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<PredictArguments>();
     add_campaign_folder(*command, options->folder);
     command
         ->add_option("--at", options->places,
@@ -198,7 +198,7 @@ Exit codes:
 Example:
   vibrotrough predict runs/demo --at throw_number=1.9)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_predict(*options);
         exit_code = all_well;
     });
 }

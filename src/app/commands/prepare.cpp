@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PrepareArguments {
     RunOptions shared;
     std::string task_list;
     int minutes = 0;
@@ -47,7 +47,7 @@ void clear_list(fs::path const& list) {
     core::write_file_atomically(list, "");
 }
 
-int run(Options const& options) {
+int run_prepare(PrepareArguments const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
     size_tasks(ready, options.minutes > 0 ? std::optional(options.minutes) : std::nullopt);
@@ -80,7 +80,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_prepare(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<PrepareArguments>();
     CLI::App* const command =
         program.add_subcommand("prepare", "Write a list of tasks for a scheduler other than Slurm");
     options->shared.add_to(*command);
@@ -113,7 +113,7 @@ Exit codes:
 Example:
   vibrotrough prepare validation/demo/campaign.toml --output runs/demo --task-list tasks.txt
   parallel -j 2 vibrotrough work runs/demo --task-list tasks.txt --index {} ::: $(seq 0 5))");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_prepare(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -16,7 +16,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct ProbeEngineArguments {
     std::string engine;
     std::string output;
     bool json = false;
@@ -41,7 +41,7 @@ void print_text(engine::Certificate const& certificate) {
     }
 }
 
-int run(Options const& options) {
+int run_probe_engine(ProbeEngineArguments const& options) {
     engine::Engine const engine = engine::find_engine(
         options.engine.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.engine));
     auto const certificate = probe_now(engine);
@@ -59,7 +59,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_probe_engine(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ProbeEngineArguments>();
     CLI::App* const command = program.add_subcommand(
         "probe-engine", "Test whether the contacts, friction and drive of a LIGGGHTS binary are correct");
     add_engine(*command, options->engine);
@@ -83,7 +83,7 @@ Exit codes:
 
 Example:
   vibrotrough probe-engine --liggghts /opt/liggghts/bin/liggghts --output certificate.json)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_probe_engine(*options); });
 }
 
 }  // namespace vibrotrough::app

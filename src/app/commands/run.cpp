@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RunArguments {
     RunOptions shared;
     bool wait = false;
 };
@@ -79,7 +79,7 @@ int report(campaign::Summary const& summary, campaign::Plan const& plan, campaig
     return exit_code_of(summary);
 }
 
-int run(Options const& options) {
+int run_run(RunArguments const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
     size_tasks(ready, ready.campaign.run.slurm.minutes_per_task);
@@ -98,7 +98,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_run(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<RunArguments>();
     CLI::App* const command =
         program.add_subcommand("run", "Simulate all cases of a campaign that are not finished yet");
     options->shared.add_to(*command);
@@ -130,7 +130,7 @@ Exit codes:
 
 Example:
   vibrotrough run validation/demo/campaign.toml --output runs/demo --jobs 2)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_run(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct StatusArguments {
     std::string folder;
     bool json = false;
 };
@@ -143,7 +143,7 @@ void print_text(StatusView const& view) {
                view.cost.core_time * view.cost.uncertainty / 3600);
 }
 
-int run(Options const& options) {
+int run_status(StatusArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
     campaign::Forecast const cost = campaign::forecast(plan, cases);
@@ -155,7 +155,7 @@ int run(Options const& options) {
 }  // namespace
 
 void add_status(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<StatusArguments>();
     CLI::App* const command = program.add_subcommand(
         "status", "Show which cases of a campaign are finished, running, failed or still to do");
     add_campaign_folder(*command, options->folder);
@@ -172,7 +172,7 @@ least number of packings of a case.
 
 Example:
   vibrotrough status runs/demo)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_status(*options); });
 }
 
 }  // namespace vibrotrough::app

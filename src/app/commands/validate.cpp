@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ValidateArguments {
     std::vector<std::string> names;
     std::string output = "runs/validation", runs = "runs", python;
     bool list = false, long_ones = false, store = false, verbose = false, page = false;
@@ -25,7 +25,7 @@ struct Options {
 };
 
 /// The command line of validate.py.
-std::vector<std::string> script_arguments(Options const& options) {
+std::vector<std::string> script_arguments(ValidateArguments const& options) {
     std::vector<std::string> all = options.names;
     all.insert(all.end(),
                {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
@@ -44,7 +44,7 @@ std::vector<std::string> script_arguments(Options const& options) {
 void add_validate(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "validate", "Compare this program with the paper, exact solutions and published measurements");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<ValidateArguments>();
     command->add_option("NAME", options->names, "Validation cases, see --list; all when none is given")
         ->type_name("");
     command->add_flag("--list", options->list,

@@ -18,7 +18,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct WorkArguments {
     std::string folder;
     std::string task_list;
     int index = 0;
@@ -26,7 +26,7 @@ struct Options {
     campaign::WorkLimits limits;
 };
 
-int run(Options& options) {
+int run_work(WorkArguments& options) {
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
     tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
@@ -46,7 +46,7 @@ int run(Options& options) {
 }  // namespace
 
 void add_work(CLI::App& program, int& exit_code) {
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<WorkArguments>();
     CLI::App* const command =
         program.add_subcommand("work", "Simulate the packings of one task, as a cluster does");
     add_campaign_folder(*command, options->folder);
@@ -84,7 +84,7 @@ Exit codes:
 
 Example:
   vibrotrough work runs/demo --task-list runs/demo/slurm/0001/tasks.txt --index 0)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_work(*options); });
 }
 
 }  // namespace vibrotrough::app

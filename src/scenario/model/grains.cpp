@@ -16,7 +16,7 @@ namespace {
 
 constexpr int continuous_classes = 10;
 constexpr double lognormal_cut = 2.5;  // standard deviations
-constexpr std::size_t most_spheres = 1000;
+constexpr std::size_t most_spheres_of_clump = 1000;
 constexpr double largest_proportion = 1000;  ///< of a clump to its smallest radius
 
 double cube(double value) {
@@ -110,8 +110,8 @@ std::vector<Sphere> read_spheres(std::string_view text) {
             throw std::invalid_argument(fmt::format("line {}: the radius is not above 0", line));
         spheres.push_back({values[0], values[1], values[2], values[3]});
     }
-    if (spheres.size() > most_spheres)
-        throw std::invalid_argument(fmt::format("there are more than {} spheres", most_spheres));
+    if (spheres.size() > most_spheres_of_clump)
+        throw std::invalid_argument(fmt::format("there are more than {} spheres", most_spheres_of_clump));
     if (spheres.empty()) throw std::invalid_argument("there are no spheres");
     check_proportions(spheres);
     return spheres;

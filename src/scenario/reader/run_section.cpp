@@ -15,7 +15,7 @@ namespace {
 
 using enum KeyNeed;
 
-constexpr std::array keys{
+constexpr std::array keys_of_run{
     Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
         "what runs the packings: this machine, or job arrays of Slurm"},
     Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
@@ -94,10 +94,10 @@ class RunSection {
 
     void read_entry(std::string_view section, toml::key const& name, toml::node const& node) {
         std::string const path = fmt::format("{}{}", section, name.str());
-        auto const found = std::ranges::find(keys, path, &Key::path);
-        if (found == keys.end()) {
+        auto const found = std::ranges::find(keys_of_run, path, &Key::path);
+        if (found == keys_of_run.end()) {
             std::vector<std::string_view> names;
-            for (Key const& key : keys) {
+            for (Key const& key : keys_of_run) {
                 std::string_view const rest = key.path.substr(std::min(section.size(), key.path.size()));
                 if (key.path.starts_with(section) && rest.find('.') == rest.npos) names.push_back(rest);
             }
@@ -180,7 +180,7 @@ class RunSection {
 }  // namespace
 
 std::span<Key const> run_keys() {
-    return keys;
+    return keys_of_run;
 }
 
 RunSettings read_run_section(toml::table const& section, std::string const& file) {

@@ -16,13 +16,13 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryBatchArguments {
     std::string input;
     RollingOption rolling;
     Text output, jobs;
 };
 
-void run(Options const& options) {
+void run_theory_batch(TheoryBatchArguments const& options) {
     std::string const output = required("--output", options.output, "answers.csv");
     auto const extension = std::filesystem::path(output).extension();
     if (extension != ".csv" && extension != ".h5") {
@@ -52,7 +52,7 @@ void run(Options const& options) {
 
 void add_theory_batch(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand("batch", "Solve many motions from a CSV file");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryBatchArguments>();
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
     options->rolling.add_to(*command);
@@ -79,7 +79,7 @@ Example:
 The same points as layers of grains that roll:
   vibrotrough theory batch points.csv --output answers.csv --rolling-layer)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_batch(*options);
         exit_code = all_well;
     });
 }

@@ -17,13 +17,13 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryCalibrateArguments {
     std::string file;
     CalibrationOptions shared;
     std::vector<std::string> fixed;
 };
 
-int run(Options const& options) {
+int run_theory_calibrate(TheoryCalibrateArguments const& options) {
     core::TextFile const table = core::read_text_file(options.file);
     auto const speeds =
         learn::read_speeds(table.content, options.file, options.shared.relative_uncertainty());
@@ -53,7 +53,7 @@ int run(Options const& options) {
 void add_theory_calibrate(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
         theory.add_subcommand("calibrate", "Find friction and other quantities from measured speeds");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryCalibrateArguments>();
     command->add_option("file", options->file, "CSV file of measured speeds")->required()->type_name("FILE");
     options->shared.add_to(*command);
     command
@@ -72,7 +72,7 @@ inclination and vibration_angle (both in degrees).
 
 Example:
   vibrotrough theory calibrate speeds.csv --free friction,inclination --plot corner.png)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_theory_calibrate(*options); });
 }
 
 }  // namespace vibrotrough::app

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,16 +16,14 @@
 namespace vibrotrough::app {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-struct Options {
+struct TheoryDesignArguments {
     Text friction, frequency, amplitude, stroke, vibration_angle, inclination, machine_number, throw_number;
     Text mass_flow, bulk_density, layer_height, layer_width, gravity;
     RollingOption rolling;
     bool json = false;
 };
 
-theory::DesignLimits read(Options const& o) {
+theory::DesignLimits read(TheoryDesignArguments const& o) {
     theory::DesignLimits l{};
     l.friction =
         read_number_within("--friction", required("--friction", o.friction, "0.3"), "0.3", 1e-6, 1000);
@@ -106,7 +103,7 @@ nlohmann::ordered_json as_json(theory::Design const& d) {
             {"active_limits", d.active_limits}};
 }
 
-void run(Options const& options) {
+void run_theory_design(TheoryDesignArguments const& options) {
     theory::DesignLimits limits = read(options);
     limits.rolling = options.rolling.law();
     theory::Design d;
@@ -149,7 +146,7 @@ void run(Options const& options) {
 void add_theory_design(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
         theory.add_subcommand("design", "Find the machine that conveys fastest within given limits");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryDesignArguments>();
     auto const add = [&](char const* name, Text& text, char const* help) {
         command->add_option(name, text, help);
     };
@@ -185,7 +182,7 @@ Example:
   vibrotrough theory design --friction 0.3 --machine-number 4 --frequency "5 Hz to 50 Hz" \
       --amplitude "1 mm to 8 mm" --vibration-angle "10 deg to 45 deg")");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_design(*options);
         exit_code = all_well;
     });
 }

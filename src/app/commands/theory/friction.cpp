@@ -14,7 +14,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryFrictionArguments {
     Text machine_number, displacement, uncertainty, friction, tan_inclination;
     bool json = false;
 };
@@ -46,7 +46,7 @@ void curve(std::string const& text, theory::ShakeTest const& test) {
         fmt::print("{},{},{}\n", mu, motion.max_relative_displacement, motion.mode);
 }
 
-void forward(Options const& options, theory::ShakeTest const& test) {
+void forward(TheoryFrictionArguments const& options, theory::ShakeTest const& test) {
     if (options.friction->find(':') != std::string::npos) {
         curve(*options.friction, test);
         return;
@@ -65,7 +65,7 @@ void forward(Options const& options, theory::ShakeTest const& test) {
                motion.max_relative_displacement, motion.mode);
 }
 
-void inverse(Options const& options, theory::ShakeTest const& test) {
+void inverse(TheoryFrictionArguments const& options, theory::ShakeTest const& test) {
     double const x =
         read_number_within("--max-relative-displacement", *options.displacement, "1.5", 1e-9, 1000);
     double const dx =
@@ -92,7 +92,7 @@ void inverse(Options const& options, theory::ShakeTest const& test) {
     if (!warning.empty()) tell("vibrotrough: warning: {}\n", warning);
 }
 
-void run(Options const& options) {
+void run_theory_friction(TheoryFrictionArguments const& options) {
     std::string const k = required("--machine-number", options.machine_number, "1.5");
     theory::ShakeTest test{read_number_within("--machine-number", k, "1.5", 1e-3, 1e4)};
     if (options.tan_inclination) {
@@ -119,7 +119,7 @@ void run(Options const& options) {
 void add_theory_friction(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
         theory.add_subcommand("friction", "Find the friction coefficient from a horizontal shake test");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryFrictionArguments>();
     command->add_option("--machine-number", options->machine_number, "K = omega^2 r / g of the shaking");
     command->add_option("--max-relative-displacement", options->displacement,
                         "Measured slip from peak to peak, in amplitudes r, from 0 to 2");
@@ -146,7 +146,7 @@ Example:
 Example of a curve of displacement over friction:
   vibrotrough theory friction --machine-number 1.5 --friction 0.05:0.6:56)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_friction(*options);
         exit_code = all_well;
     });
 }

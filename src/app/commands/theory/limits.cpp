@@ -15,7 +15,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryLimitsArguments {
     Text tan_vibration_angle, tan_inclination, friction, throw_number;
     bool json = false;
 };
@@ -26,7 +26,7 @@ struct Inputs {
     double tan_beta, tan_alpha, mu;
 };
 
-Inputs read(Options const& o) {
+Inputs read(TheoryLimitsArguments const& o) {
     Inputs in{};
     in.tan_beta =
         read_number_within("--tan-vibration-angle", o.tan_vibration_angle.value_or("0.5"), "0.5", 1e-9, 1e6);
@@ -42,7 +42,7 @@ Inputs read(Options const& o) {
     return in;
 }
 
-Json answers(Options const& options, Inputs const& in) {
+Json answers(TheoryLimitsArguments const& options, Inputs const& in) {
     theory::Limits const limits = theory::limits(in.tan_beta, in.tan_alpha, in.mu);
     Json json = {
         {"throw_number_of_whole_cycle_flight", limits.whole_cycle_throw_number},
@@ -99,7 +99,7 @@ void add_theory_limits(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
         "limits",
         "Print the closed-form results of the theory, such as the throw number of maximum efficiency");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryLimitsArguments>();
     command->add_option("--friction", options->friction,
                         "mu, friction coefficient of the mass on the trough");
     command->add_option("--tan-vibration-angle", options->tan_vibration_angle, "tan(beta); default: 0.5");

@@ -16,7 +16,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryMapArguments {
     TheoryOptions motion;
     RollingOption rolling;
     Text x, y, output, jobs;
@@ -58,7 +58,7 @@ void refuse_given_axis(theory::Inputs const& fixed, theory::MapAxis const& axis)
     throw core::InputError(fmt::format("{} is both an axis and an option; leave the option out", name));
 }
 
-void run(Options const& options) {
+void run_theory_map(TheoryMapArguments const& options) {
     theory::MapAxis const x = read_axis("--x", required("--x", options.x, axis_example));
     theory::MapAxis const y = read_axis("--y", required("--y", options.y, "vibration_angle_deg=5:60:500"));
     std::filesystem::path const output = required("--output", options.output, "map.h5");
@@ -100,7 +100,7 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
         "map",
         "Solve a grid over any two inputs, with the exact lines between modes, as HDF5 and for ParaView");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryMapArguments>();
     command->add_option("--x", options->x,
                         "First axis, NAME=FROM:TO:COUNT, where NAME is one of: " + input_names());
     command->add_option("--y", options->y, "Second axis, written in the same way");
@@ -122,7 +122,7 @@ Example:
       --friction 0.35 --tan-inclination -0.1 --output map.h5
   postprocess/draw_theory_map.py map.h5)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_map(*options);
         exit_code = all_well;
     });
 }

@@ -4,14 +4,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::app {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double read_quantity(std::string const& option, std::string const& text, std::string const& unit,
                      std::string const& example) {

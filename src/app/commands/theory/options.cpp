@@ -13,7 +13,6 @@ namespace {
 
 using theory::Input;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double least_throw = 1e-300;  // the theory divides by it
 
 void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {

@@ -7,6 +7,7 @@
 #include "theory/rolling_layer.hpp"
 
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ class Option;
 }  // namespace CLI
 
 namespace vibrotrough::app {
+
+inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
 /// An option as the user wrote it; none when it was not given.
 using Text = std::optional<std::string>;

@@ -15,7 +15,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryPointArguments {
     TheoryOptions motion;
     RollingOption rolling;
     Text bulk_density, layer_height, layer_width;
@@ -82,7 +82,7 @@ void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& ans
 }
 
 /// The machine with its layer; none without an amplitude, from which all of these quantities follow.
-std::optional<theory::Machine> read_machine(Options const& o) {
+std::optional<theory::Machine> read_machine(TheoryPointArguments const& o) {
     auto machine = o.motion.machine();
     auto const read = [&](char const* option, Text const& text, char const* unit, char const* example,
                           double theory::Machine::*value) {
@@ -102,7 +102,7 @@ std::optional<theory::Machine> read_machine(Options const& o) {
 }
 
 /// What a rolling layer has instead of the point mass.
-theory::ConveyorMotion solve_rolling(Options const& options, theory::Conveyor const& input,
+theory::ConveyorMotion solve_rolling(TheoryPointArguments const& options, theory::Conveyor const& input,
                                      theory::RollingLaw const& law) {
     if (!options.motion.plastic()) {
         throw core::InputError(
@@ -146,7 +146,7 @@ void check_machine_number(theory::Conveyor const& input) {
 }
 
 /// A motion that runs away has no speed, which a script must notice.
-int run(Options const& options) {
+int run_theory_point(TheoryPointArguments const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
     check_machine_number(input);
@@ -177,7 +177,7 @@ int run(Options const& options) {
 void add_theory_point(CLI::App& theory, int& exit_code) {
     CLI::App* const command = theory.add_subcommand(
         "point", "Solve one motion of a point mass: phases, mode and velocity efficiency");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryPointArguments>();
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     auto const add = [&](char const* name, Text& text, char const* help) {
@@ -214,7 +214,7 @@ Example with a machine:
 Example of a layer of grains that roll (validation/rolling_layer says what this law predicts and what it does not):
   vibrotrough theory point --throw-number 1.7 --tan-vibration-angle 0.5 --friction 0.23 \
       --rolling-layer)");
-    command->callback([options, &exit_code] { exit_code = run(*options); });
+    command->callback([options, &exit_code] { exit_code = run_theory_point(*options); });
 }
 
 }  // namespace vibrotrough::app

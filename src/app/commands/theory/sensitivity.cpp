@@ -14,12 +14,12 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheorySensitivityArguments {
     TheoryOptions motion;
     bool json = false;
 };
 
-void run(Options const& options) {
+void run_theory_sensitivity(TheorySensitivityArguments const& options) {
     theory::Inputs const inputs = options.motion.given();
     require_complete(inputs);
     std::vector<theory::Sensitivity> answers;
@@ -49,7 +49,7 @@ void run(Options const& options) {
 void add_theory_sensitivity(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
         theory.add_subcommand("sensitivity", "Print how the velocity efficiency changes with each input");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheorySensitivityArguments>();
     options->motion.add_to(*command);
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(
@@ -59,7 +59,7 @@ and the relative derivative (elasticity): the change of eta in percent when the 
 Example:
   vibrotrough theory sensitivity --throw-number 2 --tan-vibration-angle 0.5 --friction 0.3)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_sensitivity(*options);
         exit_code = all_well;
     });
 }

@@ -16,7 +16,7 @@
 namespace vibrotrough::app {
 namespace {
 
-struct Options {
+struct TheoryTraceArguments {
     TheoryOptions motion;
     RollingOption rolling;
     Text samples, output;
@@ -41,8 +41,9 @@ struct Table {
 };
 
 /// The trace of a rolling layer, with the spin of its floor grains.
-Table trace_rolling(Options const& options, theory::Conveyor const& input, theory::RollingLaw const& law,
-                    int samples, std::optional<theory::Machine> const& machine) {
+Table trace_rolling(TheoryTraceArguments const& options, theory::Conveyor const& input,
+                    theory::RollingLaw const& law, int samples,
+                    std::optional<theory::Machine> const& machine) {
     if (!options.motion.plastic()) {
         throw core::InputError(
             "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
@@ -77,7 +78,7 @@ Table trace_rolling(Options const& options, theory::Conveyor const& input, theor
     return {std::move(text), motion.motion.mode};
 }
 
-void write(Options const& options, int samples, Table const& table) {
+void write(TheoryTraceArguments const& options, int samples, Table const& table) {
     if (options.output) {
         core::write_file_atomically(*options.output, table.text);
         fmt::print("{} samples of mode {} written to {}\n", samples, table.mode, *options.output);
@@ -86,7 +87,7 @@ void write(Options const& options, int samples, Table const& table) {
     }
 }
 
-void run(Options const& options) {
+void run_theory_trace(TheoryTraceArguments const& options) {
     int const samples =
         options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
     theory::Conveyor const input = options.motion.conveyor();
@@ -112,7 +113,7 @@ void run(Options const& options) {
 void add_theory_trace(CLI::App& theory, int& exit_code) {
     CLI::App* const command =
         theory.add_subcommand("trace", "Print velocities, forces and the gap over one period as CSV");
-    auto const options = std::make_shared<Options>();
+    auto const options = std::make_shared<TheoryTraceArguments>();
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     command->add_option("--samples", options->samples, "Number of lines; default: 721");
@@ -132,7 +133,7 @@ Example:
   vibrotrough theory trace --throw-number 2.975 --vibration-angle "30 deg" --friction 0.3 \
       --output trace.csv)");
     command->callback([options, &exit_code] {
-        run(*options);
+        run_theory_trace(*options);
         exit_code = all_well;
     });
 }
