@@ -74,6 +74,18 @@ bool is_needed(std::string const& name) {
            !name.starts_with("tables/") && name != "campaign.h5" && name != checksums_file;
 }
 
+/// Refuses a name that is there already, or that needs a file that is there as a folder.
+void refuse_clash(fs::path const& bundle, Digests const& found, std::string const& name) {
+    for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1)) {
+        std::string const folder = name.substr(0, end);
+        if (found.contains(folder))
+            refuse(bundle, fmt::format("holds {} as a file and as a folder", core::harmless(folder)));
+    }
+    auto const below = found.lower_bound(name + "/");
+    if (found.contains(name) || (below != found.end() && below->first.starts_with(name + "/")))
+        refuse(bundle, fmt::format("holds {} twice", core::harmless(name)));
+}
+
 /// A new file that is written piece by piece.
 class NewFile {
   public:
@@ -124,6 +136,7 @@ std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
     std::unique_ptr<core::Sha256> digest;
     auto const begin = [&](std::string const& one) -> ZipSink {
         name = one;
+        refuse_clash(bundle, found, name);
         digest = std::make_unique<core::Sha256>();
         if (is_needed(name)) file = std::make_unique<NewFile>(place->folder.path() / name);
         return [&](std::string_view piece) {
@@ -138,8 +151,7 @@ std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
     auto const end = [&] {
         file.reset();
         if (name == checksums_file) return;
-        if (!found.emplace(name, digest->hex()).second)
-            refuse(bundle, fmt::format("holds {} twice", core::harmless(name)));
+        found.emplace(name, digest->hex());
     };
     read_zip(bundle, limits_for(fs::file_size(bundle)), begin, end);
     if (sums.empty()) refuse(bundle, fmt::format("{} is missing or empty", checksums_file));

@@ -13,6 +13,7 @@ import shutil
 import stat
 import struct
 import unittest
+import warnings
 import zipfile
 
 from trough_program import EndToEndTest
@@ -232,8 +233,13 @@ class Archive(EndToEndTest):
             link.external_attr = (stat.S_IFLNK | 0o777) << 16
             bundle.writestr(link, str(outside))
             bundle.writestr("link/harm", "harm")
-        self.assert_refused(hostile)
+        self.assert_refused(hostile, "holds link as a file and as a folder")
         self.assertEqual(list(outside.iterdir()), [])
+        with warnings.catch_warnings(), zipfile.ZipFile(hostile, "w") as bundle:
+            warnings.simplefilter("ignore")  # zipfile warns of a name that is there twice
+            for name in ("archive.json", "engine.json", "engine.json"):
+                bundle.writestr(name, "{}")
+        self.assert_refused(hostile, "holds engine.json twice")
 
     def check_bombs(self, hostile):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))  # noqa: E731
