@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from figure_style import COLOURS, GREY, Problem, corner, new_figure, plain, plain_axes, save
+from figure_style import COLOURS, GREY, Problem, corner, new_figure, plain, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -40,7 +40,7 @@ def shares(budget: Budget) -> list[float]:
 
 def draw_budget(axes: Axes, place: float, budget: Budget, colours: dict[str, str]) -> None:
     if budget["numerical_error"] is None:
-        axes.annotate("unknown", (place + BAR / 2, 0), rotation=90, ha="center", va="bottom", fontsize=8, color=GREY)
+        axes.annotate("unknown", (place + BAR / 2, 0), rotation=90, ha="center", va="bottom", fontsize=points(8), color=GREY)
         return
     bottom = 0.0
     for setting, height in zip(budget["settings"], shares(budget)):
@@ -48,7 +48,7 @@ def draw_budget(axes: Axes, place: float, budget: Budget, colours: dict[str, str
         axes.bar(place + BAR / 2, height, BAR, bottom=bottom, color=colours[setting["setting"]] if sure else "white",
                  edgecolor=colours[setting["setting"]], hatch=None if sure else "////", linewidth=0.8)
         bottom += height
-    axes.annotate(f"{bottom:.3f}", (place + BAR / 2, bottom), ha="center", va="bottom", fontsize=7)
+    axes.annotate(f"{bottom:.3f}", (place + BAR / 2, bottom), ha="center", va="bottom", fontsize=points(7))
 
 
 def names_of(source: "Source", budgets: list[Budget]) -> list[str]:
@@ -71,17 +71,17 @@ def plot_budget(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
         statistical = source.row_of(budget["case"])["efficiency_dem_half_width"]
         if statistical is not None:
             axes.bar(place - BAR / 2, statistical, BAR, color="#bbbbbb", edgecolor=GREY, linewidth=0.8)
-            axes.annotate(f"{statistical:.3f}", (place - BAR / 2, statistical), ha="center", va="bottom", fontsize=7)
+            axes.annotate(f"{statistical:.3f}", (place - BAR / 2, statistical), ha="center", va="bottom", fontsize=points(7))
         settings = [one for one in budget["settings"] if one["verdict"] != "left-out"]
         draw_budget(axes, place, budget | {"settings": settings}, colours)
     axes.set_xlim(-0.6, len(budgets) - 0.4)
-    axes.set_xticks(range(len(budgets)), names_of(source, budgets), fontsize=8)
+    axes.set_xticks(range(len(budgets)), names_of(source, budgets), fontsize=points(8))
     axes.set_ylabel("error of velocity efficiency \u03b7  [-]")
     axes.margins(y=0.12)
     handles = [Patch(facecolor="#bbbbbb", edgecolor=GREY, label="statistical (left bar)")]
     handles += [Patch(facecolor=colours[setting], label=title) for setting, title in titles.items()]
     handles.append(Patch(facecolor="white", edgecolor=GREY, hatch="////", label="not resolved: its interval"))
-    axes.legend(handles=handles, frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    axes.legend(handles=handles, frameon=False, fontsize=points(8), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
     left = f"; {len(every) - len(budgets)} more cases" if len(every) > len(budgets) else ""
     corner(figure, source.attributes, f"heights are squares over the total: parts add in squares{left}")
     figure.tight_layout(rect=(0, 0.03, 1, 1))

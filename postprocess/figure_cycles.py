@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import vibrotrough
-from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -26,11 +26,11 @@ def plot_cycles(source: "Source", case: str, result: vibrotrough.File, output: p
         draw_packing(axes, result, number, row)
     last = columns[-1, 0]
     last.set_xlabel("cycle  [-]")
-    figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=10)
+    figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=points(10))
     handles, labels = columns[0, 0].get_legend_handles_labels()
     title = case_title(row)
-    figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1 - 0.22 / height))
-    figure.suptitle(title, fontsize=10, y=1 - 0.08 / height)
+    figure.legend(handles, labels, ncols=4, loc="upper center", frameon=False, fontsize=points(8), bbox_to_anchor=(0.5, 1 - 0.22 / height))
+    figure.suptitle(title, fontsize=points(10), y=1 - 0.08 / height)
     note = f"{shown} of {packings} packings" if shown < packings else ""
     corner(figure, source.attributes, note)
     figure.tight_layout(rect=(0, 0.02, 1, 1 - 0.4 / height))
@@ -57,5 +57,5 @@ def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping
     # Whether a single packing is precise does not matter: what is asked for is the interval of the case.
     verdict = ": not-steady" if result["packings/verdict"][number] == "not-steady" else ""
     axes.annotate(f"packing {number + 1}{verdict}", (0.995, 0.05), xycoords="axes fraction", ha="right", va="bottom",
-                  fontsize=8, color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})
+                  fontsize=points(8), color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})
     axes.margins(x=0.01)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
-from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -121,15 +121,15 @@ def label_portraits(axes: Any) -> None:
         one.set_xlabel(below)
         one.set_ylabel(left)
     axes[1, 1].text(0.42, 0.97, "the point mass's impacts are not drawn", transform=axes[1, 1].transAxes, ha="center", va="top",
-                    fontsize=8, color=GREY)
+                    fontsize=points(8), color=GREY)
 
 
 def finish(figure: Figure, source: "Source", case: str, legend_from: Axes) -> None:
     row = source.row_of(case)
-    figure.suptitle(case_title(row), fontsize=10)
+    figure.suptitle(case_title(row), fontsize=points(10))
     height = figure.get_size_inches()[1]
     handles, names = legend_from.get_legend_handles_labels()
-    figure.legend(handles, names, ncols=4, loc="upper center", frameon=False, fontsize=9, bbox_to_anchor=(0.5, 1 - 0.2 / height))
+    figure.legend(handles, names, ncols=4, loc="upper center", frameon=False, fontsize=points(9), bbox_to_anchor=(0.5, 1 - 0.2 / height))
     corner(figure, source.attributes)
     figure.tight_layout(rect=(0, 0.03, 1, 1 - 0.35 / height))
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from figure_inputs import Input, panels, split_inputs
-from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -56,7 +56,7 @@ def draw_line(source: "Source", over: Input, values: Floats) -> Figure:
     axes.set_xlabel(over.title)
     axes.set_ylabel(RESIDUAL)
     for text, at, anchor in (("layer faster than theory", 0.98, "top"), ("layer slower than theory", 0.02, "bottom")):
-        axes.text(0.99, at, text, transform=axes.transAxes, ha="right", va=anchor, fontsize=8, color="#666666")
+        axes.text(0.99, at, text, transform=axes.transAxes, ha="right", va=anchor, fontsize=points(8), color="#666666")
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return figure
 
@@ -74,19 +74,19 @@ def draw_maps(source: "Source", over: Input, others: list[Input], values: Floats
     (x, x_names), (y, y_names) = over.places(), second.places()
     for axes, (name, rows) in zip(grid.flat, shown):
         image = draw_panel(axes, x[rows], y[rows], values[rows], reach)
-        axes.set_title(name, fontsize=9)
+        axes.set_title(name, fontsize=points(9))
         if x_names:
             axes.set_xticks(range(len(x_names)), x_names)
         if y_names:
             axes.set_yticks(range(len(y_names)), y_names)
     for axes in grid.flat[len(shown):]:
         axes.set_visible(False)
-    figure.supxlabel(over.title, fontsize=10)
-    figure.supylabel(second.title, fontsize=10)
+    figure.supxlabel(over.title, fontsize=points(10))
+    figure.supylabel(second.title, fontsize=points(10))
     figure.colorbar(image, ax=grid, label=RESIDUAL)
     figure.get_layout_engine().set(rect=(0, 0.04, 1, 0.96))
     if len(groups) > len(shown):
-        figure.suptitle(f"{len(shown)} of {len(groups)} combinations", fontsize=9)
+        figure.suptitle(f"{len(shown)} of {len(groups)} combinations", fontsize=points(9))
     return figure
 
 
@@ -97,7 +97,7 @@ def draw_panel(axes: Axes, x: Floats, y: Floats, values: Floats, reach: float) -
     axes.scatter(x[~known], y[~known], marker="x", color="#555555", s=60)
     for column, row, value in zip(x[known], y[known], values[known]):
         ink = "white" if abs(value) > 0.6 * reach else "black"
-        axes.annotate(f"{value:+.2f}", (column, row), ha="center", va="center", fontsize=6.5, color=ink)
+        axes.annotate(f"{value:+.2f}", (column, row), ha="center", va="center", fontsize=points(6.5), color=ink)
     axes.margins(0.12)
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     return image

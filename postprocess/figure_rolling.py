@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import vibrotrough
 from figure_portraits import has
-from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -48,7 +48,7 @@ def draw_curves(axes: Axes, cycles: Floats, curves: list[Curve], label: str) -> 
     for name, values, style in curves:
         axes.plot(cycles, values, color=COLOURS[style], linestyle=DASHES[style], linewidth=1.4, label=name)
     axes.set_ylabel(label)
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(frameon=False, fontsize=points(8))
     plain_axes(axes)
 
 
@@ -81,7 +81,7 @@ def plot_rolling(source: "Source", case: str, result: vibrotrough.File, output: 
     draw_curves(axes[2][1], c.cycles, [("first diameter", c["first_fraction"], 0), ("second diameter", c["second_fraction"], 6)], "solid fraction  [-]")
     for one in axes[2]:
         one.set_xlabel("time in cycles, t / T  [-]")
-    figure.suptitle(case_title(source.row_of(case)), fontsize=10)
+    figure.suptitle(case_title(source.row_of(case)), fontsize=points(10))
     corner(figure, source.attributes)
     figure.tight_layout(rect=(0, 0.03, 1, 1))
     return save(figure, output)

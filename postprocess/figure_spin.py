@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import vibrotrough
 from figure_portraits import finish, has
-from figure_style import COLOURS, DASHES, GREY, new_figure, plain_axes, save
+from figure_style import COLOURS, DASHES, GREY, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
     from figures import Source
@@ -46,7 +46,7 @@ def plot_spin(source: "Source", case: str, result: vibrotrough.File, output: pat
     lower.set_ylabel("friction on the layer  [N]")
     lower.set_xlabel("time in cycles, t / T  [-]")
     lower.text(0.01, 0.97, "grey: the largest friction, \u03bc times the normal force, forwards and backwards", transform=lower.transAxes,
-               va="top", fontsize=8, color=GREY)
+               va="top", fontsize=points(8), color=GREY)
     for axes in (upper, lower):
         plain_axes(axes)
     finish(figure, source, case, upper)

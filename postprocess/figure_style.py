@@ -1,5 +1,6 @@
 """What all figures share: colours, fonts, the corner's text, saving."""
 
+import dataclasses
 import io
 import pathlib
 from collections.abc import Mapping
@@ -27,9 +28,71 @@ class Problem(Exception):
     """An error that the user can correct; its text is one line."""
 
 
-def new_figure(*shape: int, size: tuple[float, float] = (7.2, 4.8), **settings: Any) -> tuple[Figure, Any]:
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "font.size": 10, "axes.axisbelow": True})
+class TooNarrow(Problem):
+    """A figure does not fit into the width that the user wants."""
+
+
+
+@dataclasses.dataclass
+class Print:
+    """What figures are drawn for: a screen, or a journal."""
+
+    formats: tuple[str, ...] = ("svg", "png")
+    width: float | None = None  # m, of the whole figure; None: as wide as each figure likes
+    style: pathlib.Path | None = None  # a style sheet of matplotlib
+
+
+# What a file would say of the day on which it was drawn.
+UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+FORMATS = ("svg", "png", "pdf")
+INCH = 0.0254  # m
+USUAL_WIDTH, USUAL_FONT = 7.2, 10.0  # inches, points: those of a figure for a screen
+PANELS_WIDTH = 0.15  # m, of a figure with panels beside one another, at least: below, their labels run into one another
+SMALLEST_FONT = 7.0  # points, of axes and legends in print
+target = Print()
+
+
+def take_style(path: pathlib.Path) -> None:
+    """Reads a style sheet once, so that its mistakes are told before anything is drawn."""
+    try:
+        matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
+    except (OSError, ValueError, KeyError) as error:
+        raise Problem(f"cannot use the style sheet {path} ({str(error).splitlines()[0]}); see matplotlib's style sheets") from error
+    target.style = path
+
+
+def new_figure(*shape: int, size: tuple[float, float] = (USUAL_WIDTH, 4.8), **settings: Any) -> tuple[Figure, Any]:
+    """`size` in inches, as on a screen. In a column of a journal, letters shrink less than the figure, and its height less than
+    its width, so that both stay readable.
+    """
+    matplotlib.rc_file_defaults()
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "pdf.fonttype": 42, "font.size": USUAL_FONT,
+                         "axes.axisbelow": True})  # fmt: skip
+    if is_narrow() and len(shape) > 1 and shape[1] > 1:
+        raise TooNarrow(f"panels beside one another need a width of {1000 * PANELS_WIDTH:.0f} mm, such as --width two-columns")
+    if target.width is not None:
+        share = target.width / INCH / size[0]
+        plt.rcParams["font.size"] = max(SMALLEST_FONT, USUAL_FONT * min(1.0, (target.width / INCH / USUAL_WIDTH) ** 0.4))
+        plt.rcParams["savefig.dpi"] = 300
+        size = (target.width / INCH, size[1] * share**0.45)
+    if target.style is not None:
+        plt.style.use(str(target.style))
     return plt.subplots(*shape, figsize=size, **settings)
+
+
+def is_narrow() -> bool:
+    """Whether there is room for one panel only, such as in one column of a journal."""
+    return target.width is not None and target.width < PANELS_WIDTH
+
+
+def points(size: float) -> float:
+    """A size of letters in a figure whose usual one is 10 points, in points of this figure."""
+    return size * float(plt.rcParams["font.size"]) / USUAL_FONT
+
+
+def characters_across(figure: Figure, size: float) -> int:
+    """About how many letters of this size (points) fit across a figure; a letter is half as wide as its size."""
+    return int(figure.get_size_inches()[0] * 72 / (0.5 * size))
 
 
 def plain_axes(axes: Axes) -> None:
@@ -52,20 +115,21 @@ def case_title(row: Mapping[str, Any]) -> str:
 def corner(figure: Figure, attributes: Mapping[str, Any], text: str = "") -> None:
     """The campaign's name and the program's version, small, at the lower right; a remark at the lower left."""
     name = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
-    figure.text(0.99, 0.01, name, ha="right", va="bottom", fontsize=7, color=GREY)
+    figure.text(0.99, 0.01, name, ha="right", va="bottom", fontsize=points(7), color=GREY)
     if text:
-        figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=7, color=GREY)
+        figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=points(7), color=GREY)
 
 
 def save(figure: Figure, output: pathlib.Path) -> list[pathlib.Path]:
-    """Writes output.svg and output.png (the same bytes every time) and returns their paths."""
+    """Writes output.svg and output.png, or what else is wanted (the same bytes every time), and returns their paths."""
     paths = []
-    for kind in ("svg", "png"):
+    dpi = 150 if plt.rcParams["savefig.dpi"] == "figure" else plt.rcParams["savefig.dpi"]
+    for kind in target.formats:
         path = output.with_name(f"{output.name}.{kind}")
         try:
             output.parent.mkdir(parents=True, exist_ok=True)
             content = io.BytesIO()
-            figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else None)
+            figure.savefig(content, format=kind, dpi=dpi, bbox_inches=None, metadata=UNDATED.get(kind))
             write_file(path, content.getvalue())
         except OSError as error:
             raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Draws a campaign's figures, each as SVG and PNG; `vibrotrough plot DIR` calls it.
+"""Draws a campaign's figures, each as SVG and PNG or as asked; `vibrotrough plot DIR` calls it.
 
-    figures.py DIR [--output OUT] [--only KIND] [--case ID]
+    figures.py DIR [--output OUT] [--only KIND] [--case ID] [--format KIND] [--width METRES] [--style FILE]
 
 DIR holds campaign.h5 and cases/, OUT (by default DIR/report) the folder `data` with what the program computed of the
 theory. Prints the path of every file it wrote. Nothing of the theory is computed here.
@@ -11,7 +11,7 @@ import argparse
 import json
 import pathlib
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 import figure_budget
@@ -23,7 +23,7 @@ import figure_spin
 import vibrotrough
 from drawn_figures import DrawnFigures, digest_of_data
 from figure_inputs import swept_inputs
-from figure_style import Problem
+from figure_style import FORMATS, Problem, TooNarrow, take_style, target
 from plot_campaign import plot_efficiency
 
 KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles")
@@ -67,13 +67,22 @@ def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Itera
             yield paths
 
 
+def fitting(name: str, draw_one: Callable[[], list[pathlib.Path]]) -> list[pathlib.Path]:
+    """Draws a figure. One that does not fit into the width is left out and named."""
+    try:
+        return draw_one()
+    except TooNarrow as problem:
+        print(f"figures.py: {name} is left out: {problem}", file=sys.stderr)
+        return []
+
+
 def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib.Path]]:
     """The figures of the campaign as a whole."""
     if "efficiency" in only:
         theory = {row["case"]: row["efficiency_theory"] for row in source.overview["cases"]}
         yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", theory)
     if "residuals" in only:
-        yield figure_residuals.plot_residuals(source, source.output / "residuals")
+        yield fitting("residuals", lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
     if "budget" in only:
         yield figure_budget.plot_budget(source, source.output / "budget")
 
@@ -91,7 +100,8 @@ def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list
         print(f"figures.py: case {case} is left out: {error}", file=sys.stderr)
         return
     for kind in wanted:
-        yield drawers[kind](source, case, result, source.output / f"{kind}-{case}")
+        name = f"{kind}-{case}"
+        yield fitting(name, lambda: drawers[kind](source, case, result, source.output / name))
 
 
 def main() -> None:
@@ -100,7 +110,13 @@ def main() -> None:
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures")
     parser.add_argument("--only", action="append", choices=KINDS, help="draw this kind only")
     parser.add_argument("--case", action="append", default=[], metavar="ID", help="single cases' figures of this one only")
+    parser.add_argument("--format", action="append", choices=FORMATS, help="write this kind of file; several for several")
+    parser.add_argument("--width", type=float, metavar="METRES", help="width of every figure, for print")
+    parser.add_argument("--style", type=pathlib.Path, metavar="FILE", help="a style sheet of matplotlib")
     options = parser.parse_args()
+    target.formats, target.width = tuple(options.format or target.formats), options.width
+    if options.style is not None:
+        take_style(options.style)
     source = Source(options.directory, options.output or options.directory / "report")
     for paths in draw(source, options.only or KINDS, options.case):
         for path in paths:

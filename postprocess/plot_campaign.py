@@ -17,6 +17,7 @@ import itertools
 import math
 import pathlib
 import sys
+import textwrap
 from collections import defaultdict
 from typing import Any
 
@@ -27,7 +28,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from figure_inputs import Input, panels, split_inputs, swept_inputs
-from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, corner, new_figure, plain_axes, save
+from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
+                          points, save)  # fmt: skip
 
 Columns = dict[str, NDArray[Any]]
 Pair = tuple[NDArray[np.float64], NDArray[np.float64]]  # places and efficiencies of a line
@@ -220,8 +222,11 @@ def add_legend(figure: Figure, grid: list[Axes], title: str) -> float:
         for handle, name in zip(*axes.get_legend_handles_labels()):
             found.setdefault(name, handle)
     names = sorted(found, key=lambda name: name == UNCERTAIN)
-    settings: dict[str, Any] = {"frameon": False, "fontsize": 9, "title": title, "title_fontsize": 9, "columnspacing": 1.2,
-                                "handletextpad": 0.4, "ncols": min(len(names), 3 if max(map(len, names), default=0) < 24 else 2)}
+    across = characters_across(figure, points(9))
+    title = textwrap.fill(title, across)
+    fitting = max(1, across // (max(map(len, names), default=0) + 8))
+    settings: dict[str, Any] = {"frameon": False, "fontsize": points(9), "title": title, "title_fontsize": points(9), "columnspacing": 1.2,
+                                "handletextpad": 0.4, "ncols": min(len(names), fitting, 3 if max(map(len, names), default=0) < 24 else 2)}
     handles = [found[name] for name in names]
     if len(grid) == 1:
         grid[0].legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), **settings)
@@ -243,8 +248,8 @@ def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str
         grid[0].set_xlabel(series.over.title)
         grid[0].set_ylabel(EFFICIENCY)
     else:
-        figure.supxlabel(series.over.title, fontsize=10)
-        figure.supylabel(EFFICIENCY, fontsize=10)
+        figure.supxlabel(series.over.title, fontsize=points(10))
+        figure.supylabel(EFFICIENCY, fontsize=points(10))
     taken = add_legend(figure, grid, f"points: DEM with {bars}{told}")
     without = np.count_nonzero(~np.isfinite(columns["efficiency"]))
     remarks = [f"{without} of {series.count} cases have no mean (not steady or bistable)"] if without else []
@@ -269,7 +274,7 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     if series.is_over_throw_number():
         told = ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
     shown = list(itertools.islice(series.panels.items(), MOST_PANELS))
-    across = min(len(shown), 2)
+    across = 1 if is_narrow() else min(len(shown), 2)
     down = -(-len(shown) // across)
     if len(shown) == 1:
         figure, axes = new_figure()
@@ -285,7 +290,7 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
             draw_theory_at_cases(one, series, rows, at_cases)
         draw(one, series, rows)
         mark_uncertain(one, series, rows, draw_branches(one, series, rows))
-        one.set_title(name, fontsize=9) if len(shown) > 1 else None
+        one.set_title(name, fontsize=points(9)) if len(shown) > 1 else None
     for one in grid[len(shown):]:
         one.set_visible(False)
     taken = label(figure, grid[:len(shown)], series, attributes, told)

@@ -8,6 +8,7 @@
     case = campaign.case(campaign["case"][0])                   # the case's own result.h5
     print(case["series/1/efficiency"][case["packings/cycles_discarded"][0]:])
 
+    theory = vibrotrough.open_theory("map.h5")                  # of 'theory map', or of 'theory batch'
     table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
 
 Everything is read at once, so files may be renewed meanwhile. The tables of names are in src/store/README.md.
@@ -56,7 +57,9 @@ class Array(np.ndarray[Any, np.dtype[Any]]):
 
 def _read(dataset: h5py.Dataset) -> Array:
     values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
-    return Array(values, str(dataset.attrs.get("units", "1")), str(dataset.attrs.get("description", "")))
+    if "units" not in dataset.attrs:
+        raise ValueError(f"{dataset.file.filename}: {dataset.name} does not tell its units; Vibrotrough did not write it")
+    return Array(values, str(dataset.attrs["units"]), str(dataset.attrs.get("description", "")))
 
 
 def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
@@ -156,3 +159,11 @@ def open_result(path: str | os.PathLike[str]) -> File:
     """One case's result.h5, from the file or the case's folder."""
     path = pathlib.Path(path)
     return File(path / "result.h5" if path.is_dir() else path, "vibrotrough result")
+
+
+def open_theory(path: str | os.PathLike[str]) -> File:
+    """A map of `vibrotrough theory map` or a table of `vibrotrough theory batch --output FILE.h5`."""
+    try:
+        return File(path, "vibrotrough theory map")
+    except ValueError:
+        return File(path, "vibrotrough theory table")

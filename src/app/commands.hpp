@@ -38,6 +38,8 @@ void add_measure(CLI::App& program, int& exit_code);
 void add_status(CLI::App& program, int& exit_code);
 /// Prints the table of measured and theoretical conveying.
 void add_compare(CLI::App& program, int& exit_code);
+/// Makes one file of a campaign, for a paper's supplement.
+void add_archive(CLI::App& program, int& exit_code);
 /// Measures the friction of layers as a whole.
 void add_friction_test(CLI::App& program, int& exit_code);
 /// Measures the numerical error of a campaign's results.

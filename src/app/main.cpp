@@ -46,6 +46,8 @@ What do you want to do?
       vibrotrough status runs/pellets
   compare layer and theory:
       vibrotrough compare runs/pellets --sort difference:desc
+  give a campaign to the readers of a paper:
+      vibrotrough archive runs/pellets
   know how large the numerical error is:
       vibrotrough convergence runs/pellets
   see the grains in ParaView:
@@ -64,6 +66,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_friction_test(program, exit_code);
     add_convergence(program, exit_code);
     add_compare(program, exit_code);
+    add_archive(program, exit_code);
     add_learn(program, exit_code);
     add_predict(program, exit_code);
     add_calibrate(program, exit_code);

@@ -11,24 +11,31 @@
 
 namespace vibrotrough::compare {
 
-ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity) {
+ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity,
+                             campaign::OverviewSink const& sink) {
     auto const tests = campaign::read_friction(plan.folder);
     auto const numerics = campaign::read_case_numerics(plan);
-    ComparedCases found{
-        .cases = campaign::survey(plan, activity), .rows = {}, .columns = columns_with_swept(plan.swept)};
-    for (campaign::CaseOverview const& one : found.cases) {
+    ComparedCases found{.cases = {}, .rows = {}, .columns = columns_with_swept(plan.swept)};
+    found.rows.resize(plan.cases.size());
+    auto const add_row = [&](std::size_t i, campaign::CaseOverview const& one,
+                             store::CaseRecord const* record) {
+        campaign::PlannedCase const& planned = *one.planned;
         std::optional<MeasuredFriction> friction;
-        if (auto const test = tests.find(layer_key(one.planned->scenario())); test != tests.end())
+        if (auto const test = tests.find(layer_key(planned.scenario())); test != tests.end())
             friction = {*test->second.friction, *test->second.low, *test->second.high};
-        found.rows.push_back(
-            compare(one.planned->id, *one.planned->prepared, one.record, std::string(one.label()), friction));
+        Row row =
+            compare(planned.id, *planned.prepared, record == nullptr ? std::nullopt : std::optional(*record),
+                    std::string(one.label()), friction);
         for (scenario::Key const* const key : plan.swept)
-            found.rows.back().swept.push_back(swept_value(one.planned->scenario(), *key));
-        if (auto const known = numerics.find(one.planned->id); known != numerics.end()) {
-            found.rows.back().numerical_error = known->second.error;
-            found.rows.back().numerical_error_case = known->second.case_id;
+            row.swept.push_back(swept_value(planned.scenario(), *key));
+        if (auto const known = numerics.find(planned.id); known != numerics.end()) {
+            row.numerical_error = known->second.error;
+            row.numerical_error_case = known->second.case_id;
         }
-    }
+        found.rows[i] = std::move(row);
+        if (sink) sink(i, one, record);
+    };
+    found.cases = campaign::survey(plan, activity, add_row);
     return found;
 }
 

@@ -20,7 +20,9 @@ struct ComparedCases {
 /// Compares all cases of a campaign with the theory. The friction of a layer is used where a friction test
 /// has measured it, and the numerical error where a study has (campaign::read_case_numerics).
 /// @param activity  what the executors know of the campaign, for cases without a result
-ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity);
+/// @param sink      sees each case with its result, too
+ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity const& activity,
+                             campaign::OverviewSink const& sink = {});
 
 /// The row of a case of a plan without result and theory: its drive and its swept keys.
 Row planned_row(campaign::Plan const& plan, campaign::CaseOverview const& one);

@@ -63,16 +63,29 @@ Json swept_object(Row const& row, std::span<Column const> columns) {
     return object;
 }
 
-std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns) {
-    Json array = Json::array();
+void write_json(std::vector<Row> const& rows, std::span<Column const> columns, TextSink const& sink) {
+    char const* separator = "[\n  ";
     for (Row const& row : rows) {
         Json object = Json::object();
         for (Column const& column : columns) {
             if (column.in_data) object.push_back({std::string(column.name), json_of(column.of(row))});
         }
-        array.push_back(std::move(object));
+        // As an element of the list: two blanks more before each line.
+        std::string text = separator;
+        for (char const c : object.dump(2, ' ', false, Json::error_handler_t::replace)) {
+            text += c;
+            if (c == '\n') text += "  ";
+        }
+        sink(text);
+        separator = ",\n  ";
     }
-    return array.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    sink(rows.empty() ? "[]\n" : "\n]\n");
+}
+
+std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns) {
+    std::string text;
+    write_json(rows, columns, [&](std::string_view piece) { text += piece; });
+    return text;
 }
 
 std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns) {

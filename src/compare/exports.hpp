@@ -2,8 +2,10 @@
 
 #include "compare/columns.hpp"
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +15,12 @@ namespace vibrotrough::compare {
 /// The rows as a JSON array of objects. A value that is not known is null. Numbers are written with all
 /// digits.
 std::string to_json(std::vector<Row> const& rows, std::span<Column const> columns = all_columns());
+
+/// Receives the pieces of a long text in their order.
+using TextSink = std::function<void(std::string_view piece)>;
+
+/// Writes what to_json() returns row by row, so that the whole text is never in memory.
+void write_json(std::vector<Row> const& rows, std::span<Column const> columns, TextSink const& sink);
 
 /// The rows as CSV with a header and the columns of the JSON. A value that is not known is empty.
 std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns = all_columns());

@@ -64,7 +64,7 @@ int write_report_data(campaign::Plan const& plan, campaign::Activity const& acti
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));
     return static_cast<int>(
-        std::ranges::count_if(cases, [](auto const& one) { return one.record.has_value(); }));
+        std::ranges::count_if(cases, [](auto const& one) { return one.result.has_value(); }));
 }
 
 }  // namespace vibrotrough::compare

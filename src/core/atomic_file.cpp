@@ -158,9 +158,9 @@ std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_
     return content;
 }
 
-std::string read_opened(fs::path const& path, int flags, std::size_t limit) {
-    // Without O_NONBLOCK the opening of a pipe would wait for a writer.
-    Descriptor const file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
+/// Reads a file that was opened with these flags, and closes it.
+std::string read_descriptor(int opened, fs::path const& path, int flags, std::size_t limit) {
+    Descriptor const file(opened);
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
         std::string const reason = file.is_open() || errno == ENOENT || errno == EACCES
@@ -175,7 +175,20 @@ std::string read_opened(fs::path const& path, int flags, std::size_t limit) {
     return read_to_end(file, path, size, limit);
 }
 
+std::string read_opened(fs::path const& path, int flags, std::size_t limit) {
+    // Without O_NONBLOCK the opening of a pipe would wait for a writer.
+    return read_descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags), path, flags, limit);
+}
+
 }  // namespace
+
+std::string read_own_file(fs::path const& path, std::size_t limit) {
+    ParentFolder const parent(path);
+    int const opened = parent.open(O_RDONLY | O_NONBLOCK);
+    if (opened < 0 && (errno == ELOOP || errno == EXDEV || errno == ENOTDIR))
+        refuse_to_read(path, "it is a symbolic link, or there is one on the way");
+    return read_descriptor(opened, path, O_NONBLOCK, limit);
+}
 
 std::string read_file(fs::path const& path, std::size_t limit) {
     return read_opened(path, O_NONBLOCK, limit);

@@ -25,6 +25,11 @@ std::string read_file(std::filesystem::path const& path, std::size_t limit = lar
 /// @throws MissingError when it cannot be opened or read, or is longer than `limit`
 std::string read_given_file(std::filesystem::path const& path, std::size_t limit = largest_note);
 
+/// The same as read_file() for a file that must not be reached through a symbolic link: neither the file
+/// itself nor, below an OwnFolder, a folder on the way to it may be one.
+/// @throws MissingError as read_file(), and when there is a link
+std::string read_own_file(std::filesystem::path const& path, std::size_t limit = largest_file);
+
 /// The content of a file at one moment, together with its path.
 struct TextFile {
     std::filesystem::path path;  ///< as it was given

@@ -30,7 +30,7 @@ TEST_F(Overview, OpenThenRunningThenInterrupted) {
     }
     EXPECT_EQ(look().label(), "interrupted");
     EXPECT_EQ(look().packings_done, 1);
-    EXPECT_FALSE(look().record);
+    EXPECT_FALSE(look().result);
 }
 
 TEST_F(Overview, FailureUntilItIsTriedAgain) {
@@ -53,8 +53,36 @@ TEST_F(Overview, ResultSaysTheOutcome) {
     EXPECT_EQ(look().label(), "not-precise");  // the sample's
     EXPECT_EQ(look().message.find("needs about "), 0u) << look().message;
     EXPECT_EQ(look().packings_done, 2);
-    ASSERT_TRUE(look().record);
-    EXPECT_EQ(look().record->estimate.mean, 0.82);
+    store::CaseRecord const sample = store::sample_record(planned.id);
+    ASSERT_TRUE(look().result);
+    EXPECT_EQ(look().result->packings, 2);
+    double core_time = 0, cycles = 0;
+    for (store::PackingRecord const& packing : sample.packings) {
+        core_time += packing.core_time;
+        cycles += packing.estimate.discarded + packing.estimate.measured;
+    }
+    EXPECT_EQ(look().result->core_time, core_time);
+    EXPECT_EQ(look().result->cycles, cycles);
+}
+
+// The summary of a result is seen once, with the overview that is returned for its case.
+TEST_F(Overview, ShowsEachResultOnce) {
+    int seen = 0;
+    auto const see = [&](std::size_t i, CaseOverview const& one, store::CaseRecord const* record) {
+        EXPECT_EQ(i, 0u);
+        EXPECT_EQ(one.planned, &plan.cases.front());
+        if (record != nullptr) ++seen;
+    };
+    survey(plan, {}, see);
+    EXPECT_EQ(seen, 0);
+    fs::create_directories(planned.folder);
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    survey(plan, {}, [&](std::size_t i, CaseOverview const& one, store::CaseRecord const* record) {
+        see(i, one, record);
+        ASSERT_NE(record, nullptr);
+        EXPECT_EQ(record->estimate.mean, 0.82);
+    });
+    EXPECT_EQ(seen, 1);
 }
 
 TEST_F(Overview, CampaignFileHoldsWhatThereIs) {

@@ -37,22 +37,22 @@ print(os.waitstatus_to_exitcode(status), int(fields[11]) + int(fields[12]), usag
 
 
 def campaign_of(kind, cases):
-    """Changes and sweep of a campaign of a square number of cases. The drive varies, so that all cases share one settled packing;
-    where a waveform fixes the drive, the trough's friction and restitution vary."""
-    side = math.isqrt(cases)
-    assert side * side == cases, cases
+    """Changes and sweep of a campaign of rows x columns cases, as square as possible. The drive varies, so that all cases share one
+    settled packing; where a waveform fixes the drive, the trough's friction and restitution vary."""
+    rows = next(count for count in range(math.isqrt(cases), 0, -1) if cases % count == 0)
+    columns = cases // rows
     changes = {"measure.packings": 1, "measure.max_cycles": 24, "grains.diameter_spread": 0.0}
     if kind == "waveforms":
         changes |= {"trough.throw_number": None, "trough.frequency": "20 Hz", "trough.waveform": "measured.csv"}
         return changes, {
-            "trough.friction": [round(0.1 + 0.5 * i / side, 6) for i in range(side)],
-            "trough.restitution": [round(0.1 + 0.8 * i / side, 6) for i in range(side)],
+            "trough.friction": [round(0.1 + 0.5 * i / rows, 6) for i in range(rows)],
+            "trough.restitution": [round(0.1 + 0.8 * i / columns, 6) for i in range(columns)],
         }
     if kind == "cubes":
         changes["grains.shape"] = "cube"
     return changes, {
-        "trough.throw_number": [round(1.2 + 2 * i / side, 6) for i in range(side)],
-        "trough.amplitude": [f"{3 + 3 * i / side:.5g} mm" for i in range(side)],
+        "trough.throw_number": [round(1.2 + 2 * i / rows, 6) for i in range(rows)],
+        "trough.amplitude": [f"{3 + 3 * i / columns:.5g} mm" for i in range(columns)],
     }
 
 

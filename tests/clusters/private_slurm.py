@@ -53,8 +53,9 @@ SchedulerParameters=batch_sched_delay=0,bf_interval=1,sched_interval=1
 SlurmdParameters=config_overrides
 ReturnToService=2
 KillWait=5
-MinJobAge=3600
+MinJobAge={job_age}
 MaxArraySize={max_array}
+MaxJobCount={max_jobs}
 {accounting}
 JobAcctGatherType=jobacct_gather/none
 NodeName=n1 NodeHostname={host} NodeAddr=127.0.0.1 Port={node_port} CPUs={cpus} RealMemory={memory} State=UNKNOWN
@@ -121,7 +122,7 @@ def wait_for(question, what, patience=300):
 class PrivateSlurm:
     """Use as a context; `environment` leads Slurm's commands to it."""
 
-    def __init__(self, cpus=4, max_array=1001, accounting=False):
+    def __init__(self, cpus=4, max_array=1001, accounting=False, max_jobs=10000, job_age=3600):
         self.accounting = accounting
         for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue", *(("slurmdbd", "mariadbd") if accounting else ())):
             if shutil.which(program) is None:
@@ -142,7 +143,7 @@ class PrivateSlurm:
         (self.folder / "slurmdbd.conf").chmod(0o600)
         (self.folder / "slurm.conf").write_text(
             CONFIGURATION.format(host=host, user=getpass.getuser(), folder=self.folder, listen=listen, controller_port=free_port(), node_port=free_port(),
-                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array, accounting=told)  # fmt: skip
+                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array, max_jobs=max_jobs, job_age=job_age, accounting=told)  # fmt: skip
         )
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         (self.folder / "plugstack.conf").write_text("")

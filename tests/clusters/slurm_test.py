@@ -5,13 +5,15 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
-from trough_program import EndToEndTest, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
+from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, fingerprint, pause, wait_until, without_wall_time  # noqa: E402
 
 SWEEP = {"layer.grains": [60, 70, 80]}
 CHANGES = {"measure.packings": 2}
@@ -246,6 +248,33 @@ class Slurm(EndToEndTest):
         os.environ["PATH"] = f"{folder}:{path}"
         self.addCleanup(os.environ.__setitem__, "PATH", path)
         return lambda: dict(collections.Counter(counts.read_text().split()))
+
+    def test_a_campaign_larger_than_the_limits_of_the_array_and_of_the_jobs_ends(self):
+        """8 packings where an array may have 3 tasks and Slurm keeps 4 jobs, each of them until 2 s after its end."""
+        slurm = self.start_slurm(cpus=2, max_array=4, max_jobs=4, job_age=2)
+        campaign = self.write_slurm_campaign(changes=CHANGES | {"measure.packings": 4}, sweep={"layer.grains": [60, 70]})
+
+        # Without --wait: what Slurm takes is submitted, and the rest is said; nothing is left of what it did not take.
+        done = self.run_campaign(campaign)
+        taken = self.count_submitted()
+        self.assertIn(taken, range(1, 5))
+        self.assertRegex(done.stdout, rf"; {taken} packings submitted as job [0-9, ]+; Slurm has no room for {8 - taken} packings now: ")
+        for folder in (self.output / "slurm").iterdir():
+            self.assertIn("job", (folder / "batch.json").read_text(), folder)
+
+        # With it: they are submitted as others end, and the campaign ends although Slurm is never able to hold all of it.
+        most = []
+        process = subprocess.Popen([PROGRAM, *map(str, self.run_arguments(campaign)), "--wait"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, process)
+        while process.poll() is None:
+            most.append(len(slurm.command("squeue", "-h", "-r", "-t", "all").stdout.splitlines()))
+            time.sleep(0.2)
+        code, output, errors = self.finish(process)
+        self.assertEqual(code, 0, output + errors)
+        self.assertLessEqual(max(most), 4)
+        self.assertEqual(self.status()["finished"], 2)
+        self.assertEqual(self.count_submitted(), 8, "a packing was submitted twice")
+        self.assertEqual(self.take_starts(), sorted({f"{case['case']}/packing-{n}" for case in self.table() for n in range(1, 5)}))
 
     def test_a_task_out_of_time_says_so(self):
         self.start_slurm(cpus=2)

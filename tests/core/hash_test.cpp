@@ -11,5 +11,12 @@ TEST(Hash, IsSha256) {
     EXPECT_EQ(core::sha256_hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
+// The digest does not depend on how the bytes are cut.
+TEST(Hash, OfPieces) {
+    core::Sha256 digest;
+    for (char const* piece : {"a", "", "bc"}) digest.add(piece);
+    EXPECT_EQ(digest.hex(), core::sha256_hex("abc"));
+}
+
 }  // namespace
 }  // namespace vibrotrough

@@ -4,6 +4,7 @@ import fcntl
 import html.parser
 import os
 import pty
+import re
 import struct
 import subprocess
 import termios
@@ -33,6 +34,7 @@ class Seeing(EndToEndTest):
     def test_plot_report_and_table(self):
         self.engine_that_fails_one()
         self.check_figures()
+        self.check_figures_for_print()
         self.check_report()
         self.check_wrong_options()
         self.check_table()
@@ -67,6 +69,56 @@ class Seeing(EndToEndTest):
         names = sorted(Path(line).name for line in done.stdout.splitlines())
         self.assertEqual(names, [f"cycles-{finished[0]}.png", f"cycles-{finished[0]}.svg"], done.stderr)
         self.assertTrue((self.folder / "other" / names[0]).is_file())
+
+    def draw_for_print(self, *options):
+        """{file name: content} of the figures that are drawn, and what is said on standard error."""
+        folder = self.folder / "print"
+        done = self.call("plot", self.output, "--output", folder, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return {Path(line).name: Path(line).read_bytes() for line in done.stdout.splitlines()}, done.stderr
+
+    def check_figures_for_print(self):
+        """Kinds of files by their headers, and their sizes: a point is 1/72 inch, in SVG and in PDF's MediaBox; PNG has 300 dots
+        per inch and is cut to whole ones.
+        """
+        general = ("--only", "efficiency", "--only", "residuals")
+        for width, millimetres in (("one-column", 84), ("two-columns", 174), ("90 mm", 90)):
+            drawn, errors = self.draw_for_print(*general, "--format", "pdf,svg,png", "--width", width)
+            self.assertEqual((set(drawn), errors), ({f"{name}.{kind}" for name in general[1::2] for kind in ("pdf", "svg", "png")}, ""))
+            for name in general[1::2]:
+                pdf, svg, png = (drawn[f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
+                self.assertTrue(pdf.startswith(b"%PDF-1.") and pdf.rstrip().endswith(b"%%EOF"))
+                box = [float(number) for number in re.search(rb"/MediaBox \[ ([0-9. ]+) \]", pdf)[1].split()]
+                self.assertAlmostEqual(box[2], millimetres / 25.4 * 72, delta=0.01)
+                self.assertIn(b"/FontFile2", pdf, "a font is not in the file")
+                root = ElementTree.fromstring(svg)
+                self.assertAlmostEqual(float(root.get("width").removesuffix("pt")), box[2], delta=0.01)
+                self.assertAlmostEqual(float(root.get("height").removesuffix("pt")), box[3], delta=0.01)
+                self.assertEqual(png[:8], b"\x89PNG\r\n\x1a\n")
+                across, down = struct.unpack(">II", png[16:24])
+                self.assertAlmostEqual(across, millimetres / 25.4 * 300, delta=1)
+                self.assertAlmostEqual(down / across, box[3] / box[2], delta=0.01)
+        self.assertEqual(self.draw_for_print(*general, "--format", "pdf", "--width", "one-column"),
+                         self.draw_for_print(*general, "--format", "pdf", "--width", "one-column"))  # fmt: skip
+        drawn, errors = self.draw_for_print("--only", "efficiency", "--only", "profiles", "--format", "png", "--width", "one-column")
+        self.assertEqual(set(drawn), {"efficiency.png"})
+        self.assertIn("is left out: panels beside one another need a width of 150 mm", errors)
+        self.check_style(general)
+
+    def check_style(self, general):
+        style = self.folder / "my style.mplstyle"
+        style.write_text("font.family: serif\nfont.size: 14\nsavefig.dpi: 75\n")
+        plain, _ = self.draw_for_print(*general)
+        styled, _ = self.draw_for_print(*general, "--style", style)
+        self.assertIn(b"14px", styled["efficiency.svg"])
+        self.assertNotIn(b"14px", plain["efficiency.svg"])
+        self.assertEqual([struct.unpack(">I", one["efficiency.png"][16:20])[0] for one in (plain, styled)], [1080, 540])
+        style.write_text("font.size: large letters\n")  # of an unknown key matplotlib 3.6 only warns
+        for option, value, told in (("--style", style, "cannot use the style sheet"), ("--style", self.folder / "none", "none"),
+                                    ("--width", "3 columns", "one-column"), ("--width", "1 mm", "50 mm"), ("--format", "jpg", "jpg")):  # fmt: skip
+            done = self.call("plot", self.output, *general, option, value)
+            self.assertIn(done.returncode, (2, 3), done.stderr)
+            self.assertIn(told, done.stderr)
 
     def check_report(self):
         done = self.call("report", self.output)

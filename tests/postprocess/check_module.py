@@ -68,6 +68,26 @@ def main(scripts, sample, work):
     assert vibrotrough.open_result(folder / "cases" / "0123456789abcdef").attributes["case"] == "0123456789abcdef"
     assert "case/speed" in case and "speed" not in case
 
+    # Every dataset of every kind of file tells its units, and one that does not is refused.
+    for file in (campaign, case):
+        with h5py.File(file.path) as read:
+            for name in file:
+                table, _, field = name.rpartition("/")
+                if name in read:
+                    wanted = read[name].attrs["units"]
+                else:
+                    wanted = read[table].attrs["units"][read[table].dtype.names.index(field)]
+                assert file[name].units == wanted != "", name
+    for kind in ("map", "table"):
+        with h5py.File(folder / f"{kind}.h5", "w") as file:
+            file.attrs["format"] = f"vibrotrough theory {kind}"
+            file["boundaries/x0"] = [1.0, 2.0]
+            file["boundaries/x0"].attrs["units"] = "degree"
+        assert vibrotrough.open_theory(folder / f"{kind}.h5")["boundaries/x0"].units == "degree"
+    with h5py.File(folder / "map.h5", "a") as file:
+        file["foreign"] = [1.0]
+    raises(ValueError, lambda: vibrotrough.open_theory(folder / "map.h5"), "/foreign does not tell its units")
+
     raises(KeyError, lambda: campaign["eta"], "has no 'eta'", "efficiency")
     raises(ValueError, lambda: vibrotrough.open_campaign(folder / "cases/0123456789abcdef/result.h5"), "vibrotrough result")
     raises(OSError, lambda: vibrotrough.open_campaign(folder / "none.h5"))

@@ -1,6 +1,8 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
+#include "archive/open_bundle.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/compared_cases.hpp"
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -22,6 +25,8 @@
 
 namespace vibrotrough::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct CompareArguments {
     std::string folder;
@@ -61,13 +66,30 @@ void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Colu
         fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
 }
 
+/// A bundle keeps its results for good, but which cases they belong to follows from the decks of this
+/// version.
+void tell_unknown_results(archive::OpenBundle const& bundle, std::vector<compare::Row> const& rows,
+                          std::vector<campaign::CaseOverview> const& cases) {
+    auto const known = static_cast<std::size_t>(
+        std::ranges::count_if(cases, [](auto const& one) { return one.result.has_value(); }));
+    if (known >= bundle.results) return;
+    tell(
+        "vibrotrough: {} of the {} results in this bundle belong to decks that this version writes "
+        "differently and are not among the {} rows; the table that version {} printed is "
+        "tables/compare.csv in the bundle\n",
+        bundle.results - known, bundle.results, rows.size(), bundle.program_version);
+}
+
 int run_compare(CompareArguments const& options) {
-    campaign::Plan const plan = campaign::open_plan(options.folder);
-    auto [cases, rows, columns] = compare::compared_cases(plan, campaign::activity_in(plan.folder));
+    auto const bundle = archive::open_bundle(options.folder);
+    campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(options.folder));
+    auto [cases, rows, columns] =
+        compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    if (bundle) tell_unknown_results(*bundle, rows, cases);
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
     if (options.json) {
-        fmt::print("{}", compare::to_json(rows, columns));
+        compare::write_json(rows, columns, [](std::string_view piece) { fmt::print("{}", piece); });
     } else if (options.curves) {
         fmt::print("{}", compare::theory_curves_csv(rows));
     } else if (options.csv) {
@@ -86,7 +108,11 @@ void add_compare(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<CompareArguments>();
     CLI::App* const command = program.add_subcommand(
         "compare", "Print the measured velocity efficiency of every case beside the point-mass theory");
-    add_campaign_folder(*command, options->folder);
+    command
+        ->add_option("DIR", options->folder,
+                     "Folder of the campaign's results, as given to run --output, or a bundle of "
+                     "'vibrotrough archive', packed or unpacked")
+        ->required();
     CLI::Option* const json = command->add_flag("--json", options->json, "Print JSON for scripts");
     CLI::Option* const csv =
         command->add_flag("--csv", options->csv, "Print CSV with the same columns as --json")->excludes(json);
@@ -138,6 +164,9 @@ the name that it has in the campaign file; --sort and --filter take these names,
               its width is known (trough.width, or side walls), else per metre of width
   mode        how the theory's point mass and the layer move within a period
 
+The files of a bundle are checked against its checksums first, and one that was changed is named. A packed bundle is
+unpacked into a private folder below TMPDIR, which is removed again.
+
 With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
 interval, and how far Young's modulus, time step and box are from their limits. A star marks a numerical error that was
 measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
@@ -148,12 +177,13 @@ cycles do not help where it is the numerical one.
 
 Exit codes:
     0  all well
-    2  the input is wrong
+    2  the input is wrong, or a bundle was changed
 
 Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
-  vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1')");
+  vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
+  vibrotrough compare supplement.zip)");
     command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "app/extra_lines.hpp"
+#include "app/json_list.hpp"
 #include "app/progress_printer.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
@@ -75,9 +76,8 @@ struct PlanView {
 };
 
 void print_json(PlanView const& view) {
-    Json list = Json::array();
     auto const columns = compare::columns_with_swept(view.plan.swept);
-    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+    auto const describe_case = [&](std::size_t i) {
         campaign::CaseOverview const& one = view.cases[i];
         scenario::Trough const& trough = one.planned->scenario().trough;
         Json object{{"case", one.planned->id},
@@ -93,9 +93,9 @@ void print_json(PlanView const& view) {
                     {"outcome", one.label()},
                     {"core_time_s", view.cost.cases[i]}};
         object.update(compare::swept_object(compare::planned_row(view.plan, one), columns));
-        list.push_back(std::move(object));
-    }
-    Json const json{{"campaign", view.plan.name},
+        return object;
+    };
+    Json const head{{"campaign", view.plan.name},
                     {"cases_total", view.cases.size()},
                     {"excluded", view.campaign.excluded},
                     {"known", view.known},
@@ -104,8 +104,8 @@ void print_json(PlanView const& view) {
                     {"speed_source", source_of(view.cost)},
                     {"core_time_uncertainty_factor", view.cost.uncertainty},
                     {"left_aside", campaign::count_left_aside(view.plan)},
-                    {"cases", list}};
-    fmt::print("{}\n", json.dump(2));
+                    {"cases", Json::array()}};
+    print_with_list(head, view.cases.size(), describe_case);
 }
 
 /// The columns of the table: the case, the swept keys, and the drive.
@@ -180,10 +180,11 @@ int run_plan(PlanArguments const& options) {
     fs::path const folder =
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
+    campaign.cases = {};  // the plan has its own
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
     campaign::Forecast const cost = campaign::forecast(plan, cases);
     PlanView view{campaign, plan, cases, cost};
-    for (campaign::CaseOverview const& one : cases) view.known += one.record ? 1 : 0;
+    for (campaign::CaseOverview const& one : cases) view.known += one.result ? 1 : 0;
     options.json ? print_json(view) : print_text(view);
     return all_well;
 }

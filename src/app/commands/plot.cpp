@@ -5,8 +5,10 @@
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/report_data.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
+#include "core/quantity.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -22,7 +24,8 @@ namespace fs = std::filesystem;
 
 struct PlotArguments {
     std::string folder, output, python;
-    std::vector<std::string> cases, only;
+    std::vector<std::string> cases, only, formats;
+    std::string width, style;
     bool report = false;
 };
 
@@ -38,7 +41,36 @@ void check_cases(PlotArguments const& options, campaign::Plan const& plan) {
     }
 }
 
+/// Widths of a column and of a page of Granular Matter and other journals of Springer, m.
+constexpr double one_column = 0.084, two_columns = 0.174;
+
+double read_width(std::string const& text) {
+    if (text == "one-column") return one_column;
+    if (text == "two-columns") return two_columns;
+    try {
+        double const width = core::parse_quantity(text, "m");
+        if (width >= 0.05 && width <= 1) return width;
+    } catch (core::QuantityError const&) {
+    }
+    throw core::InputError(fmt::format(
+        "--width {}: write one-column, two-columns, or a width from 50 mm to 1 m such as \"90 mm\"", text));
+}
+
+/// What the options say of files and sizes, for figures.py.
+std::vector<std::string> words_for_print(PlotArguments const& options) {
+    std::vector<std::string> words;
+    for (std::string const& format : options.formats) words.insert(words.end(), {"--format", format});
+    if (!options.width.empty())
+        words.insert(words.end(), {"--width", fmt::format("{}", read_width(options.width))});
+    if (!options.style.empty()) {
+        core::read_given_file(options.style);  // says now if there is none
+        words.insert(words.end(), {"--style", fs::absolute(options.style).lexically_normal().string()});
+    }
+    return words;
+}
+
 int run_plot(PlotArguments const& options) {
+    std::vector<std::string> const print = words_for_print(options);
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
@@ -55,6 +87,7 @@ int run_plot(PlotArguments const& options) {
     std::vector<std::string> arguments{fs::absolute(options.folder).lexically_normal().string(), "--output",
                                        fs::absolute(output).lexically_normal().string()};
     std::vector<std::string> drawing = arguments;
+    drawing.insert(drawing.end(), print.begin(), print.end());
     for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
     for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});
     if (finished) run_script("figures.py", drawing, options.python, modules);
@@ -82,7 +115,8 @@ std::shared_ptr<PlotArguments> add_common(CLI::App& command) {
 }  // namespace
 
 void add_plot(CLI::App& program, int& exit_code) {
-    CLI::App* const command = program.add_subcommand("plot", "Draw the figures of a campaign as SVG and PNG");
+    CLI::App* const command =
+        program.add_subcommand("plot", "Draw the figures of a campaign as SVG and PNG, or as PDF");
     auto const options = add_common(*command);
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
@@ -91,6 +125,24 @@ void add_plot(CLI::App& program, int& exit_code) {
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--format", options->formats,
+                     "Write these kinds of files: svg, png, pdf, with commas between them; default svg,png")
+        ->check(CLI::IsMember({"svg", "png", "pdf"}))
+        ->delimiter(',')
+        ->type_name("KIND,...")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--width", options->width,
+                     "Width of every figure in print: one-column (84 mm), two-columns (174 mm), or a width "
+                     "such as \"90 mm\"; default: as on a screen")
+        ->type_name("WIDTH");
+    command
+        ->add_option("--style", options->style,
+                     "A style sheet of matplotlib, for fonts, sizes of letters, axes, ticks and resolution. "
+                     "Colours and marks that tell series apart stay")
+        ->type_name("FILE");
     command->footer(R"(Kinds of figures:
   efficiency  velocity efficiency over throw number: DEM with error bars, the theory as lines
   residuals   DEM minus theory
@@ -101,7 +153,10 @@ void add_plot(CLI::App& program, int& exit_code) {
   rolling     for each case with measure.rolling: spin, slip and forces at the floor over the cycle
   profiles    for each case: velocity over height
 
-Prints the path of every file that it wrote. Works while the campaign runs.
+Prints the path of every file that it wrote. Works while the campaign runs. With --width, letters shrink less than the
+figure, down to 7 points, and PNG has 300 dots per inch. A figure with panels beside one another needs 150 mm: in one column it is left out, and a line on standard error says so. PDF holds its fonts, as journals ask. The widths are those of Granular
+Matter (Springer); Elsevier's are 90 mm and 190 mm. A style sheet can name programs that matplotlib starts, such as LaTeX
+(text.usetex): use your own.
 
 Exit codes:
     0  all well
@@ -109,7 +164,8 @@ Exit codes:
     3  something is missing: Python with its modules, or disk space
 
 Example:
-  vibrotrough plot runs/demo)");
+  vibrotrough plot runs/demo
+  vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures)");
     command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 

@@ -53,17 +53,23 @@ std::string describe_submission(campaign::Summary const& summary, std::string_vi
     std::string text;
     if (summary.in_queue > 0)
         text += fmt::format("; {} packings are in {}'s queue already", summary.in_queue, executor);
-    if (summary.submitted > 0) {
-        text += fmt::format("; {} packings submitted as {}", summary.submitted,
+    if (summary.submitted > summary.not_taken) {
+        text += fmt::format("; {} packings submitted as {}", summary.submitted - summary.not_taken,
                             fmt::join(summary.references, "; "));
         if (summary.again > 0) text += fmt::format(" ({} of them again)", summary.again);
+    }
+    if (summary.not_taken > 0) {
+        text += fmt::format(
+            "; {} has no room for {} packings now: call the same command again later, or with --wait, which "
+            "submits them as others end",
+            executor, summary.not_taken);
     }
     return text;
 }
 
 /// Writes the summary of the run to standard output and to the log, and returns the exit code.
 int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind) {
-    bool const runs_on = !summary.references.empty() || summary.in_queue > 0;
+    bool const runs_on = !summary.references.empty() || summary.in_queue > 0 || summary.not_taken > 0;
     std::string const end = describe(summary, plan.cases.size(), runs_on) +
                             (runs_on ? describe_submission(summary, kind.title) : "");
     CampaignLog(plan.folder).info("run ends: " + end);

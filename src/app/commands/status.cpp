@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/json_list.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -75,8 +76,7 @@ std::vector<campaign::PackingPace> paces_of(campaign::CaseOverview const& one) {
 void print_json(StatusView const& view) {
     Counts const counts = count(view.cases);
     auto const columns = compare::columns_with_swept(view.plan.swept);
-    Json list = Json::array();
-    for (std::size_t i = 0; i < view.cases.size(); ++i) {
+    auto const describe_case = [&](std::size_t i) {
         campaign::CaseOverview const& one = view.cases[i];
         Json running = Json::array();
         for (campaign::PackingPace const& pace : paces_of(one)) running.push_back(describe(pace));
@@ -89,9 +89,9 @@ void print_json(StatusView const& view) {
                     {"running", running},
                     {"core_time_to_go_s", view.cost.cases[i]}};
         object.update(compare::swept_object(compare::planned_row(view.plan, one), columns));
-        list.push_back(std::move(object));
-    }
-    Json const json{{"campaign", view.plan.name},
+        return object;
+    };
+    Json const head{{"campaign", view.plan.name},
                     {"engine", view.plan.engine_version},
                     {"cases_total", view.cases.size()},
                     {"finished", counts.finished},
@@ -101,8 +101,8 @@ void print_json(StatusView const& view) {
                     {"left", counts.left},
                     {"core_time_to_go_s", view.cost.core_time},
                     {"core_time_uncertainty_factor", view.cost.uncertainty},
-                    {"cases", list}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+                    {"cases", Json::array()}};
+    print_with_list(head, view.cases.size(), describe_case);
 }
 
 /// "; packing 2: 21 cycles, 0.44 s per cycle; about 0.02 core-hours to go"

@@ -86,6 +86,7 @@ class Driver {
         submit_orders();
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
         while (!may_leave && !executor_.is_idle()) step();
+        summary_.not_taken = static_cast<int>(executor_.not_taken());
         summary_.interrupted = is_stopping_;
         return summary_;
     }

@@ -44,6 +44,7 @@ struct Summary {
     int unsure = 0;                       ///< cases with a result and another outcome
     int failed = 0;                       ///< cases that failed in this run
     int submitted = 0;                    ///< packings handed to the executor
+    int not_taken = 0;                    ///< packings that the executor had no room for in the end
     int again = 0;                        ///< of these, those that an earlier run had handed to it
     int in_queue = 0;                     ///< packings that the executor had from an earlier run
     std::vector<std::string> references;  ///< what the user can follow the packings by, see Executor::submit

@@ -64,6 +64,10 @@ class Executor {
     /// @throws core::MissingError when the packings are refused
     virtual std::string submit(std::vector<PackingOrder> const& orders) = 0;
 
+    /// Packings that it was given and has no room for yet. As long as the process lives, wait() passes them
+    /// on.
+    virtual std::size_t not_taken() const { return 0; }
+
     /// Takes over a packing that given_before() reported as waiting or running, so that wait() reports its
     /// end.
     virtual void adopt(PackingOrder const& order) = 0;

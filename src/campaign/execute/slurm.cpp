@@ -118,6 +118,13 @@ void sacct(std::string const& jobs, Reports& reports) {
                     first_line(answer.errors.empty() ? answer.output : answer.errors)));
 }
 
+/// Slurm keeps MaxJobCount jobs, each task of an array counts as one, and one that has ended counts until
+/// MinJobAge has passed. sbatch --test-only says the first of these texts, sbatch itself the second.
+bool has_no_room(Answer const& answer) {
+    return answer.code != 0 && (answer.errors.find("Resource temporarily unavailable") != std::string::npos ||
+                                answer.errors.find("temporarily unable to accept job") != std::string::npos);
+}
+
 std::vector<std::string> submission(Array const& array) {
     scenario::SlurmSettings const& asked = array.settings;
     std::string indices = fmt::format("0-{}", array.tasks - 1);
@@ -176,20 +183,25 @@ void check_time(scenario::SlurmSettings const& asked) {
 
 }  // namespace
 
-void check(Array const& array) {
+bool check(Array const& array) {
     check_time(array.settings);
     std::vector<std::string> words = submission(array);
     words.insert(words.begin() + 1, "--test-only");
     Answer const answer = call(words);
+    if (has_no_room(answer)) return false;
     if (answer.code != 0) refuse(answer);
+    return true;
 }
 
-long submit(Array const& array) {
+std::optional<long> submit(Array const& array) {
     Answer const answer = call(submission(array));
     auto const job = parse<long>(answer.output.substr(0, answer.output.find_first_of(";\n")));
-    if (answer.code != 0 || !job) refuse(answer);
-    return *job;
+    if (answer.code == 0 && job) return job;
+    if (!has_no_room(answer)) refuse(answer);
+    // sbatch tries again by itself, and may have been ended by our time limit just after it succeeded.
+    return find_by_name(array.name);
 }
+
 int most_array_tasks() {
     Answer const answer = call({"scontrol", "show", "config"});
     auto const at = answer.output.find("MaxArraySize");

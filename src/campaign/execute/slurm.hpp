@@ -26,13 +26,15 @@ struct Array {
 };
 
 /// Asks whether Slurm would take the array and could ever start it; it also takes jobs that wait for ever.
-/// @throws MissingError with the reason
-void check(Array const& array);
+/// @return false when it has no room for so many tasks now (MaxJobCount), and will have it when others have
+/// ended
+/// @throws MissingError with the reason when it would never take the array
+bool check(Array const& array);
 
 /// Submits the array.
-/// @return Slurm's job id
+/// @return Slurm's job id; none when it has no room for so many tasks now
 /// @throws MissingError with Slurm's own words when it refuses or is not there
-long submit(Array const& array);
+std::optional<long> submit(Array const& array);
 
 /// Number of tasks that one array may have here. @throws MissingError when Slurm does not answer
 int most_array_tasks();

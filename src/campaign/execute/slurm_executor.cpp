@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
+#include <iterator>
 #include <map>
 #include <thread>
 
@@ -31,24 +33,32 @@ class SlurmExecutor : public Executor {
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
         if (orders.empty()) return {};
-        std::vector<long> jobs;
-        auto const most = static_cast<std::size_t>(slurm::most_array_tasks());
-        for (PackingOrder const& order : orders) write_case_files(*order.planned);
-        std::vector<Task> const tasks =
-            make_tasks(orders, {inputs_.task_duration, inputs_.speed, inputs_.settings.ranks.value_or(1)});
-        for (std::size_t start = 0; start < tasks.size(); start += most) {
-            std::size_t const end = std::min(start + most, tasks.size());
-            std::vector<Task> const part(tasks.begin() + static_cast<std::ptrdiff_t>(start),
-                                         tasks.begin() + static_cast<std::ptrdiff_t>(end));
-            jobs.push_back(submit_array(part));
-            remember(orders, part);
+        for (PackingOrder const& order : orders) {
+            write_case_files(*order.planned);
+            cases_[order.id()] = order.planned;
         }
-        return fmt::format("job {}", fmt::join(jobs, ", "));
+        std::ranges::move(
+            make_tasks(orders, {inputs_.task_duration, inputs_.speed, inputs_.settings.ranks.value_or(1)}),
+            std::back_inserter(backlog_));
+        if (most_ == 0) most_ = next_size_ = static_cast<std::size_t>(slurm::most_array_tasks());
+        std::vector<long> const jobs = submit_backlog();
+        return jobs.empty() ? std::string() : fmt::format("job {}", fmt::join(jobs, ", "));
+    }
+
+    std::size_t not_taken() const override {
+        std::size_t packings = 0;
+        for (Task const& task : backlog_) packings += task.size();
+        return packings;
     }
 
     void adopt(PackingOrder const& order) override { held_[order.id()] = order.planned; }
 
-    void withdraw(PlannedCase const&) override {}  // Slurm has them; a failed case does not stop the others
+    /// What Slurm has it keeps.
+    void withdraw(PlannedCase const& planned) override {
+        for (Task& task : backlog_)
+            std::erase_if(task, [&](PackingId const& id) { return id.case_id == planned.id; });
+        std::erase_if(backlog_, [](Task const& task) { return task.empty(); });
+    }
 
     std::vector<EndedPacking> wait() override {
         std::this_thread::sleep_for(250ms);
@@ -64,10 +74,11 @@ class SlurmExecutor : public Executor {
             held = has_ended ? held_.erase(held) : std::next(held);
         }
         next_survey_ = Clock::now() + 2s;
+        if (!backlog_.empty() && Clock::now() >= next_attempt_) submit_backlog();
         return ended;
     }
 
-    bool is_idle() const override { return held_.empty() || is_interrupted_; }
+    bool is_idle() const override { return (held_.empty() && backlog_.empty()) || is_interrupted_; }
     void interrupt() override { is_interrupted_ = true; }
     std::vector<RunningPacking> running() const override { return {}; }
     bool outlives_driver() const override { return true; }
@@ -84,7 +95,33 @@ class SlurmExecutor : public Executor {
         return limit;
     }
 
-    long submit_array(std::vector<Task> const& tasks) {
+    /// Gives Slurm as many tasks as it takes now: arrays no longer than MaxArraySize allows, and shorter ones
+    /// while it has no room for them.
+    std::vector<long> submit_backlog() {
+        std::vector<long> jobs;
+        while (!backlog_.empty()) {
+            std::size_t const size = std::min({next_size_, most_, backlog_.size()});
+            std::vector<Task> const part(backlog_.begin(),
+                                         backlog_.begin() + static_cast<std::ptrdiff_t>(size));
+            if (auto const job = submit_array(part)) {
+                jobs.push_back(*job);
+                for (Task const& task : part) {
+                    for (PackingId const& id : task) held_[id] = cases_.at(id);
+                }
+                backlog_.erase(backlog_.begin(), backlog_.begin() + static_cast<std::ptrdiff_t>(size));
+                next_size_ = std::min(most_, 2 * next_size_);
+            } else if (size > 1) {
+                next_size_ = size / 2;
+            } else {
+                break;
+            }
+        }
+        next_attempt_ = Clock::now() + 10s;
+        return jobs;
+    }
+
+    /// @return none when Slurm has no room for so many tasks now
+    std::optional<long> submit_array(std::vector<Task> const& tasks) {
         scenario::RunSettings const& settings = inputs_.settings;
         JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries,
                                settings.slurm.setup};
@@ -93,15 +130,18 @@ class SlurmExecutor : public Executor {
         slurm::Array const array{
             inputs_.campaign_folder,        below + "/job.sh", below + "/task-%a.out", batch.name,
             static_cast<int>(tasks.size()), script.ranks,      of_largest(tasks)};
-        long job = 0;
+        std::optional<long> job;
         try {
-            slurm::check(array);
-            job = slurm::submit(array);
+            if (slurm::check(array)) job = slurm::submit(array);
         } catch (core::MissingError const&) {
             core::remove_tree(batch.folder);  // what Slurm refuses leaves nothing behind
             throw;
         }
-        remember_job(batch, job);
+        if (job) {
+            remember_job(batch, *job);
+        } else {
+            core::remove_tree(batch.folder);
+        }
         return job;
     }
 
@@ -111,15 +151,6 @@ class SlurmExecutor : public Executor {
         std::size_t const most = std::ranges::max(tasks, {}, &Task::size).size();
         if (settings.minutes) *settings.minutes *= static_cast<int>(most);
         return settings;
-    }
-
-    /// Holds the packings of tasks that were submitted.
-    void remember(std::vector<PackingOrder> const& orders, std::vector<Task> const& tasks) {
-        std::map<PackingId, PlannedCase const*> cases;
-        for (PackingOrder const& order : orders) cases[order.id()] = order.planned;
-        for (Task const& task : tasks) {
-            for (PackingId const& id : task) held_[id] = cases.at(id);
-        }
     }
 
     /// The packing's marker counts most, then the failure that the task recorded, then Slurm's report.
@@ -135,8 +166,13 @@ class SlurmExecutor : public Executor {
     }
 
     ExecutorInputs inputs_;
-    std::map<PackingId, PlannedCase const*> held_;  ///< submitted by this process, not seen to end
+    std::map<PackingId, PlannedCase const*> held_;   ///< submitted by this process, not seen to end
+    std::map<PackingId, PlannedCase const*> cases_;  ///< of all packings that this process was given
+    std::deque<Task> backlog_;                       ///< tasks for which Slurm had no room yet
+    std::size_t most_ = 0;                           ///< tasks of an array; 0 before Slurm was asked
+    std::size_t next_size_ = 0;                      ///< tasks of the next array, as far as there is room
     Clock::time_point next_survey_ = Clock::now();
+    Clock::time_point next_attempt_ = Clock::now();  ///< to submit the backlog
     bool is_interrupted_ = false;
 };
 

@@ -25,25 +25,17 @@ struct Learned {
     std::vector<double> ratios;   ///< logarithms of true over expected cost
 };
 
-double cycles_of(store::CaseRecord const& record) {
-    double cycles = 0;
-    for (store::PackingRecord const& packing : record.packings)
-        cycles += packing.estimate.discarded + packing.estimate.measured;
-    return cycles;
-}
-
 Learned learn(std::vector<CaseOverview> const& cases) {
     Learned learned;
     double work = 0, time = 0, cycles = 0, packings = 0;
     std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
-        if (!one.record || one.record->packings.empty()) continue;
-        double const done = cycles_of(*one.record);
-        work += one.planned->prepared->grain_steps(done);
-        for (store::PackingRecord const& packing : one.record->packings) time += packing.core_time;
-        cycles += done;
-        packings += static_cast<double>(one.record->packings.size());
-        if (one.record->estimate.deviation) deviations.push_back(*one.record->estimate.deviation);
+        if (!one.result || one.result->packings == 0) continue;
+        work += one.planned->prepared->grain_steps(one.result->cycles);
+        time += one.result->core_time;
+        cycles += one.result->cycles;
+        packings += one.result->packings;
+        if (one.result->deviation) deviations.push_back(*one.result->deviation);
     }
     if (packings == 0 || time <= 0 || work <= 0) return learned;
     learned.speed = work / time;
@@ -54,11 +46,11 @@ Learned learn(std::vector<CaseOverview> const& cases) {
         learned.experience.deviation = *middle;
     }
     for (CaseOverview const& one : cases) {
-        if (!one.record || one.record->packings.empty()) continue;
+        if (!one.result || one.result->packings == 0) continue;
         scenario::MeasurementPlan const& wanted = one.planned->scenario().measure;
         double const expected = deck::expected_packings(wanted, learned.experience) *
                                 deck::expected_cycles(wanted, learned.experience);
-        learned.ratios.push_back(std::log(cycles_of(*one.record) / expected));
+        learned.ratios.push_back(std::log(one.result->cycles / expected));
     }
     return learned;
 }
@@ -88,7 +80,7 @@ double scatter_of(std::vector<double> const& ratios) {
 
 /// Packings that a case has or will probably have.
 int packings_of(CaseOverview const& one, Learned const& learned) {
-    if (one.record) return static_cast<int>(one.record->packings.size());
+    if (one.result) return one.result->packings;
     return std::max(one.packings_done,
                     deck::expected_packings(one.planned->scenario().measure, learned.experience));
 }
@@ -109,7 +101,7 @@ Forecast forecast(Plan const& plan, std::vector<CaseOverview> const& cases) {
     int missing_cases = 0;
     for (CaseOverview const& one : cases) {
         result.packings.push_back(packings_of(one, learned));
-        int const missing = one.record ? 0 : result.packings.back() - one.packings_done;
+        int const missing = one.result ? 0 : result.packings.back() - one.packings_done;
         result.cases.push_back(missing * deck::expected_work(*one.planned->prepared, learned.experience) /
                                result.speed);
         result.core_time += result.cases.back();

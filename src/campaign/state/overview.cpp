@@ -3,6 +3,7 @@
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/numerics_results.hpp"
 #include "campaign/state/result_summary.hpp"
+#include "core/parallel.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
 
@@ -56,16 +57,24 @@ void add_activity(CaseOverview& overview, Activities const& activities) {
     overview.message = fmt::format("packing {}: {}", (*ended)->id.packing, (*ended)->message);
 }
 
-CaseOverview survey_case(PlannedCase const& planned, bool has_driver) {
-    CaseOverview overview{&planned, CaseStatus::open, {}, {}, 0, {}};
-    if (auto found = find_summary(planned)) {
-        overview.record = std::move(found->record);
-        overview.status = CaseStatus::ended;
-        overview.outcome = overview.record->outcome;
-        overview.message = evaluate::remark_on(*overview.record);
-        overview.packings_done = static_cast<int>(overview.record->packings.size());
-        return overview;
+ResultFacts facts_of(store::CaseRecord const& record) {
+    ResultFacts facts{static_cast<int>(record.packings.size()), 0, 0, record.estimate.deviation};
+    for (store::PackingRecord const& packing : record.packings) {
+        facts.cycles += packing.estimate.discarded + packing.estimate.measured;
+        facts.core_time += packing.core_time;
     }
+    return facts;
+}
+
+CaseOverview survey_ended(PlannedCase const& planned, store::CaseRecord const& record) {
+    CaseOverview overview{&planned, CaseStatus::ended, record.outcome, evaluate::remark_on(record),
+                          0,        facts_of(record)};
+    overview.packings_done = overview.result->packings;
+    return overview;
+}
+
+CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) {
+    CaseOverview overview{&planned, CaseStatus::open, {}, {}, 0, {}};
     std::error_code missing;
     if (!fs::is_directory(planned.folder, missing)) return overview;
     auto const finished = finished_packings(planned).size();
@@ -110,16 +119,21 @@ std::string_view CaseOverview::label() const {
     return "finished";
 }
 
-std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity) {
+std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink) {
     std::map<std::string_view, Activities> by_case;
     for (PackingActivity const& one : activity.packings) by_case[one.id.case_id].push_back(&one);
-    std::vector<CaseOverview> cases;
-    cases.reserve(plan.cases.size());
-    for (PlannedCase const& planned : plan.cases) {
-        cases.push_back(survey_case(planned, activity.has_driver));
-        auto const found = by_case.find(planned.id);
-        if (found != by_case.end() && !cases.back().record) add_activity(cases.back(), found->second);
-    }
+    std::vector<CaseOverview> cases(plan.cases.size());
+    core::for_each_index(cases.size(), cases_per_thread, [&] {
+        return [&](std::size_t i) {
+            PlannedCase const& planned = plan.cases[i];
+            auto const found = find_summary(planned);
+            cases[i] = found ? survey_ended(planned, found->record)
+                             : survey_without_result(planned, activity.has_driver);
+            auto const active = by_case.find(planned.id);
+            if (active != by_case.end() && !found) add_activity(cases[i], active->second);
+            if (sink) sink(i, cases[i], found ? &found->record : nullptr);
+        };
+    });
     return cases;
 }
 

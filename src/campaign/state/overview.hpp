@@ -4,6 +4,7 @@
 #include "core/outcome.hpp"
 #include "store/case_record.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,21 +45,35 @@ struct Activity {
     std::vector<PackingActivity> packings;  ///< what the executors know of packings
 };
 
+/// What a result says of its cost.
+struct ResultFacts {
+    int packings;                     ///< that it is made of
+    double cycles;                    ///< of all packings, with those that were cut as start-up
+    double core_time;                 ///< s, processor time of the engine
+    std::optional<double> deviation;  ///< standard deviation of the mean efficiency of one packing
+};
+
 /// What is known about one case of a plan.
 struct CaseOverview {
-    PlannedCase const* planned;               ///< the case
-    CaseStatus status;                        ///< where it stands
-    std::optional<core::Outcome> outcome;     ///< of the result or of the failure
-    std::string message;                      ///< why it failed or waits
-    int packings_done;                        ///< finished packings
-    std::optional<store::CaseRecord> record;  ///< its summary (store::summary_of)
+    PlannedCase const* planned;            ///< the case
+    CaseStatus status;                     ///< where it stands
+    std::optional<core::Outcome> outcome;  ///< of the result or of the failure
+    std::string message;                   ///< why it failed or waits
+    int packings_done;                     ///< finished packings
+    std::optional<ResultFacts> result;     ///< of a case that has one
 
     /// The outcome's name, else that of the status: open, queued, running, unknown, interrupted.
     std::string_view label() const;
 };
 
-/// What the files and the executors say of every case of a plan. Writes nothing.
-std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity);
+/// Sees what is known of case i of a plan, and the summary of its result (store::summary_of), which is null
+/// without one. Several threads call it at once, for different cases.
+using OverviewSink =
+    std::function<void(std::size_t i, CaseOverview const& overview, store::CaseRecord const* record)>;
+
+/// What the files and the executors say of every case of a plan. Writes nothing. The summaries of all results
+/// would fill the memory: whoever needs more than their facts looks at them one by one.
+std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink = {});
 
 /// Whether campaign.h5 is missing, lacks a result or a numerical error that is newer, or was written by
 /// another version of the program or for other swept keys.

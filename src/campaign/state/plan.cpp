@@ -3,6 +3,7 @@
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/older_cases.hpp"
 #include "core/hash.hpp"
+#include "core/parallel.hpp"
 #include "deck/commands.hpp"
 
 #include <set>
@@ -14,13 +15,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Scenarios = std::vector<scenario::Scenario>;
+
+/// A case before it has a folder.
+struct IdentifiedCase {
+    std::shared_ptr<prepare::PreparedCase const> prepared = {};
+    std::string id = {};
+};
+
+/// Prepares cases and finds their ids.
+std::vector<IdentifiedCase> identify(Scenarios const& scenarios, std::string const& engine_version) {
+    std::vector<IdentifiedCase> cases(scenarios.size());
+    core::for_each_index(scenarios.size(), cases_per_thread, [&] {
+        return [&, preparer = std::make_shared<prepare::CasePreparer>()](std::size_t i) {
+            cases[i].prepared =
+                std::make_shared<prepare::PreparedCase const>(preparer->prepare(scenarios[i]));
+            cases[i].id = case_id(*cases[i].prepared, engine_version);
+        };
+    });
+    return cases;
+}
+
 /// Plans scenarios one after the other; each id once, because two ways to write one case are one case.
 class Planner {
   public:
-    void add(scenario::Scenario const& scenario, std::string const& engine_version) {
-        auto prepared = std::make_shared<prepare::PreparedCase const>(preparer_.prepare(scenario));
-        std::string id = case_id(*prepared, engine_version);
-        if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, id});
+    void add(Scenarios const& scenarios, std::string const& engine_version) {
+        for (auto& [prepared, id] : identify(scenarios, engine_version)) {
+            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, id});
+        }
     }
 
     /// The cases with their folders. Where a case has none under its id, an older folder may hold it.
@@ -37,7 +59,6 @@ class Planner {
     }
 
   private:
-    prepare::CasePreparer preparer_;
     std::set<std::string> ids_;
     std::deque<PlannedCase> cases_;
 };
@@ -59,8 +80,8 @@ std::string case_id(prepare::PreparedCase const& prepared, std::string const& en
 Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
                std::string const& engine_version) {
     Planner planner;
-    for (scenario::Scenario const& scenario : campaign.cases) planner.add(scenario, engine_version);
-    for (scenario::Scenario const& scenario : read_added_cases(folder)) planner.add(scenario, engine_version);
+    planner.add(campaign.cases, engine_version);
+    planner.add(read_added_cases(folder), engine_version);
     Plan plan{campaign.name,  folder,        engine_version, planner.place(folder, engine_version),
               campaign.files, campaign.swept};
     for (PlannedCase& planned : plan.cases) planned.label = swept_label(planned.scenario(), plan.swept);
@@ -70,7 +91,7 @@ Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
 PlannedCase plan_case(scenario::Scenario const& scenario, fs::path const& folder,
                       std::string const& engine_version) {
     Planner planner;
-    planner.add(scenario, engine_version);
+    planner.add(Scenarios{scenario}, engine_version);
     return planner.place(folder, engine_version).front();
 }
 

@@ -1,0 +1,98 @@
+#include "app/commands.hpp"
+#include "app/commands/common_options.hpp"
+#include "app/exit_code.hpp"
+#include "archive/bundle.hpp"
+#include "campaign/execute/executors.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "core/error.hpp"
+#include "core/shell.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ArchiveArguments {
+    std::string folder, output;
+    archive::BundleWords words;
+};
+
+/// A licence is named by its address, so that a machine can follow it.
+void check_license(std::string const& license) {
+    if (license.empty() || license.starts_with("https://") || license.starts_with("http://")) return;
+    throw core::InputError(
+        fmt::format("--license {}: is not an address; give one such as "
+                    "https://creativecommons.org/licenses/by/4.0/",
+                    license));
+}
+
+int run_archive(ArchiveArguments const& options) {
+    check_license(options.words.license);
+    campaign::Plan const plan = campaign::open_plan(options.folder);
+    fs::path const output = options.output.empty() ? fs::path(plan.name + ".zip") : fs::path(options.output);
+    archive::BundleReport const report =
+        archive::write_bundle(plan, campaign::activity_in(plan.folder), output, options.words);
+    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", output.string(), report.files,
+               static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
+    std::string const folder = core::shell_word(options.folder);
+    if (!report.has_campaign_file)
+        fmt::print("without campaign.h5, which is not there or out of date: 'vibrotrough run' writes it\n");
+    if (!report.has_report)
+        fmt::print("without figures and report: 'vibrotrough report {}' makes them\n", folder);
+    if (options.words.license.empty())
+        fmt::print("no licence is named, so that nobody may use it: see --license\n");
+    fmt::print("check it and see its table with: vibrotrough compare {}\n",
+               core::shell_word(output.string()));
+    return all_well;
+}
+
+}  // namespace
+
+void add_archive(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<ArchiveArguments>();
+    CLI::App* const command =
+        program.add_subcommand("archive", "Make one ZIP file of a campaign, for the supplement of a paper");
+    add_campaign_folder(*command, options->folder);
+    command
+        ->add_option("--output", options->output,
+                     "The ZIP file; default <name of the campaign>.zip. An earlier bundle is replaced, any "
+                     "other file is not")
+        ->type_name("FILE");
+    command
+        ->add_option("--author", options->words.authors,
+                     "Name of an author, for the bundle's metadata; repeat the option for several")
+        ->type_name("NAME")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--license", options->words.license,
+                     "Address of the licence under which others may use the data")
+        ->type_name("URL");
+    command->footer(
+        R"(The bundle holds the frozen campaign file with the files that it names, the decks of every case, its results
+with all cycles, the engine's certificate, the table of 'vibrotrough compare' as CSV, JSON and text, campaign.h5, figures and
+report where they were made, the versions of all programs that took part, the SHA-256 of every file, and metadata by RO-Crate 1.1
+(ro-crate-metadata.json), which repositories such as Zenodo and Dataverse know. Its README.txt explains the files. Restart files,
+cycles.csv and frames are left out: the results hold all cycles, and the decks make the rest again.
+
+'vibrotrough compare BUNDLE' checks every file and prints the same table, digit for digit. The same campaign makes the same bytes.
+A bundle names the machines on which it was simulated and the path of the engine.
+
+Exit codes:
+    0  all well
+    2  the input is wrong: the campaign is still running, a result is damaged, or the output is another file
+    3  a file cannot be read (a symbolic link is not followed), or there is no disk space
+
+Example:
+  vibrotrough archive runs/demo --output supplement.zip --author "A. Researcher" \
+      --license https://creativecommons.org/licenses/by/4.0/)");
+    command->callback([options, &exit_code] { exit_code = run_archive(*options); });
+}
+
+}  // namespace vibrotrough::app

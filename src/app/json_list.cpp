@@ -1,0 +1,34 @@
+#include "app/json_list.hpp"
+
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+/// As text of several lines that are indented by so many blanks, but for the first.
+std::string indented(nlohmann::ordered_json const& value, std::size_t blanks) {
+    std::string const text = value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::string result;
+    for (char const c : text) {
+        result += c;
+        if (c == '\n') result.append(blanks, ' ');
+    }
+    return result;
+}
+
+}  // namespace
+
+void print_with_list(nlohmann::ordered_json const& head, std::size_t count,
+                     std::function<nlohmann::ordered_json(std::size_t i)> const& element) {
+    std::string_view const end = "]\n}";
+    std::string const all = indented(head, 0);
+    fmt::print("{}", all.substr(0, all.size() - end.size()));
+    for (std::size_t i = 0; i < count; ++i)
+        fmt::print("{}\n    {}", i == 0 ? "" : ",", indented(element(i), 4));
+    fmt::print("{}{}\n", count == 0 ? "" : "\n  ", end);
+}
+
+}  // namespace vibrotrough::app

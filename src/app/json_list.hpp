@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+
+/// Prints a JSON object with a list of any length at its end, element by element, so that only one of them is
+/// in memory: 100,000 cases as a whole would take hundreds of megabytes.
+/// @param head     the object; its last member is an empty list
+/// @param count    number of elements of the list
+/// @param element  makes element i; called in order
+void print_with_list(nlohmann::ordered_json const& head, std::size_t count,
+                     std::function<nlohmann::ordered_json(std::size_t i)> const& element);
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,211 @@
+#include "archive/bundle.hpp"
+
+#include "archive/bundle_files.hpp"
+#include "archive/crate.hpp"
+#include "archive/zip_file.hpp"
+#include "compare/compared_cases.hpp"
+#include "compare/exports.hpp"
+#include "compare/table.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/version.hpp"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Json = nlohmann::ordered_json;
+
+constexpr char const* readme =
+    R"(A campaign of Vibrotrough: simulations with LIGGGHTS (DEM) of a granular layer on a vibrating trough, compared
+with the point-mass theory of vibratory conveying.
+
+  archive.json             versions of the programs that took part
+  campaign.toml            the input, and the files that it names beside it
+  certificate.json         what the probes of the engine showed
+  cases/<id>/              scenario.toml (the input of one case), result.h5 (its result with all cycles),
+                           packing-<n>/ (the decks that LIGGGHTS ran: settle.liggghts, then in.liggghts)
+  decks/<id>/              the decks of cases that were not simulated
+  campaign.h5              all cases in one table, with units
+  tables/                  measured conveying beside the theory: compare.csv, compare.json, compare.txt
+  report/                  figures and report, where they were made
+  ro-crate-metadata.json   a description for machines (https://w3id.org/ro/crate/1.1)
+  SHA256SUMS               checksums: sha256sum -c SHA256SUMS
+
+The files of the folder from which this bundle was made can be read with HDF5's tools and any text editor.
+'vibrotrough compare BUNDLE' checks all files and prints the table from the results.
+)";
+
+/// Writes the files of a bundle and keeps their list.
+class Bundle {
+  public:
+    explicit Bundle(fs::path const& output) : zip_(output) {}
+
+    void add(std::string const& name, std::string_view content) {
+        zip_.add(name, content);
+        files_.push_back({name, core::sha256_hex(content), content.size()});
+    }
+    void add(std::vector<StoredFile> const& files) {
+        for (StoredFile const& file : files) add(file.name, core::read_own_file(file.source));
+    }
+    std::vector<ListedFile> const& files() const { return files_; }
+    bool has(std::string_view start) const {
+        return std::ranges::any_of(files_, [&](auto const& one) { return one.name.starts_with(start); });
+    }
+    /// Adds the checksums of all files and gives the bundle its name.
+    void finish() {
+        std::string sums;
+        for (ListedFile const& file : files_) sums += file.sha256 + "  " + file.name + "\n";
+        zip_.add(checksums_file, sums);
+        zip_.finish();
+    }
+
+  private:
+    ZipWriter zip_;
+    std::vector<ListedFile> files_;
+};
+
+void refuse_unfinished_work(campaign::Plan const& plan, campaign::Activity const& activity) {
+    bool const is_alive = std::ranges::any_of(
+        activity.packings, [](auto const& one) { return one.state != campaign::PackingActivity::ended; });
+    if (!activity.has_driver && !is_alive) return;
+    throw core::InputError(fmt::format(
+        "packings of {} are being simulated or wait for it; archive it when 'vibrotrough run' has ended",
+        plan.folder.string()));
+}
+
+void refuse_damaged_results(std::vector<campaign::CaseOverview> const& cases) {
+    for (campaign::CaseOverview const& one : cases) {
+        std::error_code missing;
+        if (one.result || !fs::exists(fs::symlink_status(one.planned->result_file(), missing))) continue;
+        throw core::InputError(fmt::format("{} is damaged; run the campaign again, which replaces it",
+                                           one.planned->result_file().string()));
+    }
+}
+
+void refuse_to_replace(fs::path const& output) {
+    std::error_code missing;
+    if (!fs::exists(fs::symlink_status(output, missing)) || first_name_in_zip(output) == facts_file) return;
+    throw core::InputError(fmt::format(
+        "{} is there already and is not a bundle; choose another file with --output", output.string()));
+}
+
+/// With what the results of a campaign were made, and when.
+struct Making {
+    /// Number of results by the versions of program, commit and engine.
+    std::map<std::tuple<std::string, std::string, std::string>, int> versions = {};
+    std::string begun = {}, ended = {};  ///< ISO 8601; empty without a result
+    std::size_t results = 0;
+
+    void add(store::Provenance const& made) {
+        ++results;
+        ++versions[{made.program_version, made.git_commit, made.engine_version}];
+        if (begun.empty() || made.started < begun) begun = made.started;
+        ended = std::max(ended, made.finished);
+    }
+};
+
+/// archive.json. Cases that ended without a result are named, because what an executor such as Slurm knows of
+/// them is not in a file of the case.
+std::string archive_facts(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases,
+                          Making const& making) {
+    Json ended = Json::array();
+    for (campaign::CaseOverview const& one : cases) {
+        if (!one.result && one.outcome && !fs::exists(one.planned->failure_file())) {
+            ended.push_back({{"case", one.planned->id}, {"outcome", name_of(*one.outcome)}});
+        }
+    }
+    Json by = Json::array();
+    for (auto const& [version, count] : making.versions) {
+        by.push_back({{"program_version", std::get<0>(version)},
+                      {"git_commit", std::get<1>(version)},
+                      {"engine_version", std::get<2>(version)},
+                      {"cases", count}});
+    }
+    Json const facts{{"format", "vibrotrough archive"},
+                     {"schema_version", 1},
+                     {"campaign", plan.name},
+                     {"archived_with",
+                      {{"program_version", core::program_version()}, {"git_commit", core::program_commit()}}},
+                     {"engine_version", plan.engine_version},
+                     {"cases", cases.size()},
+                     {"results", making.results},
+                     {"results_made_with", by},
+                     {"ended_without_result", ended}};
+    return facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+CrateFacts crate_facts(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases,
+                       Making const& making, BundleWords const& words) {
+    CrateFacts facts;
+    facts.begun = making.begun;
+    facts.ended = making.ended;
+    facts.campaign = plan.name;
+    facts.authors = words.authors;
+    facts.license = words.license;
+    facts.program_version = core::program_version();
+    facts.git_commit = core::program_commit();
+    facts.engine_version = plan.engine_version;
+    for (campaign::CaseOverview const& one : cases) {
+        std::string const& label = one.planned->label;
+        facts.cases.push_back({one.planned->id, label.empty() ? std::string(one.label())
+                                                              : fmt::format("{}: {}", label, one.label())});
+    }
+    return facts;
+}
+
+}  // namespace
+
+BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& activity,
+                          fs::path const& output, BundleWords const& words) {
+    refuse_unfinished_work(plan, activity);
+    refuse_to_replace(output);
+    Making making;
+    std::mutex mutex;
+    auto const note = [&](std::size_t, campaign::CaseOverview const&, store::CaseRecord const* record) {
+        std::lock_guard const lock(mutex);
+        if (record != nullptr) making.add(record->provenance);
+    };
+    compare::ComparedCases const compared = compare::compared_cases(plan, activity, note);
+    refuse_damaged_results(compared.cases);
+
+    Bundle bundle(output);
+    bundle.add(facts_file, archive_facts(plan, compared.cases, making));
+    bundle.add("README.txt", readme);
+    bundle.add("tables/compare.csv", compare::to_csv(compared.rows, compared.columns));
+    bundle.add("tables/compare.json", compare::to_json(compared.rows, compared.columns));
+    bundle.add("tables/compare.txt", compare::to_table(compared.rows, {}, compared.columns));
+    bundle.add(files_of_campaign(plan));
+    for (campaign::PlannedCase const& planned : plan.cases) {
+        std::vector<StoredFile> const files = files_of_case(plan, planned);
+        bundle.add(files);
+        bool const has_decks = std::ranges::any_of(
+            files, [](auto const& file) { return file.name.find("/packing-") != std::string::npos; });
+        if (has_decks) continue;
+        for (auto const& [name, content] : planned_decks(planned)) bundle.add(name, content);
+    }
+    CrateFacts facts = crate_facts(plan, compared.cases, making, words);
+    facts.files = bundle.files();
+    bundle.add("ro-crate-metadata.json", crate_metadata(facts));
+    bundle.finish();
+
+    BundleReport report;
+    report.results = making.results;
+    report.files = bundle.files().size() + 1;
+    report.bytes = fs::file_size(output);
+    report.has_campaign_file = bundle.has("campaign.h5");
+    report.has_report = bundle.has("report/");
+    return report;
+}
+
+}  // namespace vibrotrough::archive

@@ -1,0 +1,114 @@
+#include "archive/bundle_files.hpp"
+
+#include "archive/zip_file.hpp"
+#include "campaign/schedule/policy.hpp"
+#include "campaign/state/case_state.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "deck/deck.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Collects files below a campaign's folder.
+class Collection {
+  public:
+    explicit Collection(fs::path folder) : folder_(std::move(folder)) {}
+
+    /// Adds a file or symbolic link if there is one; whoever reads a link refuses it.
+    void add(std::string const& name) {
+        std::error_code missing;
+        auto const type = fs::symlink_status(folder_ / name, missing).type();
+        if (type == fs::file_type::not_found || type == fs::file_type::directory || missing) return;
+        if (!is_safe_name(name)) {
+            throw core::InputError(fmt::format("{}: a bundle holds no file of this name; rename it",
+                                               core::harmless((folder_ / name).string())));
+        }
+        files_.push_back({name, folder_ / name});
+    }
+
+    /// Adds all files below a folder but hidden ones. Links to folders are not followed.
+    void add_all(std::string const& name) {
+        std::error_code missing;
+        if (fs::symlink_status(folder_ / name, missing).type() != fs::file_type::directory) return;
+        std::vector<std::string> found;
+        for (auto entry = fs::recursive_directory_iterator(folder_ / name, missing);
+             !missing && entry != fs::recursive_directory_iterator(); entry.increment(missing)) {
+            bool const is_hidden = entry->path().filename().string().starts_with('.');
+            if (is_hidden) {
+                entry.disable_recursion_pending();
+            } else {
+                found.push_back(entry->path().lexically_relative(folder_).generic_string());
+            }
+        }
+        std::ranges::sort(found);
+        for (std::string const& file : found) add(file);
+    }
+
+    std::vector<StoredFile> take() { return std::move(files_); }
+
+  private:
+    fs::path folder_;
+    std::vector<StoredFile> files_;
+};
+
+/// The names of the files that the cases and the campaign file name; they are frozen in the campaign's
+/// folder.
+std::set<std::string> frozen_names(campaign::Plan const& plan) {
+    std::set<std::string> names;
+    for (fs::path const& file : plan.files) names.insert(file.filename().string());
+    for (campaign::PlannedCase const& planned : plan.cases) {
+        for (scenario::NamedFile const& file : named_files(planned.scenario())) names.insert(file.name);
+    }
+    return names;
+}
+
+}  // namespace
+
+std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
+    Collection collection(plan.folder);
+    for (char const* name :
+         {"campaign.toml", "engine.json", "certificate.json", "friction.json", "numerics.json"})
+        collection.add(name);
+    for (std::string const& name : frozen_names(plan)) collection.add(name);
+    collection.add_all("added");
+    if (!campaign::is_campaign_file_outdated(plan)) collection.add("campaign.h5");
+    collection.add_all("report");
+    return collection.take();
+}
+
+std::vector<StoredFile> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
+    Collection collection(plan.folder);
+    std::string const folder = "cases/" + planned.id + "/";
+    for (char const* name : {"scenario.toml", "current_id.txt", "result.h5", "failure.json"})
+        collection.add(folder + name);
+    for (scenario::NamedFile const& file : named_files(planned.scenario()))
+        collection.add(folder + file.name);
+    std::vector<int> const packings = started_packings(planned);
+    if (packings.empty()) return collection.take();
+    // The decks of all packings consist of files of the same names.
+    auto const deck = deck::make_deck(*planned.prepared, {1}).files;
+    for (int const packing : packings) {
+        for (auto const& [name, content] : deck)
+            collection.add(fmt::format("{}packing-{}/{}", folder, packing, name));
+    }
+    return collection.take();
+}
+
+std::map<std::string, std::string> planned_decks(campaign::PlannedCase const& planned) {
+    std::map<std::string, std::string> files;
+    for (deck::PackingPlan const& packing : campaign::make_policy()->decide({&planned, {}, {}, {}}).wanted) {
+        for (auto& [name, content] : deck::make_deck(*planned.prepared, packing).files)
+            files[fmt::format("decks/{}/packing-{}/{}", planned.id, packing.number, name)] = content;
+    }
+    return files;
+}
+
+}  // namespace vibrotrough::archive

@@ -1,0 +1,238 @@
+#include "archive/open_bundle.hpp"
+
+#include "archive/bundle.hpp"
+#include "archive/zip_file.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/text.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <map>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace vibrotrough::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Json = nlohmann::json;
+using Digests = std::map<std::string, std::string>;  ///< SHA-256 by name
+
+constexpr std::size_t longest_list = std::size_t{1} << 30;  ///< bytes of SHA256SUMS
+
+[[noreturn]] void refuse(fs::path const& bundle, std::string const& reason) {
+    throw core::InputError(
+        fmt::format("{}: {}; nothing of it is used, get the bundle again", bundle.string(), reason));
+}
+
+/// Lines of 64 hexadecimal digits, two blanks and a name.
+Digests parse_checksums(fs::path const& bundle, std::string_view text) {
+    Digests digests;
+    while (!text.empty()) {
+        std::size_t const end = std::min(text.find('\n'), text.size());
+        std::string_view const line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        bool const is_good =
+            line.size() > 66 && line.substr(64, 2) == "  " && is_safe_name(line.substr(66)) &&
+            line.substr(0, 64).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+        if (!is_good || !digests.emplace(line.substr(66), line.substr(0, 64)).second)
+            refuse(bundle, fmt::format("{} is damaged", checksums_file));
+    }
+    return digests;
+}
+
+/// Compares what was found with the list, in both directions.
+void compare_digests(fs::path const& bundle, Digests const& listed, Digests const& found) {
+    for (auto const& [name, digest] : listed) {
+        auto const file = found.find(name);
+        if (file == found.end()) refuse(bundle, fmt::format("{} is missing", core::harmless(name)));
+        if (file->second != digest) {
+            refuse(bundle,
+                   fmt::format("{} is not what it was when the bundle was made: its SHA-256 is {} and "
+                               "not {}",
+                               core::harmless(name), file->second, digest));
+        }
+    }
+    for (auto const& [name, digest] : found) {
+        if (!listed.contains(name))
+            refuse(bundle, fmt::format("{} was added after the bundle was made", core::harmless(name)));
+    }
+}
+
+/// Whether the table needs a file; the others are only checked.
+bool is_needed(std::string const& name) {
+    bool const is_of_packing = name.find("/packing-") != std::string::npos;
+    return !is_of_packing && !name.starts_with("decks/") && !name.starts_with("report/") &&
+           !name.starts_with("tables/") && name != "campaign.h5" && name != checksums_file;
+}
+
+/// Refuses a name that is there already, or that needs a file that is there as a folder.
+void refuse_clash(fs::path const& bundle, Digests const& found, std::string const& name) {
+    for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1)) {
+        std::string const folder = name.substr(0, end);
+        if (found.contains(folder))
+            refuse(bundle, fmt::format("holds {} as a file and as a folder", core::harmless(folder)));
+    }
+    auto const below = found.lower_bound(name + "/");
+    if (found.contains(name) || (below != found.end() && below->first.starts_with(name + "/")))
+        refuse(bundle, fmt::format("holds {} twice", core::harmless(name)));
+}
+
+/// A new file that is written piece by piece.
+class NewFile {
+  public:
+    explicit NewFile(fs::path const& path) : path_(path) {
+        core::make_folder(path.parent_path());
+        core::ParentFolder const parent(path);
+        number_ = parent.open(O_WRONLY | O_CREAT | O_EXCL);
+        if (number_ < 0) fail();
+    }
+    ~NewFile() {
+        if (number_ >= 0) ::close(number_);
+    }
+    NewFile(NewFile const&) = delete;
+    NewFile& operator=(NewFile const&) = delete;
+
+    void write(std::string_view bytes) const {
+        while (!bytes.empty()) {
+            ssize_t const count = ::write(number_, bytes.data(), bytes.size());
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) fail();
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        }
+    }
+
+  private:
+    [[noreturn]] void fail() const {
+        throw core::MissingError(
+            fmt::format("cannot unpack {} ({}); free disk space or set TMPDIR to another folder",
+                        path_.string(), std::strerror(errno)));
+    }
+
+    fs::path path_;
+    int number_ = -1;
+};
+
+/// A private folder to which a bundle is unpacked.
+struct PrivateFolder {
+    core::TemporaryFolder folder{"vibrotrough-bundle"};
+    core::OwnFolder own{folder.path()};
+};
+
+/// Unpacks what the table needs and checks everything.
+std::shared_ptr<PrivateFolder const> unpack(fs::path const& bundle) {
+    auto const place = std::make_shared<PrivateFolder const>();
+    Digests found;
+    std::string sums, name;
+    std::unique_ptr<NewFile> file;
+    std::unique_ptr<core::Sha256> digest;
+    auto const begin = [&](std::string const& one) -> ZipSink {
+        name = one;
+        refuse_clash(bundle, found, name);
+        digest = std::make_unique<core::Sha256>();
+        if (is_needed(name)) file = std::make_unique<NewFile>(place->folder.path() / name);
+        return [&](std::string_view piece) {
+            digest->add(piece);
+            if (file) file->write(piece);
+            if (name != checksums_file) return;
+            if (sums.size() + piece.size() > longest_list)
+                refuse(bundle, "its list of checksums is too long");
+            sums += piece;
+        };
+    };
+    auto const end = [&] {
+        file.reset();
+        if (name == checksums_file) return;
+        found.emplace(name, digest->hex());
+    };
+    read_zip(bundle, limits_for(fs::file_size(bundle)), begin, end);
+    if (sums.empty()) refuse(bundle, fmt::format("{} is missing or empty", checksums_file));
+    compare_digests(bundle, parse_checksums(bundle, sums), found);
+    return place;
+}
+
+/// The digests of all files of an unpacked bundle. What commands write beside it is left out: figures and
+/// report that are not listed, frames, hidden files.
+Digests digests_of_folder(fs::path const& folder, Digests const& listed) {
+    Digests found;
+    core::OwnFolder const own(folder);
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
+         ++entry) {
+        std::string const name = entry->path().lexically_relative(folder).generic_string();
+        bool const is_ours = listed.contains(name);
+        bool const is_beside = entry->path().filename().string().starts_with('.') || name == "report" ||
+                               name == "view" || name.starts_with("report/") || name.starts_with("view/");
+        if (entry->is_directory() && !entry->is_symlink()) {
+            if (is_beside && name != "report" && !name.starts_with("report/"))
+                entry.disable_recursion_pending();
+            continue;
+        }
+        if (name == checksums_file || (is_beside && !is_ours)) continue;
+        found[name] = is_ours ? core::sha256_hex(core::read_own_file(entry->path())) : "";
+    }
+    return found;
+}
+
+void check_unpacked(fs::path const& folder) {
+    Digests const listed = parse_checksums(folder, core::read_file(folder / checksums_file, longest_list));
+    try {
+        compare_digests(folder, listed, digests_of_folder(folder, listed));
+    } catch (core::InputError const& error) {
+        throw core::InputError(fmt::format("{} (or remove {}, and the folder is read as any campaign's)",
+                                           error.what(), checksums_file));
+    }
+}
+
+void read_facts(OpenBundle& bundle, fs::path const& path) {
+    Json const facts =
+        Json::parse(core::read_file(bundle.folder / facts_file, core::largest_note), nullptr, false);
+    try {
+        if (facts.at("format") != "vibrotrough archive" || facts.at("schema_version") != 1)
+            refuse(path, fmt::format("{} says that it is no bundle that this version knows", facts_file));
+        bundle.results = facts.at("results").get<std::size_t>();
+        bundle.program_version =
+            core::harmless(facts.at("archived_with").at("program_version").get<std::string>());
+        for (Json const& one : facts.at("ended_without_result")) {
+            auto const outcome = core::outcome_named(one.at("outcome").get<std::string>());
+            if (!outcome || core::has_result(*outcome)) continue;
+            bundle.activity.packings.push_back(
+                {{one.at("case").get<std::string>(), 1}, campaign::PackingActivity::ended, outcome});
+        }
+    } catch (Json::exception const&) {
+        refuse(path, fmt::format("{} is damaged", facts_file));
+    }
+}
+
+}  // namespace
+
+std::optional<OpenBundle> open_bundle(fs::path const& path) {
+    std::error_code missing;
+    OpenBundle bundle;
+    if (fs::is_regular_file(path, missing)) {
+        if (first_name_in_zip(path) != facts_file) {
+            throw core::InputError(fmt::format(
+                "{} is neither a campaign's folder nor a bundle of 'vibrotrough archive'", path.string()));
+        }
+        auto place = unpack(path);
+        bundle.folder = place->folder.path();
+        bundle.unpacked = std::move(place);
+    } else {
+        bool const is_unpacked = fs::is_regular_file(path / facts_file, missing) &&
+                                 fs::is_regular_file(path / checksums_file, missing);
+        if (!is_unpacked) return {};
+        check_unpacked(path);
+        bundle.folder = path;
+    }
+    read_facts(bundle, path);
+    return bundle;
+}
+
+}  // namespace vibrotrough::archive

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace vibrotrough::core {
+
+/// What is done with item i.
+using IndexedWork = std::function<void(std::size_t i)>;
+
+/// Does work with items 0 ... count - 1 on all cores of this machine, each item once and in any order. The
+/// items must not depend on one another.
+/// @param least      items that are worth a thread of their own
+/// @param make_work  is called once in each thread, so that each has its own state; it must not throw
+/// @throws what the work on an item throws: of the first item by number, whichever thread was faster
+void for_each_index(std::size_t count, std::size_t least, std::function<IndexedWork()> const& make_work);
+
+}  // namespace vibrotrough::core

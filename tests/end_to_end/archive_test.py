@@ -1,0 +1,282 @@
+"""`vibrotrough archive`: a bundle of a real campaign that `compare` opens again, and bundles that were changed or made to do harm.
+
+The bundles are read and changed with Python's zipfile, and the metadata with its json: readers that we did not write.
+"""
+
+import csv
+import hashlib
+import io
+import json
+import os
+import resource
+import shutil
+import stat
+import struct
+import unittest
+import warnings
+import zipfile
+
+from trough_program import EndToEndTest
+
+SWEEP = {"trough.throw_number": [1.5, 2.0]}
+MEMORY = 1 << 30  # bytes of address space: far more than the program needs, far less than the bombs hold
+
+
+def rewrite(bundle, target, change):
+    """Copies a bundle; `change` gets {name: content} and may change it."""
+    with zipfile.ZipFile(bundle) as source:
+        files = {info.filename: source.read(info) for info in source.infolist()}
+    change(files)
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as made:
+        for name, content in files.items():
+            made.writestr(name, content)
+
+
+def with_right_checksums(files):
+    """What somebody does who changes a bundle and its checksums."""
+    files.pop("SHA256SUMS")
+    files["SHA256SUMS"] = "".join(f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in files.items()).encode()
+
+
+class Archive(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        self.bundle = self.folder / "supplement of a paper.zip"
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir()
+
+    def archive(self, *options, wanted=0, output=None):
+        done = self.call("archive", self.output, "--output", output or self.bundle, *options)
+        self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
+        return done
+
+    def make(self):
+        """A real campaign of two cases, one of which was not simulated, and its bundle."""
+        self.run_campaign(self.write_campaign(sweep=SWEEP))
+        shutil.rmtree(self.output / "cases" / self.table()[1]["case"])
+        self.run_campaign(self.write_campaign({"trough.throw_number": 1.5}, name="one.toml"), self.folder / "one")
+        return self.archive("--author", "A. Researcher", "--license", "https://creativecommons.org/licenses/by/4.0/")
+
+    def compare(self, what, *options, **settings):
+        """What compare prints; nothing may be left in TMPDIR."""
+        done = self.call("compare", what, *options, env=dict(os.environ, TMPDIR=str(self.temporary)), **settings)
+        self.assertEqual(list(self.temporary.iterdir()), [], "a temporary folder was left")
+        return done
+
+    def unpacked(self):
+        folder = self.folder / "unpacked"
+        shutil.rmtree(folder, ignore_errors=True)
+        with zipfile.ZipFile(self.bundle) as source:
+            source.extractall(folder)
+        return folder
+
+    def assert_refused(self, what, *parts, code=2, **settings):
+        self.assert_one_line_error(self.compare(what, **settings), code, *parts)
+
+    def test_the_bundle_of_a_campaign(self):
+        done = self.make()
+        self.assertIn("1 of 2 cases with a result", done.stdout)
+        self.assertIn("vibrotrough report", done.stdout)
+        self.check_content()
+        self.check_metadata()
+        self.check_tables()
+        self.check_that_it_is_reproducible()
+        self.check_what_is_not_replaced()
+        self.check_changes()
+        self.check_hostile_bundles()
+        self.check_links_in_the_folder()
+
+    def check_content(self):
+        with zipfile.ZipFile(self.bundle) as bundle:
+            self.assertIsNone(bundle.testzip())
+            files = {name: bundle.read(name) for name in bundle.namelist()}
+        self.assertEqual(next(iter(files)), "archive.json")
+        sums = dict(reversed(line.split("  ", 1)) for line in files.pop("SHA256SUMS").decode().splitlines())
+        self.assertEqual(sums, {name: hashlib.sha256(content).hexdigest() for name, content in files.items()})
+        finished, other = (row["case"] for row in self.table())
+        case = f"cases/{finished}"
+        for name in ("campaign.toml", "engine.json", "certificate.json", f"{case}/scenario.toml", f"{case}/result.h5"):
+            self.assertEqual(files[name], (self.output / name).read_bytes(), name)
+        for packing in (1, 2):
+            for deck in ("settle.liggghts", "in.liggghts", "control.in", "trough.stl"):
+                name = f"{case}/packing-{packing}/{deck}"
+                self.assertEqual(files[name], (self.output / name).read_bytes(), name)
+                self.assertIn(f"decks/{other}/packing-{packing}/{deck}", files)
+        for left_out in ("settled.restart", "cycles.csv", "phases.csv", ".lock", "summary"):
+            self.assertFalse([name for name in files if name.endswith(left_out)], left_out)
+        facts = json.loads(files["archive.json"])
+        self.assertEqual((facts["format"], facts["cases"], facts["results"]), ("vibrotrough archive", 2, 1))
+        self.assertEqual(facts["results_made_with"][0]["cases"], 1)
+        self.assertIn(facts["archived_with"]["program_version"], self.call("--version").stdout)
+        self.assertIn(facts["archived_with"]["git_commit"], self.call("--version").stdout)
+
+    def check_metadata(self):
+        """RO-Crate 1.1: 'Root Data Entity', 'Data Entities', 'Contextual Entities'."""
+        with zipfile.ZipFile(self.bundle) as bundle:
+            metadata = json.loads(bundle.read("ro-crate-metadata.json"))
+            names = bundle.namelist()
+        self.assertIn("https://w3id.org/ro/crate/1.1/context", metadata["@context"])
+        entities = {entity["@id"]: entity for entity in metadata["@graph"]}
+        self.assertEqual(len(entities), len(metadata["@graph"]), "an entity is there twice")
+        descriptor = entities["ro-crate-metadata.json"]
+        self.assertEqual(descriptor["@type"], "CreativeWork")
+        self.assertEqual(descriptor["about"], {"@id": "./"})
+        self.assertEqual(descriptor["conformsTo"], {"@id": "https://w3id.org/ro/crate/1.1"})
+        root = entities["./"]
+        self.assertEqual(root["@type"], "Dataset")
+        self.assertRegex(root["datePublished"], r"^\d{4}-\d\d-\d\d$")
+        self.assertEqual(entities[root["license"]["@id"]]["@type"], "CreativeWork")
+        self.assertEqual([entities[author["@id"]]["name"] for author in root["author"]], ["A. Researcher"])
+        reached = set()
+        for part in root["hasPart"]:
+            reached |= {part["@id"]} | {below["@id"] for below in entities[part["@id"]].get("hasPart", [])}
+        data = {name for name, entity in entities.items() if entity["@type"] in ("File", "Dataset") and name != "./"}
+        self.assertEqual(reached, data, "a file is no part of the crate")
+        for name in data:
+            there = [one for one in names if one.startswith(name)] if name.endswith("/") else name in names
+            self.assertTrue(there, name)
+        for entity in metadata["@graph"]:
+            for value in entity.values():
+                for one in value if isinstance(value, list) else [value]:
+                    if isinstance(one, dict) and not one["@id"].startswith("https://w3id.org"):
+                        self.assertIn(one["@id"], entities)
+        self.assertEqual(entities["#engine"]["version"], json.loads((self.output / "engine.json").read_text())["version"])
+
+    def check_tables(self):
+        """The table is the same digit for digit, from the folder, from the bundle and from the unpacked bundle."""
+        unpacked = self.unpacked()
+        for options in ([], ["--csv"], ["--json"], ["--filter", "throw_number<1.8"], ["--theory-curves"]):
+            wanted = self.call("compare", self.output, *options)
+            self.assertEqual(wanted.returncode, 0, wanted.stderr)
+            for what in (self.bundle, unpacked):
+                done = self.compare(what, *options)
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, wanted.stdout, ""), (what, options))
+        self.assertEqual((unpacked / "tables/compare.csv").read_text(), self.call("compare", self.output, "--csv").stdout)
+        self.assertEqual(json.loads((unpacked / "tables/compare.json").read_text()), self.table())
+        rows = list(csv.DictReader(io.StringIO((unpacked / "tables/compare.csv").read_text())))
+        self.assertEqual([row["outcome"] for row in rows], ["finished", "open"])
+
+    def check_that_it_is_reproducible(self):
+        before = self.bundle.read_bytes()
+        again = self.folder / "again.zip"
+        os.utime(self.output / "campaign.toml")
+        done = self.call("archive", self.output, "--output", again, "--author", "A. Researcher", "--license",
+                         "https://creativecommons.org/licenses/by/4.0/", env=dict(os.environ, TZ="Asia/Tokyo", LC_ALL="C"), umask=0o077)  # fmt: skip
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(again.read_bytes(), before)
+
+    def check_what_is_not_replaced(self):
+        other = self.folder / "thesis.zip"
+        with zipfile.ZipFile(other, "w") as mine:
+            mine.writestr("thesis.txt", "years of work")
+        before = other.read_bytes()
+        self.assert_one_line_error(self.archive(wanted=2, output=other), 2, "is not a bundle", "--output")
+        self.assertEqual(other.read_bytes(), before)
+        self.assertIn("no licence is named", self.archive(output=self.bundle).stdout)
+        self.assert_one_line_error(self.archive("--license", "MIT", wanted=2), 2, "is not an address")
+
+    def check_changes(self):
+        """Each file of a bundle is checked, packed and unpacked."""
+        finished = self.table()[0]["case"]
+        victims = ("campaign.toml", f"cases/{finished}/result.h5", f"cases/{finished}/packing-1/in.liggghts", "tables/compare.csv", "README.txt")
+        changed = self.folder / "changed.zip"
+        for victim in victims:
+            with self.subTest(victim=victim):
+                rewrite(self.bundle, changed, lambda files: files.__setitem__(victim, files[victim].replace(b"1", b"7", 1) + b" "))
+                self.assert_refused(changed, victim, "is not what it was when the bundle was made")
+                rewrite(self.bundle, changed, lambda files: files.pop(victim))
+                self.assert_refused(changed, victim, "is missing")
+                folder = self.unpacked()
+                (folder / victim).write_bytes((folder / victim).read_bytes() + b" ")
+                self.assert_refused(folder, victim, "is not what it was", "SHA256SUMS")
+        rewrite(self.bundle, changed, lambda files: files.__setitem__("added/0001/scenario.toml", files["campaign.toml"]))
+        self.assert_refused(changed, "added/0001/scenario.toml was added")
+        folder = self.unpacked()
+        (folder / "report").mkdir(exist_ok=True)
+        (folder / "report" / "efficiency.png").write_bytes(b"drawn later")
+        self.assertEqual(self.compare(folder).returncode, 0)
+        (folder / "friction.json").write_text("{}")
+        self.assert_refused(folder, "friction.json was added")
+        (folder / "SHA256SUMS").unlink()  # from now on a campaign's folder as any other
+        (folder / "friction.json").unlink()
+        self.assertEqual(self.compare(folder).returncode, 0)
+        whole = self.bundle.read_bytes()
+        for length in (100, len(whole) // 2, len(whole) - len(whole) // 20):
+            changed.write_bytes(whole[:length])
+            self.assert_refused(changed)
+        changed.write_bytes(b"no ZIP file")
+        self.assert_refused(changed, "neither a campaign's folder nor a bundle")
+
+    def check_hostile_bundles(self):
+        """Nothing is written outside, and neither memory nor disk is filled. The checksums of these bundles are right."""
+        hostile = self.folder / "hostile.zip"
+        outside = self.folder / "outside"
+        for name in ("../outside", "cases/../../outside", str(outside), "cases\\..\\outside", "C:outside", "a//b", "./b", "x" * 300, "a\x1b[2Jb"):
+            with self.subTest(name=name):
+                def add(files):
+                    files[name] = b"harm"
+                    with_right_checksums(files)
+
+                rewrite(self.bundle, hostile, add)
+                self.assert_refused(hostile, "could lead out of its folder")
+                self.assertFalse(outside.exists())
+        self.check_links(hostile, outside)
+        self.check_bombs(hostile)
+
+    def check_links(self, hostile, outside):
+        """An entry that says that it is a link, and then a file behind it."""
+        shutil.copy(self.bundle, hostile)
+        outside.mkdir()
+        with zipfile.ZipFile(hostile, "a") as bundle:
+            link = zipfile.ZipInfo("link")
+            link.create_system = 3
+            link.external_attr = (stat.S_IFLNK | 0o777) << 16
+            bundle.writestr(link, str(outside))
+            bundle.writestr("link/harm", "harm")
+        self.assert_refused(hostile, "holds link as a file and as a folder")
+        self.assertEqual(list(outside.iterdir()), [])
+        with warnings.catch_warnings(), zipfile.ZipFile(hostile, "w") as bundle:
+            warnings.simplefilter("ignore")  # zipfile warns of a name that is there twice
+            for name in ("archive.json", "engine.json", "engine.json"):
+                bundle.writestr(name, "{}")
+        self.assert_refused(hostile, "holds engine.json twice")
+
+    def check_bombs(self, hostile):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))  # noqa: E731
+
+        def add(files):
+            files["report/large.csv"] = bytes(300 << 20)
+            with_right_checksums(files)
+
+        rewrite(self.bundle, hostile, add)
+        self.assertLess(hostile.stat().st_size, 2 << 20)
+        self.assert_refused(hostile, "holds far more than a bundle of this size can", preexec_fn=limit)
+        # A size of 2^62 bytes in the header of the first entry (PKWARE's APPNOTE.TXT, 4.5.3), whose content is short.
+        extra = struct.pack("<HHQQ", 1, 16, 1 << 62, 4)
+        head = struct.pack("<4s5H3I2H", b"PK\3\4", 45, 0, 0, 0, 33, 0, 0xFFFFFFFF, 0xFFFFFFFF, len("archive.json"), len(extra))
+        hostile.write_bytes(head + b"archive.json" + extra + b"harm")
+        self.assert_refused(hostile, preexec_fn=limit)
+        # A list of checksums of the right form that names what is not there.
+        with zipfile.ZipFile(hostile, "w", zipfile.ZIP_DEFLATED) as bundle:
+            bundle.writestr("archive.json", "{}")
+            bundle.writestr("SHA256SUMS", "".join(f"{'0' * 64}  {i}\n" for i in range(1000)))
+        self.assert_refused(hostile, "is missing", preexec_fn=limit)
+
+    def check_links_in_the_folder(self):
+        """A link in the campaign's folder is not followed: the bundle is published."""
+        secret = self.folder / "secret"
+        secret.write_text("secret")
+        report = self.output / "report"
+        report.mkdir()
+        (report / "figure.svg").symlink_to(secret)
+        before = self.bundle.read_bytes()
+        self.assert_one_line_error(self.archive(wanted=3), 3, "figure.svg", "symbolic link")
+        self.assertEqual(self.bundle.read_bytes(), before)
+        self.assertEqual([one.name for one in self.folder.glob("*.part-*")], [])
+        (report / "figure.svg").unlink()
+        (report / "data").symlink_to(self.folder, target_is_directory=True)
+        self.assert_one_line_error(self.archive(wanted=3), 3, "data", "symbolic link")
+
+
+if __name__ == "__main__":
+    unittest.main()
