@@ -64,11 +64,12 @@ std::string description_of(std::string const& name) {
 /// Percent-encodes what an identifier in JSON-LD, a URI path, may not hold (RFC 3986, 2.1).
 std::string uri(std::string_view name) {
     std::string text;
-    for (unsigned char const byte : name) {
-        bool const is_plain =
-            (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') ||
-            std::string_view("-._~/").find(static_cast<char>(byte)) != std::string_view::npos;
-        text += is_plain ? std::string(1, static_cast<char>(byte)) : fmt::format("%{:02X}", byte);
+    for (char const letter : name) {
+        auto const byte = static_cast<unsigned char>(letter);
+        bool const is_plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                              (byte >= 'a' && byte <= 'z') ||
+                              std::string_view("-._~/").find(letter) != std::string_view::npos;
+        text += is_plain ? std::string(1, letter) : fmt::format("%{:02X}", byte);
     }
     return text;
 }

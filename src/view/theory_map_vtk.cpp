@@ -62,6 +62,7 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     writer->SetInputData(image);
     writer->SetDataModeToBinary();  // not appended: ParaView 5.11 reads appended data as an empty scene
     writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);  // as for frames: the default takes a fifth of a large map
     writer->WriteToOutputStringOn();
     writer->Write();
     core::write_file_atomically(path, writer->GetOutputString());
