@@ -76,14 +76,14 @@ class File:
     attributes in `attributes`.
     """
 
-    def __init__(self, path: str | os.PathLike[str], wanted_format: str) -> None:
+    def __init__(self, path: str | os.PathLike[str], *wanted_formats: str) -> None:
         self.path = pathlib.Path(path)
         self._arrays: dict[str, Array] = {}
         with h5py.File(self.path) as file:
             self.attributes: dict[str, Any] = dict(file.attrs)
             found = self.attributes.get("format")
-            if found != wanted_format:
-                raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_format}'")
+            if found not in wanted_formats:
+                raise ValueError(f"{self.path} holds a '{found}', not a '{wanted_formats[-1]}'")
             file.visititems(lambda name, item: self._keep(name, item))
 
     def _keep(self, name: str, item: object) -> None:
@@ -163,7 +163,4 @@ def open_result(path: str | os.PathLike[str]) -> File:
 
 def open_theory(path: str | os.PathLike[str]) -> File:
     """A map of `vibrotrough theory map` or a table of `vibrotrough theory batch --output FILE.h5`."""
-    try:
-        return File(path, "vibrotrough theory map")
-    except ValueError:
-        return File(path, "vibrotrough theory table")
+    return File(path, "vibrotrough theory map", "vibrotrough theory table")

@@ -15,7 +15,7 @@ struct ListedFile {
 
 /// A case of a bundle.
 struct ListedCase {
-    std::string id;
+    std::string id;           ///< as `compare` prints it
     std::string description;  ///< what distinguishes it, and how it ended
 };
 
