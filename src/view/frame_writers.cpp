@@ -60,6 +60,14 @@ double mean_velocity_of(GrainFrame const& frame) {
     return volume > 0.0 ? flow / volume : 0.0;
 }
 
+// What is there for colours is rounded to what an eye can tell, so that the files stay small: their exact
+// values follow from `velocity` and the points.
+constexpr double speed_grain = 1.0 / (1 << 14), height_grain = 1.0 / (1 << 17);  // m/s, m
+
+float rounded(double value, double grain) {
+    return static_cast<float>(std::round(value / grain) * grain);
+}
+
 }  // namespace
 
 void set_time(vtkPolyData& data, FrameSource const& source, double time) {
@@ -84,8 +92,8 @@ void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, do
     height_.resize(grains);
     turns_.resize(spins ? grains : 0);
     for (std::size_t i = 0; i < grains; ++i) {
-        from_mean_[i] = static_cast<float>(frame.velocity[3 * i] - mean_velocity_);
-        height_[i] = static_cast<float>(frame.position[3 * i + 2] - surface);
+        from_mean_[i] = rounded(frame.velocity[3 * i] - mean_velocity_, speed_grain);
+        height_[i] = rounded(frame.position[3 * i + 2] - surface, height_grain);
         if (spins) turns_[i] = static_cast<float>(frame.spin[3 * i + 1] / source_.angular_frequency);
         relative_[3 * i] -= trough_x;
         relative_[3 * i + 2] -= trough_z;

@@ -57,7 +57,7 @@ void write_vtp(std::filesystem::path const& path, vtkPolyData& data) {
     writer->SetInputData(&data);
     writer->SetDataModeToBinary();
     writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(2);
+    writer->SetCompressionLevel(1);
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || !errors.message().empty()) {
         throw core::MissingError(fmt::format("cannot write {} (VTK: {})", path.string(), errors.message()));
