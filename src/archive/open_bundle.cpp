@@ -219,7 +219,9 @@ std::optional<OpenBundle> open_bundle(fs::path const& path) {
     if (fs::is_regular_file(path, missing)) {
         if (first_name_in_zip(path) != facts_file) {
             throw core::InputError(fmt::format(
-                "{} is neither a campaign's folder nor a bundle of 'vibrotrough archive'", path.string()));
+                "{} is not a campaign folder, nor a bundle of 'vibrotrough archive'; give the folder that "
+                "'vibrotrough run --output' made, or a bundle",
+                path.string()));
         }
         auto place = unpack(path);
         bundle.folder = place->folder.path();

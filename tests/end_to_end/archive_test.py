@@ -205,7 +205,7 @@ class Archive(EndToEndTest):
             changed.write_bytes(whole[:length])
             self.assert_refused(changed)
         changed.write_bytes(b"no ZIP file")
-        self.assert_refused(changed, "neither a campaign's folder nor a bundle")
+        self.assert_refused(changed, "is not a campaign folder, nor a bundle")
 
     def check_hostile_bundles(self):
         """Nothing is written outside, and neither memory nor disk is filled. The checksums of these bundles are right."""

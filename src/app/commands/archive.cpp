@@ -86,7 +86,8 @@ A bundle names the machines on which it was simulated and the path of the engine
 
 Exit codes:
     0  all well
-    2  the input is wrong: the campaign is still running, a result is damaged, or the output is another file
+    2  the input is wrong: the campaign is still running, a result is damaged, or the output is
+       another file
     3  a file cannot be read (a symbolic link is not followed), or there is no disk space
 
 Example:
