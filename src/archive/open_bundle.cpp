@@ -196,7 +196,7 @@ void read_facts(OpenBundle& bundle, fs::path const& path) {
         Json::parse(core::read_file(bundle.folder / facts_file, core::largest_note), nullptr, false);
     try {
         if (facts.at("format") != "vibrotrough archive" || facts.at("schema_version") != 1)
-            refuse(path, fmt::format("{} says that it is no bundle that this version knows", facts_file));
+            refuse(path, fmt::format("{} does not describe a bundle that this version knows", facts_file));
         bundle.results = facts.at("results").get<std::size_t>();
         bundle.program_version =
             core::harmless(facts.at("archived_with").at("program_version").get<std::string>());

@@ -131,7 +131,7 @@ class Archive(EndToEndTest):
         for part in root["hasPart"]:
             reached |= {part["@id"]} | {below["@id"] for below in entities[part["@id"]].get("hasPart", [])}
         data = {name for name, entity in entities.items() if entity["@type"] in ("File", "Dataset") and name != "./"}
-        self.assertEqual(reached, data, "a file is no part of the crate")
+        self.assertEqual(reached, data, "the crate does not list every file")
         for name in data:
             there = [one for one in names if one.startswith(name)] if name.endswith("/") else name in names
             self.assertTrue(there, name)

@@ -1,6 +1,5 @@
-#include "core/error.hpp"
 #include "example_campaign.hpp"
-#include "scenario/reader/campaign_file.hpp"
+#include "single_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,29 +9,16 @@ namespace {
 
 using testing::HasSubstr;
 
-scenario::Scenario scenario(std::string const& text) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
-
 /// The example with frames and these lines of [output].
 std::string filming(std::string const& lines) {
     return with("frames_per_cycle = 0", "frames_per_cycle = 10\n" + lines);
 }
 
-std::string error_of(std::string const& text) {
-    try {
-        scenario::parse_campaign(text, "test.toml");
-    } catch (core::InputError const& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(FramePackings, AreTheFirstUnlessOthersAreNamed) {
-    auto const first = scenario(filming("")).output,
-               some = scenario(filming("frame_packings = [5, 2]")).output,
-               all = scenario(filming("frame_packings = \"all\"")).output,
-               none = scenario(example_campaign).output;
+    auto const first = single_case(filming("")).output,
+               some = single_case(filming("frame_packings = [5, 2]")).output,
+               all = single_case(filming("frame_packings = \"all\"")).output,
+               none = single_case(example_campaign).output;
     EXPECT_EQ(some.frame_packings, (std::vector{2, 5}));
     for (int packing = 1; packing <= 9; ++packing) {
         EXPECT_EQ(writes_frames(first, packing), packing == 1);
@@ -49,16 +35,16 @@ TEST(FramePackings, AreTheFirstUnlessOthersAreNamed) {
 // A case without these keys has the text that it always had.
 TEST(FramePackings, AreWrittenOnlyWhenTheyAreNotTheFirst) {
     for (char const* const lines : {"", "frame_packings = [1]", "contacts = false"}) {
-        EXPECT_EQ(to_toml(scenario(filming(lines))), to_toml(scenario(filming("")))) << lines;
-        EXPECT_EQ(to_toml(scenario(filming(lines))).find("frame_packings"), std::string::npos);
+        EXPECT_EQ(to_toml(single_case(filming(lines))), to_toml(single_case(filming("")))) << lines;
+        EXPECT_EQ(to_toml(single_case(filming(lines))).find("frame_packings"), std::string::npos);
     }
     for (char const* const lines : {"frame_packings = [3, 1]", "frame_packings = \"all\"", "contacts = true",
                                     "frame_packings = [2]\ncontacts = true"}) {
-        std::string const text = to_toml(scenario(filming(lines)));
-        EXPECT_NE(text, to_toml(scenario(filming(""))));
-        EXPECT_EQ(to_toml(scenario(text)), text);
-        EXPECT_EQ(scenario(text).output.frame_packings, scenario(filming(lines)).output.frame_packings);
-        EXPECT_EQ(scenario(text).output.contacts, scenario(filming(lines)).output.contacts);
+        std::string const text = to_toml(single_case(filming(lines)));
+        EXPECT_NE(text, to_toml(single_case(filming(""))));
+        EXPECT_EQ(to_toml(single_case(text)), text);
+        EXPECT_EQ(single_case(text).output.frame_packings, single_case(filming(lines)).output.frame_packings);
+        EXPECT_EQ(single_case(text).output.contacts, single_case(filming(lines)).output.contacts);
     }
 }
 
@@ -79,8 +65,8 @@ TEST(FramePackings, MustBeThere) {
 }
 
 TEST(FrameContacts, NeedFramesOfSpheres) {
-    EXPECT_FALSE(scenario(filming("")).output.contacts);
-    EXPECT_TRUE(scenario(filming("contacts = true")).output.contacts);
+    EXPECT_FALSE(single_case(filming("")).output.contacts);
+    EXPECT_TRUE(single_case(filming("contacts = true")).output.contacts);
     EXPECT_THAT(error_of(with("frames_per_cycle = 0", "frames_per_cycle = 0\ncontacts = true")),
                 HasSubstr("output.contacts: there are no frames"));
     EXPECT_THAT(error_of(with("diameter_spread = 0.1", "shape = \"cube\"", filming("contacts = true"))),

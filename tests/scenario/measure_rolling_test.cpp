@@ -1,6 +1,5 @@
-#include "core/error.hpp"
 #include "example_campaign.hpp"
-#include "scenario/reader/campaign_file.hpp"
+#include "single_case.hpp"
 
 #include <array>
 #include <vector>
@@ -11,35 +10,22 @@
 namespace vibrotrough {
 namespace {
 
-scenario::Scenario scenario(std::string const& text) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
-
 std::string measuring(std::string const& lines, std::string const& text = example_campaign) {
     return with("max_cycles = 200", "max_cycles = 200\n" + lines, text);
 }
 
-std::string error_of(std::string const& text) {
-    try {
-        scenario::parse_campaign(text, "test.toml");
-    } catch (core::InputError const& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(MeasureRolling, IsOffUnlessAskedFor) {
-    EXPECT_FALSE(scenario(example_campaign).measure.rolling);
-    EXPECT_FALSE(scenario(measuring("rolling = false")).measure.rolling);
-    EXPECT_TRUE(scenario(measuring("rolling = true")).measure.rolling);
+    EXPECT_FALSE(single_case(example_campaign).measure.rolling);
+    EXPECT_FALSE(single_case(measuring("rolling = false")).measure.rolling);
+    EXPECT_TRUE(single_case(measuring("rolling = true")).measure.rolling);
 }
 
 // A case without it has the text that it always had.
 TEST(MeasureRolling, IsWrittenOnlyWhenItIsOn) {
-    EXPECT_EQ(to_toml(scenario(example_campaign)).find("rolling ="), std::string::npos);
-    std::string const text = to_toml(scenario(measuring("rolling = true")));
-    EXPECT_EQ(to_toml(scenario(text)), text);
-    EXPECT_TRUE(scenario(text).measure.rolling);
+    EXPECT_EQ(to_toml(single_case(example_campaign)).find("rolling ="), std::string::npos);
+    std::string const text = to_toml(single_case(measuring("rolling = true")));
+    EXPECT_EQ(to_toml(single_case(text)), text);
+    EXPECT_TRUE(single_case(text).measure.rolling);
 }
 
 TEST(MeasureRolling, IsTrueOrFalse) {
