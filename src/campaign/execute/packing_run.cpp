@@ -128,10 +128,10 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
         deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
     }
     check_files_of_engine(folder_);
-    first_cycles_ = -1;
     stop_ = packing_.next_stop(sealed_cycle_);
     core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
+    last_cycle_at_ = earlier_wall_time_;
     process_ = std::make_unique<engine::EngineProcess>(
         context_, engine_, folder_,
         [this](engine::ExitStatus status) {
@@ -163,7 +163,7 @@ void PackingRun::inspect() {
     seen_size_ = size;
     try {
         auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
-        note_pace(interim.cycles);
+        if (interim.cycles != cycles_) last_cycle_at_ = wall_time();
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
     } catch (core::InputError const&) {
@@ -182,22 +182,10 @@ void PackingRun::interrupt(Stop stop) {
     }
 }
 
-/// Remembers when the engine wrote cycles.
-void PackingRun::note_pace(int cycles) {
-    if (first_cycles_ >= 0 && cycles == cycles_) return;
-    last_cycle_ = std::chrono::steady_clock::now();
-    if (first_cycles_ >= 0) return;
-    first_cycles_ = cycles;
-    first_cycle_ = last_cycle_;
-}
-
 double PackingRun::silent_for() const {
-    using Seconds = std::chrono::duration<double>;
-    int const seen = first_cycles_ < 0 ? 0 : cycles_ - first_cycles_;
-    if (!process_ || seen < 3) return 0;
-    double const pace = Seconds(last_cycle_ - first_cycle_).count() / seen;
-    double const silent = Seconds(std::chrono::steady_clock::now() - last_cycle_).count();
-    return silent > std::max(60.0, 20 * pace) ? silent : 0;
+    if (!process_ || cycles_ <= 0) return 0;
+    double const silent = wall_time() - last_cycle_at_;
+    return silent > std::max(60.0, 20 * last_cycle_at_ / cycles_) ? silent : 0;
 }
 
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.

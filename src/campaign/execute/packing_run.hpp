@@ -52,7 +52,7 @@ class PackingRun {
     /// Cycles seen so far.
     int cycles() const { return cycles_; }
     /// s since the last cycle, when that is more than a minute and more than 20 times what a cycle took: the
-    /// engine is stopped, or the machine does something else. 0 otherwise, and before three cycles are known.
+    /// engine is stopped, or the machine does something else. 0 otherwise, and before a cycle is known.
     double silent_for() const;
     /// s, processor time of the engine in this run, all ranks.
     double core_time() const { return core_time_of_pauses_ + core_time_; }
@@ -71,7 +71,6 @@ class PackingRun {
     PackingEnd conclude(long last_step);
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
-    void note_pace(int cycles);
     double wall_time() const;
     std::optional<PackingEnd> judge(engine::ExitStatus status);
     std::optional<PackingEnd> go_on();
@@ -92,9 +91,9 @@ class PackingRun {
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
-    int first_cycles_ = -1;  ///< seen when the engine was last started; negative before it wrote one
-    std::chrono::steady_clock::time_point first_cycle_, last_cycle_;  ///< when they were seen
-    int stop_ = 0;                                                    ///< cycle after which the engine ends
+    double last_cycle_at_ =
+        0;          ///< s, `wall_time` when the last of them was seen, or when the engine was started
+    int stop_ = 0;  ///< cycle after which the engine ends
     std::optional<measure::PackingEstimate> estimate_;
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;
