@@ -62,6 +62,20 @@ class Controls(unittest.TestCase):
         self.assert_reported("tidy", "src/core/bad.cpp", GOOD_SOURCE.replace("twice", "Twice"), "readability-identifier-naming",
                              str(self.root), "core")
 
+    def test_a_name_in_another_case_in_a_batch(self) -> None:
+        sources = [self.root / "src/core/good.cpp", self.root / "src/core/bad.cpp"]
+        self.write("src/core/bad.cpp", "")
+        self.write("Unity/unity_0_cxx.cxx", "".join(f'#include "{path}"\n' for path in sources))
+        batch = self.root / "Unity/unity_0_cxx.cxx"
+        self.write("compile_commands.json", json.dumps([{"directory": str(self.root), "command": f"c++ -std=c++20 -c {batch}", "file": str(batch)}]))
+        self.assert_reported("tidy", "src/core/bad.cpp", "int Thrice(int number) {\n    return 3 * number;\n}\n",
+                             "readability-identifier-naming", str(self.root), "core")
+
+    def test_a_file_that_is_not_compiled(self) -> None:
+        good = self.root / "src/core/good.cpp"
+        self.write("compile_commands.json", json.dumps([{"directory": str(self.root), "command": f"c++ -std=c++20 -c {good}", "file": str(good)}]))
+        self.assert_reported("tidy", "src/core/bad.cpp", "int left_out = 1;\n", "src/core/bad.cpp is not compiled", str(self.root), "core")
+
     def test_a_misspelt_word(self) -> None:
         word = "recie" + "ve"  # put together here, because this file is checked, too
         self.assert_reported("spelling", "README.md", f"The machines {word} grains.\n", word)

@@ -20,7 +20,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Iterable
 
 MOST_LINES = 400
@@ -58,27 +57,27 @@ def check_format(root: pathlib.Path) -> list[str]:
     return run([program, "--dry-run", "--Werror", *map(str, files(root, ("src", "tests"), (".hpp", ".cpp")))], root)
 
 
-def commands_of_files(build: pathlib.Path) -> list[dict[str, str]]:
-    """compile_commands.json with the batches in which CMake compiles (UNITY_BUILD) taken apart into their files."""
-    commands = []
+def translation_units(build: pathlib.Path) -> dict[str, list[str]]:
+    """What the compiler is called for, according to compile_commands.json: the name of the file, and the sources in it. CMake
+    compiles the files of a room in batches (UNITY_BUILD), each a file that includes its sources."""
+    units = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
-        batch = pathlib.Path(entry["file"])
-        if batch.parent.name != "Unity":
-            commands.append(entry)
-            continue
-        for source in re.findall(r'^#include "(.*)"', batch.read_text(encoding="utf-8"), flags=re.MULTILINE):
-            commands.append({**entry, "file": source, "command": entry["command"].replace(str(batch), source)})
-    return commands
+        file = pathlib.Path(entry["file"])
+        is_batch = file.parent.name == "Unity"
+        content = re.findall(r'^#include "(.*)"', file.read_text(encoding="utf-8"), flags=re.MULTILINE) if is_batch else [str(file)]
+        units[str(file)] = [str(pathlib.Path(path).resolve()) for path in content]
+    return units
 
 
 def check_tidy(root: pathlib.Path, build: str, room: str) -> list[str]:
+    """Batch by batch, as they are compiled: most of the time goes into the headers, which the files of a batch share."""
     program = tool("clang-tidy-14", "clang-tidy", version=CLANG_VERSION)
-    sources = [str(path) for path in files(root, (f"src/{room}",), (".cpp",))]
+    sources = {str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))}
     if not sources:
         return [f"src/{room} has no sources"]
-    with tempfile.TemporaryDirectory(prefix="vibrotrough-tidy-") as folder:
-        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(commands_of_files(pathlib.Path(build))), encoding="utf-8")
-        return run([program, "-quiet", "-p", folder, *sources], root)
+    units = {unit: content for unit, content in translation_units(pathlib.Path(build)).items() if sources & set(content)}
+    left_out = sorted(sources.difference(*units.values()))
+    return [f"{path} is not compiled" for path in left_out] + run([program, "-quiet", "-p", build, *units], root)
 
 
 def check_spelling(root: pathlib.Path) -> list[str]:
