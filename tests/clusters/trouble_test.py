@@ -165,7 +165,7 @@ class Trouble(EndToEndTest):
         campaign = self.write_campaign({"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000})
         driver = self.start_campaign(campaign)
         tables = wait_until(lambda: list(self.output.glob("cases/*/packing-1/cycles.csv")), "the packing ran", driver)
-        wait_until(lambda: count_cycles(tables[0]) > 8, "some cycles were simulated", driver)
+        wait_until(lambda: count_cycles(tables[0]) > 0, "a cycle was simulated", driver)
         (engine,) = engines_in(self.output)
         self.assertTrue(pause(engine))
         log = self.output / "campaign.log"
