@@ -140,7 +140,7 @@ double parse_quantity(std::string_view text, std::string const& unit) {
                               rest, unit));
     }
     std::unique_ptr<cv_converter, FreeConverter> const converter(ut_get_converter(from.get(), to.get()));
-    double const result = cv_convert_double(converter.get(), number);
+    double const result = cv_convert_double(converter.get(), number) + 0.0;  // "-0 deg" is 0
     if (!std::isfinite(result)) throw QuantityError(fmt::format("'{}' is too large", whole));
     return result;
 }

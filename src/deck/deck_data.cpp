@@ -197,7 +197,8 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     }
     data.set("drive_remark", remark);
     std::vector<core::TemplateData> lines;
-    for (auto const& [axis, terms] : {std::pair{"x", &n.motion.along}, std::pair{"z", &n.motion.normal}}) {
+    for (auto const& [axis, terms] :
+         {std::pair{std::string("x"), &n.motion.along}, std::pair{std::string("z"), &n.motion.normal}}) {
         DriveFormula const& formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
             core::TemplateData entry;

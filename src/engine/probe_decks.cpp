@@ -122,7 +122,8 @@ void add_campaign_values(TemplateData& values, MovingTrough const& motion) {
     trough.frequency = 1 / motion.period;
     scenario::DriveMotion const drive = drive_motion(trough);
     std::vector<TemplateData> lines;
-    for (auto const& [axis, terms] : {std::pair{"x", &drive.along}, std::pair{"z", &drive.normal}}) {
+    for (auto const& [axis, terms] :
+         {std::pair{std::string("x"), &drive.along}, std::pair{std::string("z"), &drive.normal}}) {
         deck::DriveFormula const& formula = deck::drive_formula(*terms, axis);
         for (deck::Formula const& term : formula.terms)
             lines.push_back(data_of({{"name", term.name}, {"expression", term.expression}}));

@@ -25,6 +25,12 @@ TEST(Quantity, ReadsUnitsIntoSi) {
 }
 
 // A cycle per turn: f [Hz] = n [1/min] / 60.
+TEST(Quantity, ZeroHasNoSign) {
+    for (char const* text : {"-0 deg", "-0.0 rad", "0 deg"})
+        EXPECT_FALSE(std::signbit(core::parse_quantity(text, "radian"))) << text;
+    EXPECT_LT(core::parse_quantity("-1 deg", "radian"), 0);
+}
+
 TEST(Quantity, TurnsAreCycles) {
     for (char const* const text :
          {"1500 rpm", "1500 RPM", "1500 1/min", "1500/min", "1500 min^-1", "25 turns/s", "25 rev / s",

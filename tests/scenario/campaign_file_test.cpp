@@ -87,6 +87,15 @@ TEST(CampaignFile, TakesAnEngineersUnits) {
               std::string::npos);
 }
 
+TEST(CampaignFile, ZeroHasNoSign) {
+    // Found by the fuzz target `campaign`: the case's own campaign file said "-0", which was read as another
+    // text.
+    std::string const negative = with("diameter_spread = 0.1", "diameter_spread = -0.0");
+    std::string const frozen = to_toml(scenario::parse_campaign(negative, "c").cases.front());
+    EXPECT_EQ(frozen, to_toml(scenario::parse_campaign(frozen, "c").cases.front()));
+    EXPECT_EQ(frozen.find("-0\n"), std::string::npos) << frozen;
+}
+
 TEST(CampaignFile, HasDefaultsForTheMeasurementOnly) {
     std::string const text = example_campaign.substr(0, example_campaign.find("[measure]"));
     scenario::Scenario const s = scenario::parse_campaign(text, "c").cases.front();

@@ -132,7 +132,8 @@ class ValueReader {
         if (key_.kind == KeyKind::integer && !node.is_integer())
             fail(node, fmt::format("{} is not a whole number", written(node)), write_instead(key_));
         if (!node.is_number()) fail(node, "is not a number", write_instead(key_));
-        return *node.value<double>();
+        return *node.value<double>() +
+               0.0;  // -0 becomes 0: it would be written as "-0" and read as another text
     }
 
     Key const& key_;
