@@ -3,6 +3,7 @@
 #include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,5 +1,6 @@
 #include "deck/drive_formula.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>

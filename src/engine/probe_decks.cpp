@@ -7,6 +7,7 @@
 #include "engine/three_grains.hpp"
 #include "scenario/model/scenario.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 #include "inference/gaussian_process.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

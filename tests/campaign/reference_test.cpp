@@ -2,6 +2,7 @@
 #include "campaign_folder.hpp"
 #include "simulated_case.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <sstream>

@@ -4,6 +4,8 @@
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 
+#include <algorithm>
+
 namespace vibrotrough::campaign {
 namespace {
 

@@ -3,6 +3,7 @@
 #include "campaign_folder.hpp"
 #include "simulated_case.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace vibrotrough::campaign {

@@ -5,6 +5,7 @@
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <regex>

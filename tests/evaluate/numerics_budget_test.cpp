@@ -3,6 +3,7 @@
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

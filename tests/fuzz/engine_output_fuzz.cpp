@@ -6,6 +6,7 @@
 #include "engine/run_report.hpp"
 #include "measure/cycle_series.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>

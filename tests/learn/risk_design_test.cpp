@@ -6,6 +6,7 @@
 #include "theory/quantities.hpp"
 #include "theory/random_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>

@@ -3,6 +3,7 @@
 #include "measure/layer_mode.hpp"
 #include "point_mass_phases.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "measure/mass_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -4,6 +4,7 @@
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

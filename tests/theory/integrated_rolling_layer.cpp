@@ -1,5 +1,6 @@
 #include "integrated_rolling_layer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "core/temporary_folder.hpp"
 #include "run_program.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 

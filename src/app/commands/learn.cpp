@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>

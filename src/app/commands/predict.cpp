@@ -6,6 +6,7 @@
 #include "core/outcome.hpp"
 #include "learn/campaign_surface.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 

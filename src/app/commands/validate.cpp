@@ -2,6 +2,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/python.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>

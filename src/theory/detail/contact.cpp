@@ -1,5 +1,7 @@
 #include "theory/detail/contact.hpp"
 
+#include <algorithm>
+
 namespace vibrotrough::theory::detail {
 Slide::Slide(double sign, double b, double c) : sign_(sign), b_(b), c_(c) {
     double const size = std::abs(b);

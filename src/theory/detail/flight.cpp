@@ -1,5 +1,7 @@
 #include "theory/detail/flight.hpp"
 
+#include <algorithm>
+
 namespace vibrotrough::theory::detail {
 namespace {
 

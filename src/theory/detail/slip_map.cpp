@@ -1,5 +1,7 @@
 #include "theory/detail/slip_map.hpp"
 
+#include <algorithm>
+
 namespace vibrotrough::theory::detail {
 /// The speed of a slide: w' = -kappa w + drive.
 struct ContactLaw::Speed {

@@ -1,5 +1,6 @@
 #include "theory/detail/wave.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace vibrotrough::theory::detail {

@@ -1,6 +1,7 @@
 #include "app/commands/theory/options.hpp"
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
