@@ -16,9 +16,10 @@ constexpr double shortest_phase = 1e-12;  // rad, as in solve()
 constexpr double velocity_tolerance = 1e-6;
 constexpr double least_drift = 1e-9;  // per period, of a mass that runs away
 constexpr double settled = 1e-11;     // change of the velocity from period to period
-// Motions without a period, as in solve().
-constexpr int settling = 500, cycles_per_batch = 125, least_batches = 10, most_batches = 20;
-constexpr int longest_flight = 15;  // cycles; a batch has some flights
+// Motions without a period. Batches become longer while they are not enough.
+constexpr int settling = 100, shortest_batch = 16, longest_batch = 128;  // cycles
+constexpr std::size_t least_batches = 10, most_batches = 20;
+constexpr int flights_per_batch = 8;
 constexpr double wanted_half_width = 0.01;
 constexpr int most_periods = 3000;        // from rest
 constexpr double all_but_one = 1 - 1e-9;  // share of mu up to which gravity is plainly weaker than friction
@@ -230,35 +231,52 @@ double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycle
         hints_.next = 0;
         s = follow_hop(law, now, leap(waves_, now), s, hints_, record);
         elapsed += now.leave.t - now.start.t;
-        if (now.end.t - now.start.t > two_pi * longest_flight) throw PhaseError("flights are too long");
+        longest_flight_ = std::max(longest_flight_, now.end.t - now.start.t);
+        if (longest_flight_ * flights_per_batch > two_pi * longest_batch)
+            throw PhaseError("flights are too long");
     }
     return moved / elapsed;
 }
 
-std::optional<Efficiency> ConveyorEfficiency::average() {
+/// The mean and half of its 95 % confidence interval (Student's t). @param means  of 10 to 20 batches
+ConveyorEfficiency::Mean ConveyorEfficiency::mean_of(std::vector<double> const& means) {
     static std::vector<double> const student = [] {
         std::vector<double> q;
-        for (int n = least_batches; n <= most_batches; ++n)
-            q.push_back(boost::math::quantile(boost::math::students_t(n - 1), 0.975));
+        for (std::size_t n = least_batches; n <= most_batches; ++n)
+            q.push_back(boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975));
         return q;
     }();
+    auto const n = static_cast<double>(means.size());
+    double mean = 0, squares = 0;
+    for (double const one : means) mean += one / n;
+    for (double const one : means) squares += (one - mean) * (one - mean);
+    return {mean, student[means.size() - least_batches] * std::sqrt(squares / (n - 1) / n)};
+}
+
+std::optional<Efficiency> ConveyorEfficiency::average() {
     Tangent s = follow_from_rest();
     std::size_t hop = orbit_.first;
+    longest_flight_ = 0;
     follow_cycles(s, hop, settling);
-    double sum = 0, squares = 0, half_width = HUGE_VAL, mean = 0;
-    for (int n = 1; n <= most_batches && !(half_width <= wanted_half_width); ++n) {
-        double const one = follow_cycles(s, hop, cycles_per_batch);
-        double const before = n > 1 ? one - sum / (n - 1) : 0;  // Welford's method
-        sum += one;
-        mean = sum / n;
-        squares += before * (one - mean);
-        if (n >= least_batches)
-            half_width =
-                student[static_cast<std::size_t>(n - least_batches)] * std::sqrt(squares / (n - 1) / n);
+    int cycles = shortest_batch;
+    Mean found{0, HUGE_VAL};
+    batches_.clear();
+    while (true) {
+        batches_.push_back(follow_cycles(s, hop, cycles));
+        if (batches_.size() < least_batches) continue;
+        found = mean_of(batches_);
+        bool const has_flights = longest_flight_ * flights_per_batch <= two_pi * cycles;
+        if (has_flights && found.half_width <= wanted_half_width) break;
+        if (batches_.size() < most_batches) continue;
+        if (cycles == longest_batch) break;
+        for (std::size_t i = 0; i < most_batches / 2; ++i)
+            batches_[i] = (batches_[2 * i] + batches_[2 * i + 1]) / 2;
+        batches_.resize(most_batches / 2);
+        cycles *= 2;
     }
     double const fast = 10 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
     if (!(std::abs(s.v) < fast)) return std::nullopt;  // it may run away
-    return Efficiency{mean, 0, 0, Outcome::unsettled, half_width};
+    return Efficiency{found.mean, 0, 0, Outcome::unsettled, found.half_width};
 }
 
 std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {

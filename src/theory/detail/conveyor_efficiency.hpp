@@ -33,6 +33,10 @@ class ConveyorEfficiency {
     Search find_fixed_point();
     Search iterate_from_rest();
     std::optional<Efficiency> solve(Conveyor const& conveyor);
+    struct Mean {
+        double mean, half_width;
+    };
+    static Mean mean_of(std::vector<double> const& means);
     std::optional<Efficiency> average();
     double follow_cycles(Tangent& s, std::size_t& hop, int cycles);
     void join_ends();
@@ -48,6 +52,8 @@ class ConveyorEfficiency {
     std::vector<Note> notes_;
     double displacement_ = 0, derivative_ = 0;
     double v_ = 0, error_ = 0, slope_ = 0;  // of the last period: velocity at its start, Newton's step, f'
+    std::vector<double> batches_;           // means of a motion without a period
+    double longest_flight_ = 0;             // rad
     double guess_ = 0;
     bool guess_in_contact_ = false;
 };
