@@ -142,8 +142,9 @@ TEST(ConveyorEfficiency, AgreesWithTheWalkWhichMotionsHaveAPeriod) {
         Motion const motion = solve(c).motion;
         EXPECT_EQ(fast.outcome, motion.outcome) << i;
         EXPECT_EQ(fast.period_cycles, motion.period_cycles) << i;
-        if (motion.outcome == Outcome::periodic)
+        if (motion.outcome == Outcome::periodic) {
             EXPECT_NEAR(fast.velocity_efficiency, motion.velocity_efficiency, 1e-9) << i;
+        }
         without += motion.outcome == Outcome::unsettled ? 1 : 0;
     }
     EXPECT_GT(without, 20);
