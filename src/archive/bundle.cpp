@@ -203,7 +203,8 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     report.results = making.results;
     report.files = bundle.files().size() + 1;
     report.bytes = fs::file_size(output);
-    report.has_campaign_file = bundle.has("campaign.h5");
+    report.campaign_file = bundle.has("campaign.h5") ? campaign::CampaignFileState::up_to_date
+                                                     : campaign::campaign_file_state(plan);
     report.has_report = bundle.has("report/");
     return report;
 }

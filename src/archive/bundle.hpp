@@ -23,11 +23,12 @@ struct BundleWords {
 
 /// What went into a bundle.
 struct BundleReport {
-    std::size_t files = 0;           ///< all of them
-    std::size_t results = 0;         ///< cases that have one
-    std::uint64_t bytes = 0;         ///< of the bundle
-    bool has_campaign_file = false;  ///< whether campaign.h5 is there and up to date
-    bool has_report = false;         ///< whether figures or a report are there
+    std::size_t files = 0;    ///< all of them
+    std::size_t results = 0;  ///< cases that have one
+    std::uint64_t bytes = 0;  ///< of the bundle
+    /// Of campaign.h5, which the bundle holds if it is up to date.
+    campaign::CampaignFileState campaign_file = campaign::CampaignFileState::missing;
+    bool has_report = false;  ///< whether figures or a report are there
 };
 
 /// Writes a campaign as one ZIP file for the supplement of a paper: the frozen campaign, the decks of every

@@ -79,7 +79,8 @@ std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
         collection.add(name);
     for (std::string const& name : frozen_names(plan)) collection.add(name);
     collection.add_all("added");
-    if (!campaign::is_campaign_file_outdated(plan)) collection.add("campaign.h5");
+    if (campaign::campaign_file_state(plan) == campaign::CampaignFileState::up_to_date)
+        collection.add("campaign.h5");
     collection.add_all("report");
     return collection.take();
 }

@@ -4,6 +4,8 @@
 #include "core/text.hpp"
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -64,20 +66,22 @@ Json swept_object(Row const& row, std::span<Column const> columns) {
 }
 
 void write_json(std::vector<Row> const& rows, std::span<Column const> columns, TextSink const& sink) {
-    char const* separator = "[\n  ";
+    // As the library writes a list of objects with an indent of 2, whose values are numbers and texts.
+    std::vector<std::pair<std::string, Column const*>> shown;
+    for (Column const& column : columns) {
+        if (!column.in_data) continue;
+        std::string const name = Json(column.name).dump();
+        shown.emplace_back(fmt::format("{}\n    {}: ", shown.empty() ? "" : ",", name), &column);
+    }
+    char const* separator = "[\n  {";
+    std::string text;
     for (Row const& row : rows) {
-        Json object = Json::object();
-        for (Column const& column : columns) {
-            if (column.in_data) object.push_back({std::string(column.name), json_of(column.of(row))});
-        }
-        // As an element of the list: two blanks more before each line.
-        std::string text = separator;
-        for (char const c : object.dump(2, ' ', false, Json::error_handler_t::replace)) {
-            text += c;
-            if (c == '\n') text += "  ";
-        }
-        sink(text);
-        separator = ",\n  ";
+        text = separator;
+        for (auto const& [before, column] : shown)
+            text.append(before).append(
+                json_of(column->of(row)).dump(-1, ' ', false, Json::error_handler_t::replace));
+        sink(text += "\n  }");
+        separator = ",\n  {";
     }
     sink(rows.empty() ? "[]\n" : "\n]\n");
 }

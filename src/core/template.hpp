@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vibrotrough::core {
@@ -17,22 +18,22 @@ class TemplateData {
     TemplateData& operator=(TemplateData other) noexcept;  ///< Takes over all names with their values.
     ~TemplateData();
 
-    /// Sets the text that replaces the tag `{{name}}`. An earlier value of the name is replaced.
-    void set(std::string const& name, std::string const& text);
+    /// Sets the text that replaces the tag `{{name}}`. An earlier value of the name no longer counts.
+    void set(std::string name, std::string text);
     /// Sets the text that replaces the tag `{{name}}`; without this overload a literal would become a bool.
-    void set(std::string const& name, char const* text) { set(name, std::string(text)); }
+    void set(std::string name, char const* text) { set(std::move(name), std::string(text)); }
     /// Sets whether the section that begins with `{{#name}}` is rendered. The inverted section, which begins
     /// with
     /// `{{^name}}`, is rendered otherwise.
-    void set(std::string const& name, bool shown);
+    void set(std::string name, bool shown);
     /// Repeats the section that begins with `{{#name}}` once for each element. Within it, the names of the
     /// element take precedence over the names outside.
-    void set(std::string const& name, std::vector<TemplateData> const& list);
+    void set(std::string name, std::vector<TemplateData> list);
 
   private:
     friend class Template;
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    struct Entry;
+    std::vector<Entry> entries_;  ///< in the order in which they were set; the last one of a name counts
 };
 
 /// The characters that begin and end a tag, without spaces and equals signs.
@@ -51,11 +52,18 @@ class Template {
     ~Template();
     Template(Template&& other) noexcept;  ///< `other` may only be destroyed then.
 
-    /// The text with `data` in its tags. Several threads must not call it on the same object at once.
+    /// The text with `data` in its tags. Several threads must not call it on the same object at once. It
+    /// takes a tenth of the time when the last data had the same names, switches and lengths of lists in the
+    /// same order, as from case to case of a campaign: only the texts are then filled in.
     std::string render(TemplateData const& data) const;
 
   private:
     struct Impl;
+    struct Value;
+    class Form;
+    using Values = std::vector<Value>;
+    static void list_values(TemplateData const& data, Values& values);
+
     std::unique_ptr<Impl> impl_;
 };
 

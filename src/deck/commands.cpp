@@ -4,7 +4,7 @@
 #include "core/hash.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <array>
 
 namespace vibrotrough::deck {
 namespace {
@@ -13,35 +13,42 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// One line without its comment, with single blanks between words.
-std::string command_in(std::string_view line) {
-    std::string command;
+/// Older versions wrote frames without the spin of the grains. What a frame says of a grain is not part
+/// of what the engine simulates, so that a case keeps its id, and a run its checkpoint.
+std::size_t length_without_spin(std::string_view command) {
+    constexpr std::string_view begin = "dump frames all custom ", end = " omegax omegay omegaz";
+    bool const has_spin = command.starts_with(begin) && command.ends_with(end);
+    return command.size() - (has_spin ? end.size() : 0);
+}
+
+/// Appends one line without its comment, with single blanks between words.
+void append_command(std::string& commands, std::string_view line) {
+    static constexpr std::array<bool, 256> special = [] {
+        std::array<bool, 256> table{};
+        for (char const c : std::string_view(" \t\r#\"'")) table[static_cast<unsigned char>(c)] = true;
+        return table;
+    }();
+    std::size_t const start = commands.size();
     while (!line.empty()) {
-        std::size_t const plain = std::min(line.find_first_of(" \t\r#\"'"), line.size());
-        command += line.substr(0, plain);
+        std::size_t plain = 0;
+        while (plain < line.size() && !special[static_cast<unsigned char>(line[plain])]) ++plain;
+        commands += line.substr(0, plain);
         line.remove_prefix(plain);
         if (line.empty() || line.front() == '#') break;
         std::size_t length = 1;
         if (is_blank(line.front())) {
-            if (!command.empty() && command.back() != ' ') command += ' ';
+            while (length < line.size() && is_blank(line[length])) ++length;
+            if (commands.size() > start && commands.back() != ' ') commands += ' ';
         } else {
             // A text in quotes, up to the end of the line when it is not closed.
             std::size_t const close = line.find(line.front(), 1);
             length = close == std::string_view::npos ? line.size() : close + 1;
-            command += line.substr(0, length);
+            commands += line.substr(0, length);
         }
         line.remove_prefix(length);
     }
-    while (command.ends_with(' ')) command.pop_back();
-    return command;
-}
-
-/// Older versions wrote frames without the spin of the grains. What a frame says of a grain is not part
-/// of what the engine simulates, so that a case keeps its id, and a run its checkpoint.
-std::string without_spin(std::string command) {
-    constexpr std::string_view begin = "dump frames all custom ", end = " omegax omegay omegaz";
-    if (command.starts_with(begin) && command.ends_with(end)) command.resize(command.size() - end.size());
-    return command;
+    while (commands.size() > start && commands.back() == ' ') commands.pop_back();
+    commands.resize(start + length_without_spin(std::string_view(commands).substr(start)));
 }
 
 bool is_deck(std::string_view name) {
@@ -52,30 +59,38 @@ bool is_deck(std::string_view name) {
 
 std::string commands_of(std::string_view deck) {
     std::string commands;
+    commands.reserve(deck.size() + 1);
     bool goes_on = false;
     while (!deck.empty()) {
         std::size_t const length = std::min(deck.find('\n'), deck.size());
-        std::string command = without_spin(command_in(deck.substr(0, length)));
+        std::size_t const start = commands.size();
+        append_command(commands, deck.substr(0, length));
         deck.remove_prefix(std::min(length + 1, deck.size()));
-        if (command.empty() && !goes_on) continue;
-        goes_on = command.ends_with('&');
-        if (goes_on) command.back() = ' ';
-        commands += command;
-        if (!goes_on) commands += '\n';
+        bool const empty = commands.size() == start;
+        if (empty && !goes_on) continue;
+        goes_on = !empty && commands.back() == '&';
+        if (goes_on) {
+            commands.back() = ' ';
+        } else {
+            commands += '\n';
+        }
     }
     return commands;
 }
 
 std::string digest_of_commands(std::map<std::string, std::string> const& files) {
-    std::vector<std::string> commands;
-    commands.reserve(files.size());
-    std::vector<std::string_view> pieces;
+    core::Sha256 digest;
     for (auto const& [name, content] : files) {
-        commands.push_back(is_deck(name) ? commands_of(content) : std::string());
-        std::string_view const counted = is_deck(name) ? std::string_view(commands.back()) : content;
-        pieces.insert(pieces.end(), {name, "\n", counted, "\n"});
+        digest.add(name);
+        digest.add("\n");
+        if (is_deck(name)) {
+            digest.add(commands_of(content));
+        } else {
+            digest.add(content);
+        }
+        digest.add("\n");
     }
-    return core::sha256_hex(pieces);
+    return digest.hex();
 }
 
 std::map<std::string, std::string> read_files(std::filesystem::path const& folder,

@@ -9,6 +9,7 @@
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -22,26 +23,27 @@ constexpr std::string_view processors_line =
 
 /// Template tags on lines of their own leave blank lines. This keeps one of them between two parts and none
 /// within a comment.
-std::string tidy(std::string const& text) {
+std::string tidy(std::string_view text) {
     std::string result;
-    int blank = 0;
-    for (std::size_t start = 0; start < text.size();) {
-        std::size_t const end = std::min(text.find('\n', start), text.size());
-        std::string const line = text.substr(start, end - start);
-        start = end + 1;
+    result.reserve(text.size() + 1);
+    bool blank = false;
+    while (!text.empty()) {
+        std::size_t const end = std::min(text.find('\n'), text.size());
+        std::string_view const line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
         if (line.empty()) {
-            ++blank;
+            blank = true;
             continue;
         }
         bool const goes_on = line.starts_with("#  ") || line == "#";
-        if (blank > 0 && !goes_on) result += '\n';
-        blank = 0;
-        result += line + '\n';
+        if (blank && !goes_on) result += '\n';
+        blank = false;
+        result.append(line) += '\n';
     }
     return result;
 }
 
-std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared) {
+std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * scenario.grains.diameter;
@@ -52,6 +54,20 @@ std::map<std::string, std::string> meshes(prepare::PreparedCase const& prepared)
         files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
     }
     return files;
+}
+
+std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
+    // Cases with the same layer come one after the other and have the same meshes.
+    scenario::Scenario const& scenario = prepared.scenario;
+    std::array<double, 5> const shape{scenario.layer.length, scenario.layer.width, scenario.grains.diameter,
+                                      scenario.trough.side_wall_friction ? 1.0 : 0.0, prepared.wall_height};
+    thread_local std::array<double, 5> last_shape{};
+    thread_local std::map<std::string, std::string> last;
+    if (last.empty() || shape != last_shape) {
+        last = make_meshes(prepared);
+        last_shape = shape;
+    }
+    return last;
 }
 
 }  // namespace

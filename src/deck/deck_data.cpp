@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <boost/math/special_functions/prime.hpp>
 #include <fmt/format.h>
@@ -60,7 +61,7 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
         entry.set("template", template_of(n, size.diameter, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
-        list.push_back(entry);
+        list.push_back(std::move(entry));
         ++index;
     }
     return list;
@@ -204,11 +205,11 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
             core::TemplateData entry;
             entry.set("name", term.name);
             entry.set("expression", term.expression);
-            lines.push_back(entry);
+            lines.push_back(std::move(entry));
         }
         data.set(fmt::format("speed_{}", axis), formula.speed);
     }
-    data.set("drive_terms", lines);
+    data.set("drive_terms", std::move(lines));
     data.set("time_step", text(time.time_step));
     data.set("steps_per_cycle", std::to_string(time.steps_per_cycle));
     data.set("rayleigh_percent", fmt::format("{:.3g}", 100 * time.rayleigh_fraction));
@@ -291,12 +292,12 @@ int seed_number(int index) {
 core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& packing) {
     scenario::Scenario const& s = n.scenario;
     core::TemplateData data;
-    std::vector<core::TemplateData> const classes = describe_classes(n, packing.number);
+    std::vector<core::TemplateData> classes = describe_classes(n, packing.number);
     data.set("title",
              fmt::format("Vibrotrough: a granular layer on a vibrating trough, campaign {}", s.campaign));
     data.set("settle_title", std::string("Vibrotrough: a granular layer settles on a trough"));
     data.set("class_count", std::to_string(classes.size()));
-    data.set("classes", classes);
+    data.set("classes", std::move(classes));
     data.set("packing_number", std::to_string(packing.number));
     data.set("seed", std::to_string(seed_number(3 * (packing.number - 1))));
     double const start = packing.start_efficiency.value_or(0);

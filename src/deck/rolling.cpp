@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -38,14 +39,14 @@ void describe_rolling(core::TemplateData& data, prepare::PreparedCase const& pre
         core::TemplateData column;
         column.set("name", fmt::format("rolling_{}", name));
         column.set("value", value);
-        columns.push_back(column);
+        columns.push_back(std::move(column));
         header += fmt::format(",{}", name);
         values += fmt::format(",${{rolling_{}}}", name);
     };
     int place = 0;
     for (std::string_view const name : of_grains) add(name, fmt::format("c_grains[{}]", ++place));
     add("floor_torque", "c_floor_torque");
-    data.set("rolling_columns", columns);
+    data.set("rolling_columns", std::move(columns));
     data.set("rolling_header", header);
     data.set("rolling_values", values);
 }

@@ -313,15 +313,17 @@ void write_campaign(std::filesystem::path const& path, std::string const& campai
     core::write_file_atomically(path, campaign_bytes(campaign, cases, numerics, swept));
 }
 
-bool is_campaign_of(std::filesystem::path const& path, scenario::SweptKeys const& swept) {
+CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept) {
     try {
         Hdf5MemoryFileReader const file(core::read_file(path));
-        return file.has_attribute("swept_keys") && file.text_attribute("swept_keys") == names_of(swept) &&
-               file.text_attribute("git_commit") == core::program_commit();
+        if (file.text_attribute("git_commit") != core::program_commit()) return CampaignFit::other_version;
+        bool const same_keys =
+            file.has_attribute("swept_keys") && file.text_attribute("swept_keys") == names_of(swept);
+        return same_keys ? CampaignFit::fits : CampaignFit::other_keys;
     } catch (core::Error const&) {
-        return false;
+        return CampaignFit::damaged;
     } catch (Hdf5Error const&) {
-        return false;
+        return CampaignFit::damaged;
     }
 }
 

@@ -39,8 +39,15 @@ void write_campaign(std::filesystem::path const& path, std::string const& campai
                     std::map<std::string, CaseNumerics> const& numerics = {},
                     scenario::SweptKeys const& swept = {});
 
-/// Whether a campaign.h5 was written by this version of the program for these swept keys. Also false when it
-/// cannot be read.
-bool is_campaign_of(std::filesystem::path const& path, scenario::SweptKeys const& swept);
+/// Whether a campaign.h5 is what this program would write, as far as the cases do not matter.
+enum class CampaignFit {
+    fits,           ///< written by this version of the program for the same swept keys
+    damaged,        ///< it cannot be read
+    other_keys,     ///< other keys are swept
+    other_version,  ///< written by another version of the program
+};
+
+/// Compares a campaign.h5 with these swept keys and with this program.
+CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept);
 
 }  // namespace vibrotrough::store

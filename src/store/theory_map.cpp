@@ -93,6 +93,8 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     ModeIndex modes;
     std::vector<double> efficiency, half_width;
     std::vector<int> mode, period, outcome;
+    for (auto* const column : {&efficiency, &half_width}) column->reserve(map.points.size());
+    for (auto* const column : {&mode, &period, &outcome}) column->reserve(map.points.size());
     for (theory::MapPoint const& point : map.points) {
         efficiency.push_back(point.velocity_efficiency);
         half_width.push_back(point.half_width);

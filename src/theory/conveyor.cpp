@@ -1,6 +1,7 @@
 #include "theory/conveyor.hpp"
 
 #include "theory/detail/conveyor_check.hpp"
+#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/conveyor_walk.hpp"
 #include "theory/detail/periodic.hpp"
 #include "theory/detail/plastic_orbit.hpp"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -89,7 +91,10 @@ class Solver {
     explicit Solver(Conveyor const& conveyor)
         : model_(std::make_shared<ConveyorModel const>(conveyor)), walk_(*model_), state_(at_rest(*model_)) {}
 
-    ConveyorMotion solve();
+    /// The motion; nothing when it has no period.
+    std::optional<ConveyorMotion> with_period();
+    /// The mean of a motion without a period, after with_period().
+    ConveyorMotion averaged();
 
   private:
     bool gravity_wins() const;
@@ -102,8 +107,8 @@ class Solver {
     }
     void rebase() { state_.t -= two_pi * std::round(state_.t / two_pi); }
     bool repeats(Passage const& two_periods, int cycles) const;
-    ConveyorMotion periodic(int cycles);
-    ConveyorMotion averaged();
+    std::optional<ConveyorMotion> periodic(int cycles);
+    ConveyorMotion runaway() const;
     ConveyorMotion average(int cycles);
     void add_batch(ConveyorMotion& result, Passage&& passage, int cycles_before) const;
 
@@ -214,11 +219,11 @@ bool Solver::repeats(Passage const& two_periods, int cycles) const {
            std::abs(impacts) < repeat_match * length;
 }
 
-ConveyorMotion Solver::periodic(int cycles) {
+std::optional<ConveyorMotion> Solver::periodic(int cycles) {
     // Follow two periods; the list of phases starts at an event within the first.
     WalkState s = state_;
     Passage scout = pass(s, 2 * cycles, Keep::pieces);
-    if (!repeats(scout, cycles)) return averaged();
+    if (!repeats(scout, cycles)) return std::nullopt;
     std::size_t const first = first_piece(scout.pieces);
     double const start = scout.pieces[first].start, length = two_pi * cycles;
     ConveyorMotion result;
@@ -320,30 +325,32 @@ ConveyorMotion Solver::averaged() {
         ConveyorMotion result = average(cycles);
         if (longest_flight(result.pieces) * flights_per_batch <= two_pi * cycles ||
             cycles >= most_cycles_per_batch)
-            return result;
+            return runs_away_ ? runaway() : result;
         cycles *= 4;
     }
 }
 
-ConveyorMotion Solver::solve() {
-    double const tan_alpha = model_->conveyor().point.tan_inclination;
+ConveyorMotion Solver::runaway() const {
     double const infinity = std::numeric_limits<double>::infinity();
     ConveyorMotion result;
-    if (gravity_wins()) {
-        result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
-    } else if (std::max(model_->kinetic_tangent(), model_->landing_tangent()) == 0 && tan_alpha == 0 &&
-               model_->drag() == 0) {
-        result.motion = no_motion(Outcome::indifferent, 0);
-    } else {
-        int const normal = find_normal_period();
-        int const cycles = normal > 0 ? settle_along(normal) : 0;
-        if (!runs_away_) result = cycles > 0 ? periodic(cycles) : averaged();
-        if (runs_away_) {
-            result = {};
-            result.motion = no_motion(Outcome::runs_away, std::copysign(infinity, -tan_alpha));
-        }
-    }
+    result.motion =
+        no_motion(Outcome::runs_away, std::copysign(infinity, -model_->conveyor().point.tan_inclination));
     return result;
+}
+
+std::optional<ConveyorMotion> Solver::with_period() {
+    if (gravity_wins()) return runaway();
+    if (std::max(model_->kinetic_tangent(), model_->landing_tangent()) == 0 &&
+        model_->conveyor().point.tan_inclination == 0 && model_->drag() == 0) {
+        ConveyorMotion result;
+        result.motion = no_motion(Outcome::indifferent, 0);
+        return result;
+    }
+    int const normal = find_normal_period();
+    int const cycles = normal > 0 ? settle_along(normal) : 0;
+    if (runs_away_) return runaway();
+    if (cycles == 0) return std::nullopt;
+    return periodic(cycles);
 }
 
 }  // namespace
@@ -358,13 +365,19 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 ConveyorMotion solve(Conveyor const& conveyor) {
     detail::check_ranges(conveyor);
     try {
-        ConveyorMotion answer = Solver(detail::with_noticeable_forces(conveyor)).solve();
+        Solver solver(detail::with_noticeable_forces(conveyor));
+        auto const known = solver.with_period();
+        ConveyorMotion answer = known ? *known : solver.averaged();
         // Forces and energies are those of the conveyor itself, however weak they are.
         answer.model = std::make_shared<ConveyorModel const>(conveyor);
         return answer;
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(conveyor) + ")");
     }
+}
+
+std::optional<ConveyorMotion> detail::motion_with_period(Conveyor const& conveyor) {
+    return Solver(detail::with_noticeable_forces(conveyor)).with_period();
 }
 
 ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {

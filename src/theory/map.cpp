@@ -12,6 +12,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 namespace vibrotrough::theory {
@@ -227,20 +228,28 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
     });
     map.cpu_seconds_per_solution =
         static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(map.points.size());
-    if (!options.boundaries || y.count < 2) return map;
-    std::vector<std::vector<BoundaryPiece>> found(static_cast<std::size_t>(y.count - 1));
-    arena.execute([&] {
-        for_lines(y.count - 1, options.rolling, [&](int line, Worker& worker) {
+    std::vector<std::vector<BoundaryPiece>> found(options.boundaries ? static_cast<std::size_t>(y.count - 1)
+                                                                     : 0);
+    auto const locate = [&] {
+        for_lines(static_cast<int>(found.size()), options.rolling, [&](int line, Worker& worker) {
             grid.locate_boundaries(line, worker.solver, worker.edges, found[static_cast<std::size_t>(line)]);
         });
-    });
+    };
+    auto const use_points = [&] {
+        if (options.with_points) options.with_points(map);
+    };
+    arena.execute([&] { tbb::parallel_invoke(use_points, locate); });
     for (auto const& row : found) map.boundaries.insert(map.boundaries.end(), row.begin(), row.end());
     return map;
 }
 
 std::size_t count_modes(Map const& map) {
     std::set<ModeCode> modes;
-    for (MapPoint const& point : map.points) modes.insert(point.mode);
+    ModeCode last = ~ModeCode{0};  // neighbours mostly have the same mode
+    for (MapPoint const& point : map.points) {
+        if (point.mode != last) modes.insert(point.mode);
+        last = point.mode;
+    }
     return modes.size();
 }
 

@@ -4,6 +4,7 @@
 #include "theory/inputs.hpp"
 #include "theory/rolling_layer.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ struct MapOptions {
     int jobs = 0;                            ///< threads; 0: all cores
     bool boundaries = true;                  ///< whether to locate the boundaries between modes
     std::optional<RollingLaw> rolling = {};  ///< solves rolling layers with this law instead of point masses
+    /// Is called once, when all points are there and while the boundaries are still being located, in one of
+    /// the threads: what is done with the points need not wait. It may read all of the map but `boundaries`.
+    std::function<void(Map const&)> with_points = {};
 };
 
 /// Velocity efficiency and mode on a grid of two inputs with the others fixed (Figs 2-5 of the paper).

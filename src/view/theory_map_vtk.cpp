@@ -3,9 +3,10 @@
 #include "core/atomic_file.hpp"
 #include "view/vtk_files.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -40,14 +41,19 @@ void write_theory_image(std::filesystem::path const& path, theory::Map const& ma
     vtkNew<vtkIntArray> mode, period;
     mode->SetName("mode");
     period->SetName("period_cycles");
+    for (vtkDataArray* const array : std::initializer_list<vtkDataArray*>{efficiency, mode, period})
+        array->SetNumberOfTuples(static_cast<vtkIdType>(map.points.size()));
     std::vector<theory::ModeCode> modes{0};
+    std::map<theory::ModeCode, int> numbers{{0, 0}};
+    vtkIdType i = 0;
     for (theory::MapPoint const& point : map.points) {
         double const eta = point.velocity_efficiency;
-        efficiency->InsertNextValue(std::isfinite(eta) ? eta : std::numeric_limits<double>::quiet_NaN());
-        auto place = std::find(modes.begin(), modes.end(), point.mode);
-        if (place == modes.end()) place = modes.insert(modes.end(), point.mode);
-        mode->InsertNextValue(static_cast<int>(place - modes.begin()));
-        period->InsertNextValue(point.period_cycles);
+        efficiency->SetValue(i, std::isfinite(eta) ? eta : std::numeric_limits<double>::quiet_NaN());
+        auto const [number, is_new] = numbers.try_emplace(point.mode, static_cast<int>(modes.size()));
+        if (is_new) modes.push_back(point.mode);
+        mode->SetValue(i, number->second);
+        period->SetValue(i, point.period_cycles);
+        ++i;
     }
     image->GetPointData()->AddArray(efficiency);
     image->GetPointData()->AddArray(mode);

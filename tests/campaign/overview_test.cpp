@@ -6,6 +6,8 @@
 #include "store/result_file.hpp"
 #include "store/sample_record.hpp"
 
+#include <chrono>
+
 namespace vibrotrough::campaign {
 namespace {
 
@@ -111,6 +113,30 @@ TEST_F(Overview, CampaignFileOfOtherSweptKeysIsOutdated) {
     EXPECT_FALSE(is_campaign_file_outdated(plan));
     core::write_file_atomically(folder / "campaign.h5", "damaged");
     EXPECT_TRUE(is_campaign_file_outdated(plan));
+}
+
+// That another version wrote it is the store's to tell, and end_to_end.archive has such a file.
+TEST_F(Overview, CampaignFileSaysInWhatItIsOutdated) {
+    fs::path const file = folder / "campaign.h5";
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::missing);
+    EXPECT_FALSE(is_campaign_file_outdated(plan)) << "nothing to write";
+    core::write_file_atomically(file, "damaged");
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date) << "nothing that it could lack";
+    fs::create_directories(planned.folder);
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    auto const result_written = fs::last_write_time(planned.result_file());
+    fs::last_write_time(file, result_written + std::chrono::seconds(1));
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::damaged);
+    fs::remove(file);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::missing);
+    EXPECT_TRUE(is_campaign_file_outdated(plan));
+    write_campaign_file(plan);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
+    plan.swept = {scenario::find_key("grains.friction")};
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_keys);
+    EXPECT_TRUE(is_campaign_file_outdated(plan));
+    fs::last_write_time(planned.result_file(), fs::last_write_time(file) + std::chrono::seconds(1));
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::older) << "which matters more";
 }
 
 }  // namespace

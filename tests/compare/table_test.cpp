@@ -153,6 +153,14 @@ TEST(Json, SaysNullOfWhatIsNotKnown) {
     EXPECT_EQ(table.at(2)["outcome"], "insertion-incomplete");
 }
 
+// As the library writes it, also texts that are not UTF-8 or need escapes.
+TEST(Json, IsIndentedAsByTheLibrary) {
+    auto rows = some_rows();
+    rows[0].mode_layer = "\"\\\n\xff\u00b0\x01";
+    std::string const text = to_json(rows);
+    EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
+}
+
 TEST(Json, OfNoCaseIsAnEmptyArray) {
     EXPECT_EQ(Json::parse(to_json({})), Json::array());
 }

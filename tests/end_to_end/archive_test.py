@@ -16,6 +16,7 @@ import unittest
 import warnings
 import zipfile
 
+import h5py
 from trough_program import EndToEndTest
 
 SWEEP = {"trough.throw_number": [1.5, 2.0]}
@@ -81,6 +82,7 @@ class Archive(EndToEndTest):
         self.check_metadata()
         self.check_tables()
         self.check_that_it_is_reproducible()
+        self.check_campaign_files_that_are_left_out()
         self.check_what_is_not_replaced()
         self.check_changes()
         self.check_hostile_bundles()
@@ -109,6 +111,29 @@ class Archive(EndToEndTest):
         self.assertEqual(facts["results_made_with"][0]["cases"], 1)
         self.assertIn(facts["archived_with"]["program_version"], self.call("--version").stdout)
         self.assertIn(facts["archived_with"]["git_commit"], self.call("--version").stdout)
+
+    def check_campaign_files_that_are_left_out(self):
+        """The message says what is wrong with campaign.h5: another version of the program is another thing than a newer result."""
+        table, other = self.output / "campaign.h5", self.folder / "other.zip"
+        content, times = table.read_bytes(), table.stat()
+
+        def said():
+            lines = self.call("archive", self.output, "--output", other).stdout.splitlines()
+            with zipfile.ZipFile(other) as bundle:
+                self.assertNotIn("campaign.h5", bundle.namelist())
+            return next(line for line in lines if line.startswith("without campaign.h5"))
+
+        with h5py.File(table, "r+") as file:
+            file.attrs["git_commit"] = "another"
+        body = table.read_bytes().partition(b"\nvibrotrough sha256 ")[0]
+        table.write_bytes(body + f"\nvibrotrough sha256 {hashlib.sha256(body).hexdigest()}\n".encode())
+        self.assertIn("holds all results but was written by another version of the program", said())
+        os.utime(table, ns=(0, 0))
+        self.assertIn("is older than a result", said())
+        table.unlink()
+        self.assertIn("is not there", said())
+        table.write_bytes(content)
+        os.utime(table, ns=(times.st_atime_ns, times.st_mtime_ns))
 
     def check_metadata(self):
         """RO-Crate 1.1: 'Root Data Entity', 'Data Entities', 'Contextual Entities'."""

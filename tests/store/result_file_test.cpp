@@ -261,6 +261,25 @@ TEST_F(ForeignTable, ColumnsOfAnotherKindAreRefused) {
                  Hdf5Error);
 }
 
+// A campaign.h5 of another version of the program is whole, and of other keys only if its own version says
+// so.
+TEST_F(ResultFile, CampaignTellsWhoWroteItAndForWhichKeys) {
+    scenario::SweptKeys const swept{scenario::find_key("grains.friction")};
+    write_campaign(path, "one", {sample_record("0123456789ab")}, {}, swept);
+    EXPECT_EQ(fit_of_campaign(path, swept), CampaignFit::fits);
+    EXPECT_EQ(fit_of_campaign(path, {}), CampaignFit::other_keys);
+    EXPECT_EQ(fit_of_campaign(folder / "none.h5", swept), CampaignFit::damaged);
+    overwrite(path, "no HDF5");
+    EXPECT_EQ(fit_of_campaign(path, swept), CampaignFit::damaged);
+    auto const of_another_version = [] {
+        Hdf5MemoryFileWriter file;
+        file.attribute("git_commit", std::string("another"));
+        return std::string(file.bytes());
+    };
+    overwrite(path, of_another_version());
+    EXPECT_EQ(fit_of_campaign(path, swept), CampaignFit::other_version);
+}
+
 TEST_F(ResultFile, SaysWhenTheDiskRefuses) {
     EXPECT_THROW(write_result(folder / "no_such_folder" / "result.h5", sample_record()), core::MissingError);
     EXPECT_THROW(write_campaign(folder / "no_such_folder" / "campaign.h5", "sample", {}), core::MissingError);

@@ -3,6 +3,8 @@
 #include "theory/limits.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +81,30 @@ TEST(Map, TakesAnyTwoInputs) {
     Map const map = solve_map(inputs, x, y, {});
     EXPECT_NEAR(map.points[0].velocity_efficiency, 0.537, 0.001);  // Table 1, e = 0
     EXPECT_NEAR(map.points[8].velocity_efficiency, 0.4755, 0.001);
+}
+
+// While the lines are located, all points are there; what is done with them may fail.
+TEST(Map, PointsCanBeUsedBeforeTheLinesAreFound) {
+    MapAxis const x{Input::throw_number, 0.3, 3.3, 41}, y{Input::vibration_angle_deg, 5, 60, 31};
+    auto const etas = [](Map const& map) {
+        std::vector<double> all;
+        for (MapPoint const& point : map.points) all.push_back(point.velocity_efficiency);
+        return all;
+    };
+    Map const whole = solve_map(paper_inputs(), x, y, {.jobs = 1});
+    EXPECT_GT(whole.boundaries.size(), 10u);
+    for (int const jobs : {1, 2}) {
+        std::vector<std::vector<double>> seen;
+        Map const map = solve_map(paper_inputs(), x, y, {.jobs = jobs, .with_points = [&](Map const& points) {
+                                                             seen.push_back(etas(points));
+                                                         }});
+        ASSERT_EQ(seen.size(), 1u);
+        EXPECT_EQ(seen.front(), etas(map));
+        EXPECT_EQ(map.boundaries.size(), whole.boundaries.size());
+        MapOptions const failing{.jobs = jobs,
+                                 .with_points = [](Map const&) { throw std::runtime_error("full"); }};
+        EXPECT_THROW(solve_map(paper_inputs(), x, y, failing), std::runtime_error);
+    }
 }
 
 TEST(Map, RefusesInputsThatDoNotFit) {

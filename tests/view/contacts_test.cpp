@@ -1,7 +1,5 @@
 #include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/temporary_folder.hpp"
-#include "view/frames.hpp"
+#include "frame_export.hpp"
 
 #include <array>
 #include <cmath>
@@ -17,7 +15,6 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataReader.h>
 
 namespace vibrotrough::view {
 namespace {
@@ -27,45 +24,23 @@ using testing::HasSubstr;
 
 /// Two frames with contacts of a real run (60 grains of 1400 kg/m3, 4 frames per cycle): the settled layer
 /// before the first step, and the layer in flight a quarter of a cycle later.
-class Contacts : public testing::Test {
+class Contacts : public FrameExport {
   protected:
-    Contacts() {
-        fs::copy(VIEW_TEST_CONTACTS, source.folder);
-        source.trough = source.folder / "trough.stl";
-    }
-
-    vtkSmartPointer<vtkPolyData> read(std::string const& file) const {
-        auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
-        reader->SetFileName((target / file).c_str());
-        reader->Update();
-        return reader->GetOutput();
-    }
-
-    std::string refusal() const {
-        try {
-            export_frames(source, target);
-        } catch (core::InputError const& error) {
-            return error.what();
-        }
-        return "no error";
-    }
+    Contacts()
+        : FrameExport(VIEW_TEST_CONTACTS,
+                      {.folder = {},
+                       .trough = {},
+                       .time_step = 5.195752952985837e-05,
+                       .angular_frequency = 2 * std::numbers::pi * 19.246488604223018,
+                       .drive = {.along = {{1, 0.002683281573, 0}}, .normal = {{1, 0.001341640787, 0}}},
+                       .width = 0.015,
+                       .caption = ""}) {}
 
     void damage(std::string const& name, std::string const& from, std::string const& to) const {
         std::string text = core::read_file(source.folder / name);
         text.replace(text.find(from), from.size(), to);
         std::ofstream(source.folder / name, std::ios::trunc) << text;
     }
-
-    core::TemporaryFolder const own_folder;
-    fs::path folder = own_folder.path();
-    fs::path target = folder / "target";
-    FrameSource source{.folder = folder / "dump",
-                       .trough = {},
-                       .time_step = 5.195752952985837e-05,
-                       .angular_frequency = 2 * std::numbers::pi * 19.246488604223018,
-                       .drive = {.along = {{1, 0.002683281573, 0}}, .normal = {{1, 0.001341640787, 0}}},
-                       .width = 0.015,
-                       .caption = ""};
 };
 
 /// The radius of each grain by its number.

@@ -1,8 +1,7 @@
 #include "view/frames.hpp"
 
 #include "core/atomic_file.hpp"
-#include "core/error.hpp"
-#include "core/temporary_folder.hpp"
+#include "frame_export.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -18,7 +17,6 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataReader.h>
 
 namespace vibrotrough::view {
 namespace {
@@ -33,21 +31,20 @@ constexpr double amplitude_x = 0.00536656;
 constexpr double amplitude_z = 0.00268328;
 
 /// Three frames of a real run (500 grains, 10 frames per cycle), copied so that a test may damage them.
-class Frames : public testing::Test {
+class Frames : public FrameExport {
   protected:
-    Frames() {
-        fs::copy(VIEW_TEST_DATA, source.folder);
-        source.trough = source.folder / "trough.stl";
+    Frames()
+        : FrameExport(VIEW_TEST_DATA,
+                      {.folder = {},
+                       .trough = {},
+                       .time_step = time_step,
+                       .angular_frequency = omega,
+                       .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
+                       .width = 0.018,
+                       .caption = "throw number 2, \"quoted\""}) {
         theory::Conveyor conveyor{};
         conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
         source.point_mass = TheoryMotion{theory::solve(conveyor), amplitude_x, amplitude_z};
-    }
-
-    vtkSmartPointer<vtkPolyData> read(std::string const& file) const {
-        auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
-        reader->SetFileName((target / file).c_str());
-        reader->Update();
-        return reader->GetOutput();
     }
 
     /// Times and files of a collection.
@@ -61,29 +58,9 @@ class Frames : public testing::Test {
         return entries;
     }
 
-    std::string refusal() const {
-        try {
-            export_frames(source, target);
-        } catch (core::InputError const& error) {
-            return error.what();
-        }
-        return "no error";
-    }
-
     void write(std::string const& name, std::string const& text) const {
         std::ofstream(source.folder / name, std::ios::binary | std::ios::trunc) << text;
     }
-
-    core::TemporaryFolder const own_folder;
-    fs::path folder = own_folder.path();
-    fs::path target = folder / "target";
-    FrameSource source{.folder = folder / "dump",
-                       .trough = {},
-                       .time_step = time_step,
-                       .angular_frequency = omega,
-                       .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
-                       .width = 0.018,
-                       .caption = "throw number 2, \"quoted\""};
 };
 
 double component(vtkPolyData& data, char const* name, vtkIdType point, int axis) {
@@ -366,10 +343,10 @@ TEST_F(Frames, NoFramesAndNoGrainsStillOpen) {
 TEST_F(Frames, SaysWhatIsMissing) {
     EXPECT_THROW(export_frames(source, "/proc/no_such_folder"), core::MissingError);
     fs::path const dump = source.folder;
-    source.folder = folder / "none";
+    source.folder = own_folder.path() / "none";
     EXPECT_THROW(export_frames(source, target), core::MissingError);
     source.folder = dump;
-    source.trough = folder / "none.stl";
+    source.trough = own_folder.path() / "none.stl";
     EXPECT_THROW(export_frames(source, target), core::MissingError);
     source.trough = dump / "frames.csv";
     EXPECT_THROW(export_frames(source, target), core::InputError);

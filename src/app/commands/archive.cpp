@@ -32,6 +32,26 @@ void check_license(std::string const& license) {
                     license));
 }
 
+/// Why campaign.h5 is not in the bundle; empty when it is.
+std::string fault_of(campaign::CampaignFileState state) {
+    using enum campaign::CampaignFileState;
+    switch (state) {
+        case missing:
+            return "which is not there";
+        case damaged:
+            return "which is damaged";
+        case older:
+            return "which is older than a result or a numerical error";
+        case of_other_keys:
+            return "which was written when other keys were swept";
+        case of_other_version:
+            return "which holds all results but was written by another version of the program";
+        case up_to_date:
+            break;
+    }
+    return "";
+}
+
 int run_archive(ArchiveArguments const& options) {
     check_license(options.words.license);
     campaign::Plan const plan = campaign::open_plan(options.folder);
@@ -41,8 +61,8 @@ int run_archive(ArchiveArguments const& options) {
     fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", output.string(), report.files,
                static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
     std::string const folder = core::shell_word(options.folder);
-    if (!report.has_campaign_file)
-        fmt::print("without campaign.h5, which is not there or out of date: 'vibrotrough run' writes it\n");
+    if (std::string const fault = fault_of(report.campaign_file); !fault.empty())
+        fmt::print("without campaign.h5, {}: 'vibrotrough run' writes it\n", fault);
     if (!report.has_report)
         fmt::print("without figures and report: 'vibrotrough report {}' makes them\n", folder);
     if (options.words.license.empty())

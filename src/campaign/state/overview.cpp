@@ -137,16 +137,40 @@ std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, Ove
     return cases;
 }
 
-bool is_campaign_file_outdated(Plan const& plan) {
+CampaignFileState campaign_file_state(Plan const& plan) {
     std::error_code none;
-    fs::file_time_type const written = fs::last_write_time(plan.folder / "campaign.h5", none);
-    bool const is_there = !none;
-    bool const is_current = is_there && store::is_campaign_of(plan.folder / "campaign.h5", plan.swept);
+    fs::path const file = plan.folder / "campaign.h5";
+    fs::file_time_type const written = fs::last_write_time(file, none);
+    if (none) return CampaignFileState::missing;
     fs::file_time_type const studied = fs::last_write_time(numerics_file(plan.folder), none);
-    if (!none && is_there && studied > written) return true;
-    return std::ranges::any_of(plan.cases, [&](PlannedCase const& planned) {
+    if (!none && studied > written) return CampaignFileState::older;
+    bool has_result = false;
+    for (PlannedCase const& planned : plan.cases) {
         fs::file_time_type const finished = fs::last_write_time(planned.result_file(), none);
-        return !none && (!is_current || finished > written);
+        if (none) continue;
+        if (finished > written) return CampaignFileState::older;
+        has_result = true;
+    }
+    if (!has_result) return CampaignFileState::up_to_date;
+    switch (store::fit_of_campaign(file, plan.swept)) {
+        case store::CampaignFit::damaged:
+            return CampaignFileState::damaged;
+        case store::CampaignFit::other_keys:
+            return CampaignFileState::of_other_keys;
+        case store::CampaignFit::other_version:
+            return CampaignFileState::of_other_version;
+        case store::CampaignFit::fits:
+            break;
+    }
+    return CampaignFileState::up_to_date;
+}
+
+bool is_campaign_file_outdated(Plan const& plan) {
+    CampaignFileState const state = campaign_file_state(plan);
+    if (state != CampaignFileState::missing) return state != CampaignFileState::up_to_date;
+    return std::ranges::any_of(plan.cases, [](PlannedCase const& planned) {
+        std::error_code none;
+        return fs::exists(planned.result_file(), none);
     });
 }
 

@@ -75,8 +75,20 @@ using OverviewSink =
 /// would fill the memory: whoever needs more than their facts looks at them one by one.
 std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink = {});
 
-/// Whether campaign.h5 is missing, lacks a result or a numerical error that is newer, or was written by
-/// another version of the program or for other swept keys.
+/// How campaign.h5 stands to the files from which it is made. Without a result, any one is up to date.
+enum class CampaignFileState {
+    up_to_date,        ///< it holds what there is
+    missing,           ///< there is none
+    damaged,           ///< it cannot be read
+    older,             ///< a result or a numerical error is newer
+    of_other_keys,     ///< written when other keys were swept
+    of_other_version,  ///< it holds all results, but another version of the program wrote it
+};
+
+/// What keeps campaign.h5 from being up to date. That a result is newer comes before who wrote the file.
+CampaignFileState campaign_file_state(Plan const& plan);
+
+/// Whether campaign.h5 should be written: it is not up to date, and there is a result.
 bool is_campaign_file_outdated(Plan const& plan);
 
 /// Writes campaign.h5 from the results that are there. It can be made again at any time.

@@ -23,8 +23,9 @@ std::filesystem::path summary_file(PlannedCase const& planned) {
     return planned.folder / "summary";
 }
 
-std::string layout() {
-    return "vibrotrough summary 3 " + store::summary_layout();
+std::string const& layout() {
+    static std::string const text = "vibrotrough summary 3 " + store::summary_layout();
+    return text;
 }
 
 /// Size, time and inode of a file; none when it is not a regular file.

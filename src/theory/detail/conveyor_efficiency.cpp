@@ -1,8 +1,10 @@
 #include "theory/detail/conveyor_efficiency.hpp"
 
+#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/periodic.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,9 +18,10 @@ constexpr double shortest_phase = 1e-12;  // rad, as in solve()
 constexpr double velocity_tolerance = 1e-6;
 constexpr double least_drift = 1e-9;  // per period, of a mass that runs away
 constexpr double settled = 1e-11;     // change of the velocity from period to period
-// Motions without a period, as in solve().
-constexpr int settling = 500, cycles_per_batch = 125, least_batches = 10, most_batches = 20;
-constexpr int longest_flight = 15;  // cycles; a batch has some flights
+// Motions without a period. Batches become longer until the half-width is as wanted.
+constexpr int settling = 100, shortest_batch = 16, longest_batch = 128;  // cycles
+constexpr std::size_t batch_count = 20;
+constexpr int flights_per_batch = 8;
 constexpr double wanted_half_width = 0.01;
 constexpr int most_periods = 3000;        // from rest
 constexpr double all_but_one = 1 - 1e-9;  // share of mu up to which gravity is plainly weaker than friction
@@ -230,35 +233,67 @@ double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycle
         hints_.next = 0;
         s = follow_hop(law, now, leap(waves_, now), s, hints_, record);
         elapsed += now.leave.t - now.start.t;
-        if (now.end.t - now.start.t > two_pi * longest_flight) throw PhaseError("flights are too long");
+        longest_flight_ = std::max(longest_flight_, now.end.t - now.start.t);
+        if (longest_flight_ * flights_per_batch > two_pi * longest_batch)
+            throw PhaseError("flights are too long");
     }
     return moved / elapsed;
 }
 
-std::optional<Efficiency> ConveyorEfficiency::average() {
-    static std::vector<double> const student = [] {
-        std::vector<double> q;
-        for (int n = least_batches; n <= most_batches; ++n)
-            q.push_back(boost::math::quantile(boost::math::students_t(n - 1), 0.975));
-        return q;
+namespace {
+
+double mean_of(std::vector<double> const& values) {
+    double sum = 0;
+    for (double const one : values) sum += one;
+    return sum / static_cast<double>(values.size());
+}
+
+/// Two batches after each other become one.
+void join_pairs(std::vector<double>& batches) {
+    for (std::size_t i = 0; i < batches.size() / 2; ++i)
+        batches[i] = (batches[2 * i] + batches[2 * i + 1]) / 2;
+    batches.resize(batches.size() / 2);
+}
+
+/// Half the 95 % confidence interval of the mean of 20 batches (Student's t): the largest of those of 20, 10
+/// and 5 batches. Where it grows with the length of the batches, they are too short: their means are not
+/// independent. The copy is small.
+double half_width_of(std::vector<double> batches) {
+    static std::array<double, batch_count + 1> const student = [] {
+        std::array<double, batch_count + 1> quantiles{};
+        for (std::size_t n = batch_count; n >= batch_count / 4; n /= 2)
+            quantiles[n] = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
+        return quantiles;
     }();
+    double largest = 0, mean = mean_of(batches);
+    for (; batches.size() >= batch_count / 4; join_pairs(batches)) {
+        auto const n = static_cast<double>(batches.size());
+        double squares = 0;
+        for (double const one : batches) squares += (one - mean) * (one - mean);
+        largest = std::max(largest, student[batches.size()] * std::sqrt(squares / (n - 1) / n));
+    }
+    return largest;
+}
+
+}  // namespace
+
+std::optional<Efficiency> ConveyorEfficiency::average() {
     Tangent s = follow_from_rest();
     std::size_t hop = orbit_.first;
+    longest_flight_ = 0;
     follow_cycles(s, hop, settling);
-    double sum = 0, squares = 0, half_width = HUGE_VAL, mean = 0;
-    for (int n = 1; n <= most_batches && !(half_width <= wanted_half_width); ++n) {
-        double const one = follow_cycles(s, hop, cycles_per_batch);
-        double const before = n > 1 ? one - sum / (n - 1) : 0;  // Welford's method
-        sum += one;
-        mean = sum / n;
-        squares += before * (one - mean);
-        if (n >= least_batches)
-            half_width =
-                student[static_cast<std::size_t>(n - least_batches)] * std::sqrt(squares / (n - 1) / n);
+    batches_.clear();
+    double half_width = HUGE_VAL;
+    for (int cycles = shortest_batch;; cycles *= 2) {
+        while (batches_.size() < batch_count) batches_.push_back(follow_cycles(s, hop, cycles));
+        half_width = half_width_of(batches_);
+        bool const has_flights = longest_flight_ * flights_per_batch <= two_pi * cycles;
+        if (cycles == longest_batch || (has_flights && half_width <= wanted_half_width)) break;
+        join_pairs(batches_);
     }
     double const fast = 10 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
     if (!(std::abs(s.v) < fast)) return std::nullopt;  // it may run away
-    return Efficiency{mean, 0, 0, Outcome::unsettled, half_width};
+    return Efficiency{mean_of(batches_), 0, 0, Outcome::unsettled, half_width};
 }
 
 std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
@@ -268,7 +303,14 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
         find_normal_orbit(waves_, orbit_);
         orbit_known_ = true;
     }
-    if (orbit_.in_doubt) return std::nullopt;
+    if (orbit_.in_doubt) {
+        // solve() decides whether the period counts, but need not follow its 3000 cycles for a mean.
+        auto const known = motion_with_period(c);
+        if (!known) return average();
+        Motion const& motion = known->motion;
+        return Efficiency{motion.velocity_efficiency, mode_code(motion), motion.period_cycles,
+                          motion.outcome};
+    }
     bool const has_period = orbit_.cycles > 0 && orbit_.cycles <= 64;
     bool const one_friction = waves_.one_friction();
     leaps_.resize(orbit_.hops.size());

@@ -1,6 +1,7 @@
 #include "theory/detail/flight_chain.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace vibrotrough::theory::detail {
 namespace {
@@ -211,14 +212,20 @@ double difference(Hop const& a, Hop const& b) {
     return std::max(std::abs(a.rebound - b.rebound), two_pi * std::abs(turns - std::round(turns)));
 }
 
+double duration(Hop const& hop) {
+    return hop.leave.t - hop.start.t;
+}
+
+constexpr double longest_return = two_pi * (longest_period + 0.5);
+
 /// The number of hops after which the phase of the landing and the rebound repeat; 0 when they do not.
 /// @param since  the first hop after the last contact
 std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since) {
     Hop const& now = hops.back();
     double elapsed = 0;
-    for (std::size_t k = 1; k + since < hops.size() && elapsed < two_pi * (longest_period + 0.5); ++k) {
+    for (std::size_t k = 1; k + since < hops.size() && elapsed < longest_return; ++k) {
         Hop const& earlier = hops[hops.size() - 1 - k];
-        elapsed += earlier.leave.t - earlier.start.t;
+        elapsed += duration(earlier);
         if (!(std::abs(now.rebound - earlier.rebound) < state_match)) continue;
         if (!(difference(now, earlier) < state_match)) continue;
         for (std::size_t shorter = 1; shorter < k; ++shorter) {
@@ -230,6 +237,37 @@ std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since) {
     }
     return 0;
 }
+
+/// Whether a rebound is that of an earlier hop, as in nearly no hop of a motion without a period: only then
+/// is hops_to_return() worth its cost. The rebounds lie side by side, so that the compiler compares several
+/// at once.
+class Rebounds {
+  public:
+    /// @param memory  for the rebounds of all hops
+    explicit Rebounds(std::vector<double>& memory) : all_(memory) { all_.clear(); }
+
+    /// Adds the last of the hops. @param since  the first hop after the last contact
+    bool repeat(std::vector<Hop> const& hops, std::size_t since) {
+        double const now = hops.back().rebound;
+        std::size_t const count = all_.size();
+        for (; oldest_ < count; ++oldest_) {
+            double const after = elapsed_ - duration(hops[oldest_]);
+            if (after < longest_return + 1) break;
+            elapsed_ = after;
+        }
+        std::int64_t near = 0;
+        for (std::size_t i = std::max(oldest_, since); i < count; ++i)
+            near += static_cast<std::int64_t>(std::abs(all_[i] - now) < state_match);
+        all_.push_back(now);
+        elapsed_ += duration(hops.back());
+        return near > 0;
+    }
+
+  private:
+    std::vector<double>& all_;
+    std::size_t oldest_ = 0;  ///< that counts
+    double elapsed_ = 0;      ///< from its start to the end of the last one
+};
 
 /// The growth of small changes, which may exceed the range of numbers.
 class Growth {
@@ -253,7 +291,7 @@ class Growth {
 
 int cycles_from(std::vector<Hop> const& hops, std::size_t first) {
     double length = 0;
-    for (std::size_t i = first; i < hops.size(); ++i) length += hops[i].leave.t - hops[i].start.t;
+    for (std::size_t i = first; i < hops.size(); ++i) length += duration(hops[i]);
     return static_cast<int>(std::lround(length / two_pi));
 }
 
@@ -275,6 +313,7 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
     double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
     bool irregular = false;
     std::size_t since = 0;  // the last contact
+    Rebounds rebounds(orbit.rebounds);
     orbit.left_at.assign(waves.presses().count(), never);
     for (double elapsed = next.at.t; elapsed < two_pi * most_cycles;) {
         if (next.zero >= 0) {
@@ -299,13 +338,15 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
         FlightChain::Start const start = next;
         Hop const hop = chain.fly(start, next);
         orbit.hops.push_back(hop);
-        elapsed += hop.leave.t - hop.start.t;
+        elapsed += duration(hop);
         growth.multiply(chain.sensitivity(hop, start.rate));
-        peak = std::max(peak, growth.factor());
+        if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
         if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from) chaos_start = growth.logarithm();
-        bool const chaotic = growth.logarithm() - chaos_start > std::log(chaotic_growth);
-        if (elapsed > two_pi * chaos_to && (irregular || chaotic)) break;
-        std::size_t const k = next.zero >= 0 ? 0 : hops_to_return(orbit.hops, since);
+        if (elapsed > two_pi * chaos_to &&
+            (irregular || growth.logarithm() - chaos_start > std::log(chaotic_growth)))
+            break;
+        bool const returned = rebounds.repeat(orbit.hops, since);
+        std::size_t const k = next.zero >= 0 || !returned ? 0 : hops_to_return(orbit.hops, since);
         if (k > 0) {
             orbit.first = orbit.hops.size() - k;
             orbit.cycles = cycles_from(orbit.hops, orbit.first);

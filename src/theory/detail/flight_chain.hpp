@@ -69,6 +69,7 @@ struct NormalOrbit {
     bool in_contact = false;           ///< whether the mass never leaves the trough
     FlightChain::Start next;           ///< where the flight after the last one starts
     std::vector<std::size_t> left_at;  ///< hop that began at each zero of the normal force (memory)
+    std::vector<double> rebounds;      ///< of all hops (memory)
 };
 
 /// Sets `orbit` for a conveyor, reusing its memory.

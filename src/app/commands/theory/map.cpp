@@ -75,18 +75,19 @@ void run_theory_map(TheoryMapArguments const& options) {
     complete.set(y.input, y.from);
     require_complete(complete);
     auto const law = options.rolling.law();
+    auto const stem = output.parent_path() / output.stem();
+    std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     theory::Map map;
+    // Compressing the image takes as long as finding the lines.
+    auto const write_image = [&](theory::Map const& points) { view::write_theory_image(image, points); };
     try {
-        map = theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law});
+        map = theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law, .with_points = write_image});
     } catch (std::invalid_argument const& error) {
         throw core::InputError(
             fmt::format("the map leaves the range of the theory: {}; write other axes", error.what()));
     }
     if (law) warn_if_untested(theory::count_untested(fixed, map), map.points.size());
-    auto const stem = output.parent_path() / output.stem();
-    std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     store::write_theory_map(output, map, fixed);
-    view::write_theory_image(image, map);
     view::write_theory_boundaries(lines, map);
     fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(),
                theory::count_modes(map), map.boundaries.size());
