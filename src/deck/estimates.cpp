@@ -114,7 +114,7 @@ bool may_start_moving(scenario::Scenario const& scenario) {
 }
 
 int first_round_cycles(scenario::Scenario const& scenario) {
-    constexpr double fewest = 16, most = 24, cycles_times_half_width = 1.2;
+    constexpr double fewest = 18, most = 24, cycles_times_half_width = 1.35;
     scenario::MeasurementPlan const& plan = scenario.measure;
     double cycles = most;
     if (plan.packings > 1 && may_start_moving(scenario))

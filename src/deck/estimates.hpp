@@ -2,6 +2,8 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <optional>
+
 /// Estimates for a case before anything is simulated, from one-line formulas. SI units.
 namespace vibrotrough::deck {
 
@@ -56,14 +58,15 @@ struct Experience {
 /// the command. So do blocks, and layers that are shaken along the trough.
 bool may_start_moving(scenario::Scenario const& scenario);
 
-/// Cycles of a packing in the first round of a case: 24, and as few as 16 when an interval is asked for that
-/// is wider than 0.05.
+/// Cycles of a packing in the first round of a case: 24, and as few as 18 when an interval is asked for that
+/// is wider than 0.055.
 ///
 /// A start-up that nobody notices leaves an error of c / n in the mean of n cycles (Whitt, Management Science
 /// 37, 1991, 645-666): the wider the interval, the fewer cycles make the error small against it. In
-/// tests/measure/reference c is 0.43 at throw number 1.2 (8 to 24 cycles) and less than half of that at the
-/// five others, so that n = 1.2 / half_width leaves an error of at most a third of the half-width. Packings
-/// that start at rest need longer, and the interval of a single packing needs 20 cycles: both have 24.
+/// tests/measure/reference c is 0.43 at throw number 1.2 (8 to 24 cycles) and at most 0.22 at the five others
+/// (16 to 24 cycles), so that n = 1.35 / half_width leaves an error of at most a third of the half-width.
+/// Packings that start at rest need longer, and the interval of a single packing needs 20 cycles: both
+/// have 24.
 int first_round_cycles(scenario::Scenario const& scenario);
 
 /// The number of packings that a case will probably have: as many as make Student's interval as narrow as
