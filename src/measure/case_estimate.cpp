@@ -16,7 +16,7 @@ constexpr double stopping_share = 0.7;
 /// Level of the tests for drift and for branches: they are repeated after every round of packings.
 constexpr double test_level = 0.99;
 /// Level of the test for a drift that need not be large: its errors cost cycles only.
-constexpr double weak_test_level = 0.9;
+constexpr double weak_test_level = 0.95;
 /// Fewest packings of a group that can be compared with the other group.
 constexpr int fewest_of_group = 2;
 

@@ -47,7 +47,7 @@ struct CaseEstimate {
     double deviation_within = 0;
     Steadiness steadiness = Steadiness::steady;  ///< whether the mean may be used
     /// Mean over the second half of all cycles less that over the quarter before it, if it is significant at
-    /// 90 % over the packings, else 0. The mean of the case is off by about half of it, or more.
+    /// 95 % over the packings, else 0. The mean of the case is off by about half of it, or more.
     double drift = 0;
     std::optional<Branch> below{};  ///< packings that started below the expected speed, if there are any
     std::optional<Branch> above{};  ///< packings that started above it, if there are any
@@ -84,7 +84,7 @@ int common_startup_length(std::span<PackingValues const> packings);
 ///
 /// A drift need not be larger than the half-width wanted to spoil an interval: half of it is missing in the
 /// mean when it ends at once, and more when it goes on. It is therefore reported on its own, from a weaker
-/// test (paired t, 90 %) whose errors cost cycles only. That runs are continued while such a test fails is
+/// test (paired t, 95 %) whose errors cost cycles only. That runs are continued while such a test fails is
 /// the idea of Heidelberger & Welch, Operations Research 31, 1983, 1109-1144; that packings alone cannot
 /// help, because many short runs give a narrow interval about a wrong mean, is shown by Glynn & Heidelberger,
 /// ACM Transactions on Modeling and Computer Simulation 1, 1991, 3-23.

@@ -99,13 +99,13 @@ Case gaining(double gain) {
     return rising;
 }
 
-// The four gains scatter by s = 0.01 sqrt(2/3), and their mean is significant at 90 % beyond t(0.95; 3) s / 2
-// = 2.353363 x 0.0081650 / 2 = 0.0096075 (scipy.stats.t.ppf). The first quarter, 0.3 higher, does not count.
+// The four gains scatter by s = 0.01 sqrt(2/3), and their mean is significant at 95 % beyond t(0.975; 3) s /
+// 2 = 3.182446 x 0.0081650 / 2 = 0.012992 (scipy.stats.t.ppf). The first quarter, 0.3 higher, does not count.
 TEST(CaseEstimate, ADriftSmallerThanTheHalfWidthIsReported) {
-    EXPECT_NEAR(gaining(0.00965).estimate().drift, 0.00965, 1e-12);
-    EXPECT_NEAR(gaining(-0.00965).estimate().drift, -0.00965, 1e-12);
-    EXPECT_EQ(gaining(0.00955).estimate().drift, 0);
-    EXPECT_EQ(gaining(0.00965).estimate().steadiness, Steadiness::steady) << "it is smaller than 0.02";
+    EXPECT_NEAR(gaining(0.01305).estimate().drift, 0.01305, 1e-12);
+    EXPECT_NEAR(gaining(-0.01305).estimate().drift, -0.01305, 1e-12);
+    EXPECT_EQ(gaining(0.01295).estimate().drift, 0);
+    EXPECT_EQ(gaining(0.01305).estimate().steadiness, Steadiness::steady) << "it is smaller than 0.02";
     EXPECT_EQ((Case{{gaining(0.1).runs.front()}}.estimate().drift), 0) << "nothing to compare it with";
 }
 
