@@ -66,7 +66,7 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         total.largest_bytes += largest_bytes(prepared);
         total.engine_memory = std::max(total.engine_memory, expected_memory(prepared));
         total.packings += packings;
-        total.cycles += packings * expected_cycles(scenario.measure);
+        total.cycles += packings * expected_cycles(scenario);
     }
     return total;
 }

@@ -108,18 +108,33 @@ int expected_packings(scenario::MeasurementPlan const& plan, Experience const& e
     return std::min(packings, plan.max_packings);
 }
 
-double expected_cycles(scenario::MeasurementPlan const& plan, Experience const& experience) {
-    return std::min<double>(experience.cycles, plan.max_cycles);
+bool may_start_moving(scenario::Scenario const& scenario) {
+    return !is_clump(scenario.grains) && scenario.layer.block == scenario::Block::none &&
+           scenario.trough.vibration_angle > 0;
+}
+
+int first_round_cycles(scenario::Scenario const& scenario) {
+    constexpr double fewest = 18, most = 24, cycles_times_half_width = 1.35;
+    scenario::MeasurementPlan const& plan = scenario.measure;
+    double cycles = most;
+    if (plan.packings > 1 && may_start_moving(scenario))
+        cycles = std::clamp(std::round(cycles_times_half_width / plan.half_width), fewest, most);
+    return std::min(static_cast<int>(cycles), plan.max_cycles);
+}
+
+double expected_cycles(scenario::Scenario const& scenario, Experience const& experience) {
+    return std::min<double>(experience.cycles.value_or(first_round_cycles(scenario)),
+                            scenario.measure.max_cycles);
 }
 
 double expected_work(prepare::PreparedCase const& c, Experience const& experience) {
     double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
-    return c.grain_steps(settling / c.time.steps_per_cycle + expected_cycles(c.scenario.measure, experience));
+    return c.grain_steps(settling / c.time.steps_per_cycle + expected_cycles(c.scenario, experience));
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {
     scenario::MeasurementPlan const& plan = c.scenario.measure;
-    return bytes_of(c, expected_packings(plan), expected_cycles(plan));
+    return bytes_of(c, expected_packings(plan), expected_cycles(c.scenario));
 }
 
 double largest_bytes(prepare::PreparedCase const& c) {

@@ -2,6 +2,8 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <optional>
+
 /// Estimates for a case before anything is simulated, from one-line formulas. SI units.
 namespace vibrotrough::deck {
 
@@ -48,15 +50,31 @@ struct Experience {
     /// tests/measure/reference it was 0.01 to 0.04 at throw numbers from 0.8 to 3, in validation/demo the
     /// same.
     double deviation = 0.03;
-    double cycles = 24;  ///< of one packing; those of the first round of a campaign
+    std::optional<double> cycles{};  ///< of one packing; none: those of the first round of a campaign
 };
+
+/// Whether the grains of a case may get a speed before the drive begins. Clumps start at rest: LIGGGHTS 3.8.0
+/// sets the velocities of their spheres, but not those of the bodies, which then begin as slowly as without
+/// the command. So do blocks, and layers that are shaken along the trough.
+bool may_start_moving(scenario::Scenario const& scenario);
+
+/// Cycles of a packing in the first round of a case: 24, and as few as 18 when an interval is asked for that
+/// is wider than 0.055.
+///
+/// A start-up that nobody notices leaves an error of c / n in the mean of n cycles (Whitt, Management Science
+/// 37, 1991, 645-666): the wider the interval, the fewer cycles make the error small against it. In
+/// tests/measure/reference c is 0.43 at throw number 1.2 (8 to 24 cycles) and at most 0.22 at the five others
+/// (16 to 24 cycles), so that n = 1.35 / half_width leaves an error of at most a third of the half-width.
+/// Packings that start at rest need longer, and the interval of a single packing needs 20 cycles: both
+/// have 24.
+int first_round_cycles(scenario::Scenario const& scenario);
 
 /// The number of packings that a case will probably have: as many as make Student's interval as narrow as
 /// measure.half_width asks, from measure.packings to measure.max_packings.
 int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience = {});
 
 /// Number of cycles that one packing will take, at most max_cycles.
-double expected_cycles(scenario::MeasurementPlan const& plan, Experience const& experience = {});
+double expected_cycles(scenario::Scenario const& scenario, Experience const& experience = {});
 
 /// Grain-steps of one packing, including settling (five times the time of a free fall; less if another case
 /// has settled the same packing). A clump counts with the number of its spheres.

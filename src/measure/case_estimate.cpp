@@ -15,6 +15,8 @@ namespace {
 constexpr double stopping_share = 0.7;
 /// Level of the tests for drift and for branches: they are repeated after every round of packings.
 constexpr double test_level = 0.99;
+/// Level of the test for a drift that need not be large: its errors cost cycles only.
+constexpr double weak_test_level = 0.95;
 /// Fewest packings of a group that can be compared with the other group.
 constexpr int fewest_of_group = 2;
 
@@ -78,12 +80,20 @@ std::vector<double> means_of(std::span<PackingValues const> packings, int first,
     return means;
 }
 
+/// What the mean of each packing gains from cycles first ... middle to cycles middle ... last.
+std::vector<double> gains_of(std::span<PackingValues const> packings, int first, int middle, int last) {
+    std::vector<double> gains = means_of(packings, middle, last);
+    std::vector<double> const before = means_of(packings, first, middle);
+    for (std::size_t i = 0; i < gains.size(); ++i) gains[i] -= before[i];
+    return gains;
+}
+
 /// Whether the mean of a sample differs from zero.
-bool is_significant(std::span<double const> differences) {
+bool is_significant(std::span<double const> differences, double level) {
     auto const n = static_cast<double>(differences.size());
     if (n < 2) return false;
     return std::abs(mean_of(differences)) >
-           student_quantile(test_level, n - 1) * std::sqrt(variance_of(differences) / n);
+           student_quantile(level, n - 1) * std::sqrt(variance_of(differences) / n);
 }
 
 /// Whether the start-up takes half of the cycles and the mean of all packings still changes.
@@ -100,10 +110,17 @@ bool is_drifting(std::span<PackingValues const> packings, int discarded, double 
     int const n = static_cast<int>(packings.front().values.size());
     int const middle = (discarded + n) / 2;
     if (middle == discarded) return false;
-    std::vector<double> differences = means_of(packings, middle, n);
-    std::vector<double> const before = means_of(packings, discarded, middle);
-    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] -= before[i];
-    return std::abs(mean_of(differences)) > tolerated && is_significant(differences);
+    std::vector<double> const gains = gains_of(packings, discarded, middle, n);
+    return std::abs(mean_of(gains)) > tolerated && is_significant(gains, test_level);
+}
+
+/// See CaseEstimate::drift. The cycles that count do not depend on the start-up that is cut off: a drift
+/// makes it longer.
+double drift_of(std::span<PackingValues const> packings) {
+    int const n = static_cast<int>(packings.front().values.size());
+    if (n / 4 == n / 2) return 0;
+    std::vector<double> const gains = gains_of(packings, n / 4, n / 2, n);
+    return is_significant(gains, weak_test_level) ? mean_of(gains) : 0;
 }
 
 struct Group {
@@ -226,6 +243,7 @@ CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision co
         (packings[i].start == Start::below ? below : above).means.push_back(means[i]);
     estimate.below = below.branch(level);
     estimate.above = above.branch(level);
+    estimate.drift = drift_of(packings);
     double const tolerated = wanted.half_width;
     if (is_branching(below, above, tolerated)) {
         estimate.steadiness = Steadiness::branching;

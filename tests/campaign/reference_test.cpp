@@ -10,10 +10,13 @@
 namespace vibrotrough::campaign {
 namespace {
 
+/// Packings of two groups, 0: below, 1: above.
+using Groups = std::array<std::vector<std::vector<double>>, 2>;
+
 /// The cycles of real packings (tests/measure/reference), by throw number and start. Those that started at
 /// rest belong to the group below.
 struct Reference {
-    std::map<double, std::array<std::vector<std::vector<double>>, 2>> runs;  ///< 0: below, 1: above
+    std::map<double, Groups> runs;
 
     explicit Reference(char const* path = REFERENCE_FILE) {
         std::ifstream file(path);
@@ -62,7 +65,6 @@ class ReferenceTest : public CampaignFolder {
     }
 
     Reference const reference;
-    UntilPrecise policy;
 };
 
 TEST_F(ReferenceTest, HasPackingsOf150CyclesAtSixThrowNumbers) {
@@ -142,44 +144,125 @@ TEST_F(ReferenceTest, StartsOnBothSidesShortenTheStartUp) {
     EXPECT_LT(settle_both, settle_rest);
 }
 
-// Campaigns of packings drawn from the reference, with their start-up: how often the final interval contains
-// the mean of all packings over cycles 21 to 150. The packings of a case are drawn without replacement: the
-// reference is itself a sample, and drawing with replacement would add its own error to that of each case
-// (a factor of sqrt(1 + P / N) for P of N packings). The target, 93 to 98 %, is reached everywhere but
-// at 1.2, where the layer slows down by 0.03 between its 20th and its 100th cycle, which packings of 24
-// cycles cannot know. The cases share their packings, so that a fraction is known less well than 500 cases
-// suggest; hence 0.90. At 1.2 the bound only holds the program to not becoming worse.
+/// What became of cases whose packings were drawn from one reference.
+struct Drawn {
+    int cases = 0, with_mean = 0;
+    int covered = 0;        ///< intervals that contain the mean of all packings over cycles 21 to 150
+    int covered_known = 0;  ///< intervals that contain the truth, where it is known
+    double packings = 0, cycles = 0, half_width = 0;  ///< means
+
+    double coverage() const { return covered / static_cast<double>(with_mean); }
+};
+
+/// Cases of packings drawn without replacement, with their start-up, under the program's own policy.
+Drawn draw_cases(Groups const& groups, PlannedCase const& planned, int cases, double known_truth = 0) {
+    auto all = groups[0];
+    all.insert(all.end(), groups[1].begin(), groups[1].end());
+    double const truth = mean_and_error(all, 20, 150).first;
+    Drawn found{cases};
+    UntilPrecise const policy;
+    for (unsigned seed = 1; seed <= static_cast<unsigned>(cases); ++seed) {
+        std::mt19937 random(seed);
+        auto drawn = groups;
+        for (auto& group : drawn) std::shuffle(group.begin(), group.end(), random);
+        SimulatedEnd const end =
+            simulate_case(policy, planned, [&](int number) -> std::vector<double> const& {
+                return drawn.at(number % 2 == 1 ? 0 : 1).at(static_cast<std::size_t>(number - 1) / 2);
+            });
+        found.packings += end.estimate.packings / static_cast<double>(cases);
+        found.cycles += end.all_cycles() / cases;
+        if (!has_mean(end.outcome)) continue;
+        ++found.with_mean;
+        auto const covers = [&](double value) {
+            return std::abs(*end.estimate.mean - value) <= *end.estimate.half_width ? 1 : 0;
+        };
+        found.covered += covers(truth);
+        found.covered_known += covers(known_truth);
+        found.half_width += *end.estimate.half_width;
+    }
+    found.half_width /= found.with_mean;
+    return found;
+}
+
+// How often the final interval contains the mean of all packings over cycles 21 to 150. The packings of a
+// case are drawn without replacement, so that none counts twice. The target is 93 to 98 %. A reference of 40
+// packings shows a coverage to about 0.03 only (see the next test), hence 0.90. At 1.2 the layer slows down
+// by 0.03 between its 10th and its 100th cycle, which short packings cannot know; there the bound only holds
+// the program to not becoming worse.
 TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     constexpr int cases = 500;
-    for (auto const& [throw_number, groups] : reference.runs) {
-        auto all = groups[0];
-        all.insert(all.end(), groups[1].begin(), groups[1].end());
-        double const truth = mean_and_error(all, 20, 150).first;
-        for (double const half_width : {0.03, 0.02}) {
-            PlannedCase const one = asking(half_width);
-            int covered = 0, with_mean = 0;
-            double packings = 0, cycles = 0;
-            for (unsigned seed = 1; seed <= cases; ++seed) {
-                std::mt19937 random(seed);
-                auto drawn = groups;
-                for (auto& group : drawn) std::shuffle(group.begin(), group.end(), random);
-                SimulatedEnd const end =
-                    simulate_case(policy, one, [&](int number) -> std::vector<double> const& {
-                        return drawn.at(number % 2 == 1 ? 0 : 1).at(static_cast<std::size_t>(number - 1) / 2);
-                    });
-                packings += end.estimate.packings / static_cast<double>(cases);
-                cycles += end.all_cycles() / cases;
-                if (!has_mean(end.outcome)) continue;
-                ++with_mean;
-                covered += std::abs(*end.estimate.mean - truth) <= *end.estimate.half_width ? 1 : 0;
-            }
+    for (double const half_width : {0.075, 0.03, 0.02}) {
+        for (auto const& [throw_number, groups] : reference.runs) {
+            Drawn const found = draw_cases(groups, asking(half_width), cases);
             fmt::print(
-                "Gamma {:3}, half-width {}: mean {:.4f}, covered {:.3f} of {} cases with a mean, packings "
-                "{:.1f}, cycles {:.0f}\n",
-                throw_number, half_width, truth, covered / static_cast<double>(with_mean), with_mean,
-                packings, cycles);
-            EXPECT_GE(covered, (throw_number == 1.2 ? 0.77 : 0.90) * with_mean) << throw_number;
+                "Gamma {:3}, half-width {:5}: covered {:.3f} of {} cases with a mean, half-width {:.4f}, "
+                "packings {:.1f}, cycles {:.0f}\n",
+                throw_number, half_width, found.coverage(), found.with_mean, found.half_width, found.packings,
+                found.cycles);
+            EXPECT_GE(found.coverage(), throw_number == 1.2 ? 0.81 : 0.90) << throw_number;
         }
+    }
+}
+
+// The examples of src/measure/README.md: the first packings of the table, below and above in turn.
+TEST_F(ReferenceTest, TheExamplesOfTheReadme) {
+    PlannedCase const one = asking(0.03);
+    for (auto const& [throw_number, packings, cycles, mean, half_width] :
+         {std::tuple{2.0, 4, 24, 0.825, 0.021}, {1.2, 12, 96, 0.227, 0.022}}) {
+        Groups const& groups = reference.runs.at(throw_number);
+        SimulatedEnd const end =
+            simulate_case(UntilPrecise{}, one, [&](int number) -> std::vector<double> const& {
+                return groups.at(number % 2 == 1 ? 0 : 1).at(static_cast<std::size_t>(number - 1) / 2);
+            });
+        EXPECT_EQ(end.estimate.packings, packings);
+        EXPECT_EQ(end.cycles, cycles);
+        EXPECT_NEAR(end.estimate.mean.value(), mean, 5e-4);
+        EXPECT_NEAR(end.estimate.half_width.value(), half_width, 5e-4);
+    }
+}
+
+/// The sum of two first-order autoregressive processes with the deviation and the correlation of the cycles
+/// at throw number 1.7: 0.0489, of whose square 68 % decay with 115 cycles and the rest with 6. The mean is
+/// 0.
+std::vector<double> wander(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    std::vector<double> values(150, 0.0);
+    for (auto const& [share, time] : {std::pair{0.68, 115.0}, {0.32, 6.0}}) {
+        double const rho = std::exp(-1 / time), deviation = 0.0489 * std::sqrt(share);
+        double noise = deviation * normal(random);
+        for (double& value : values) {
+            value += noise;
+            noise = rho * noise + deviation * std::sqrt(1 - rho * rho) * normal(random);
+        }
+    }
+    return values;
+}
+
+// How far the coverage that a reference of 40 packings shows may be from the true one: the same drawing from
+// references that are made up, so that the truth is known. The true coverage must be 93 to 98 % (of 6000
+// cases, known to 0.005, because the cases of a reference resemble each other); what the references show is
+// printed, and must be right in the mean to 0.03.
+TEST_F(ReferenceTest, AReferenceOfFortyPackingsShowsACoverageToThreePercent) {
+    constexpr int references = 100, cases = 60;
+    std::mt19937 random(1);
+    for (double const half_width : {0.03, 0.02}) {
+        double shown = 0, squares = 0, truly = 0;
+        for (int i = 0; i < references; ++i) {
+            Groups groups;
+            for (auto& group : groups)
+                for (int packing = 0; packing < 20; ++packing) group.push_back(wander(random));
+            Drawn const found = draw_cases(groups, asking(half_width), cases);
+            shown += found.coverage() / references;
+            squares += std::pow(found.coverage(), 2) / references;
+            truly += found.covered_known / static_cast<double>(found.with_mean) / references;
+        }
+        double const sampling = shown * (1 - shown) / cases;
+        double const scatter = std::sqrt(std::max(0.0, squares - shown * shown - sampling));
+        fmt::print("half-width {}: true coverage {:.3f}; shown by a reference {:.3f} +- {:.3f}\n", half_width,
+                   truly, shown, scatter);
+        EXPECT_GE(truly, 0.93 - 0.01);
+        EXPECT_LE(truly, 0.98 + 0.01);
+        EXPECT_NEAR(shown, truly, 0.03);
     }
 }
 

@@ -20,14 +20,15 @@ class UntilPreciseTest : public CampaignFolder {
         return changed;
     }
 
-    /// The packings of a process by number, always the same for one seed.
-    static auto packings_of(Process const& process, unsigned seed) {
-        return [process, seed, made = std::map<int, std::vector<double>>()](
+    /// The packings of a process by number, always the same for one seed, times `scale`.
+    static auto packings_of(Process const& process, unsigned seed, double scale = 1) {
+        return [process, seed, scale, made = std::map<int, std::vector<double>>()](
                    int number) mutable -> std::vector<double> const& {
             auto& values = made[number];
             if (values.empty()) {
                 std::mt19937 random(1000 * seed + static_cast<unsigned>(number));
                 values = process.make(200, random);
+                for (double& value : values) value *= scale;
             }
             return values;
         };
@@ -48,6 +49,23 @@ TEST_F(UntilPreciseTest, BeginsWithTheLeastNumberOfPackingsRoundedUpToPairs) {
     EXPECT_EQ(policy.decide({&short_runs, {}, {}, {}}).wanted.front().cycles, 20);
     PlannedCase const few = asking(0.02, 3, 3);
     EXPECT_EQ(policy.decide({&few, {}, {}, {}}).wanted.size(), 3u);
+}
+
+// 1.35 / half_width cycles, from 18 to 24; 24 for a single packing, whose interval needs 20, and from rest.
+TEST_F(UntilPreciseTest, WideIntervalsNeedShorterPackings) {
+    auto const first_cycles = [&](PlannedCase const& one) {
+        return policy.decide({&one, {}, {}, {}}).wanted.front().cycles;
+    };
+    for (auto const& [half_width, cycles] :
+         {std::pair{0.001, 24}, {0.05, 24}, {0.056, 24}, {0.0675, 20}, {0.075, 18}, {1.0, 18}})
+        EXPECT_EQ(first_cycles(asking(half_width)), cycles) << half_width;
+    EXPECT_EQ(first_cycles(asking(0.5, 1)), 24);
+    EXPECT_EQ(first_cycles(asking(0.5, 4, 24, 12)), 12) << "max_cycles";
+    PlannedCase cubes = asking(0.5);
+    prepare::PreparedCase prepared = *cubes.prepared;
+    prepared.scenario.grains.shape = "cube";
+    cubes.prepared = std::make_shared<prepare::PreparedCase const>(prepared);
+    EXPECT_EQ(first_cycles(cubes), 24);
 }
 
 // Odd packings start 0.25 below the expected efficiency (at rest if that is below zero), even ones 0.05
@@ -153,6 +171,28 @@ TEST_F(UntilPreciseTest, ContinuesPackingsThatStillDrift) {
     EXPECT_EQ(never.cycles, 192);
 }
 
+// All packings gain 0.015 after their 12th cycle, less than the half-width wanted (0.02), and differ by -a,
+// -a, a, a. The interval of four is t(0.9825; 3) a sqrt(4/3) / 2 = 2.12 a: with a = 0.002 it leaves room for
+// half of the drift (0.0042 + 0.0075), with a = 0.007 it does not (0.0148 + 0.0075), and the packings are
+// continued, once.
+TEST_F(UntilPreciseTest, ContinuesPackingsWhoseIntervalLeavesNoRoomForTheirDrift) {
+    PlannedCase const one = asking(0.02);
+    for (auto const& [apart, cycles] : {std::pair{0.002, 24}, {0.007, 48}}) {
+        std::map<int, std::vector<double>> made;
+        auto const series = [&made, apart = apart](int number) -> std::vector<double> const& {
+            for (int i = 0; made[number].size() < 200; ++i)
+                made[number].push_back((i < 12 ? 0.5 : 0.515) + (number <= 2 ? -apart : apart) +
+                                       (i % 2 == 0 ? 1e-4 : -1e-4));
+            return made[number];
+        };
+        SimulatedEnd const end = simulate_case(policy, one, series);
+        EXPECT_EQ(end.outcome, core::Outcome::finished);
+        EXPECT_EQ(end.cycles, cycles) << apart;
+        EXPECT_EQ(end.estimate.packings, 4);
+        EXPECT_NEAR(*end.estimate.mean, 0.515, 1e-6) << "the start-up is cut off";
+    }
+}
+
 TEST_F(UntilPreciseTest, EndsAsNotPreciseAtTheLimits) {
     PlannedCase const few = asking(0.02, 4, 10);
     SimulatedEnd const end = simulate_case(policy, few, packings_of({}, 3));
@@ -211,24 +251,28 @@ struct Coverage {
 // The 95 % interval of a case must contain the true mean, here 0, in 93 to 98 % of all cases at the moment
 // when the policy stops, with packings added until the interval is narrow enough. Of 1500 cases the fraction
 // scatters by 0.6 %, so that 1.2 % are allowed beyond. The mean width is compared with the interval that
-// known variances give for the same packings and the cycles kept, z s / sqrt(P); at most 1.4.
-TEST_F(UntilPreciseTest, TheFinalIntervalCoversTheTruth) {
+// known variances give for the same packings and the cycles kept, z s / sqrt(P); at most 1.4. The values are
+// scaled so that half-widths of 0.03 and 0.075 are asked for, whose first rounds have 24 and 18 cycles.
+class FinalIntervalTest : public UntilPreciseTest, public ::testing::WithParamInterface<double> {};
+
+TEST_P(FinalIntervalTest, CoversTheTruth) {
     constexpr int cases = 1500;
+    PlannedCase const one = asking(GetParam());
     std::vector<Process> const processes{{0, 0}, {0.5, 0}, {0.8, 0}, {0.95, 0},
                                          {0, 1}, {0.5, 1}, {0.8, 1}, {0.5, 3}};
     for (Process const& process : processes) {
         double const deviation =
             std::sqrt(process.variance_of_mean(24) * (1 + process.offset * process.offset));
         for (double const relative : {1.6, 1.0, 0.6}) {
-            PlannedCase const one = asking(relative * deviation);
+            double const scale = GetParam() / (relative * deviation);
             Coverage found;
             for (unsigned seed = 1; seed <= cases; ++seed) {
-                SimulatedEnd const end = simulate_case(policy, one, packings_of(process, seed));
+                SimulatedEnd const end = simulate_case(policy, one, packings_of(process, seed, scale));
                 if (!end.estimate.half_width) continue;
-                double const known =
-                    1.96 * std::sqrt((process.variance_of_mean(end.estimate.measured) +
-                                      std::pow(process.offset, 2) * process.variance_of_mean(24)) /
-                                     end.estimate.packings);
+                double const known = 1.96 * scale *
+                                     std::sqrt((process.variance_of_mean(end.estimate.measured) +
+                                                std::pow(process.offset, 2) * process.variance_of_mean(24)) /
+                                               end.estimate.packings);
                 found.covered += std::abs(*end.estimate.mean) <= *end.estimate.half_width ? 1.0 / cases : 0;
                 found.width += *end.estimate.half_width / known / cases;
                 found.packings += end.estimate.packings / static_cast<double>(cases);
@@ -243,6 +287,8 @@ TEST_F(UntilPreciseTest, TheFinalIntervalCoversTheTruth) {
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(UntilPreciseTest, FinalIntervalTest, ::testing::Values(0.03, 0.075));
 
 }  // namespace
 }  // namespace vibrotrough::campaign

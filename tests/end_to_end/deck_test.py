@@ -45,7 +45,7 @@ class Deck(EndToEndTest):
             for name in ("in.liggghts", "settle.liggghts", "trough.stl"):
                 self.assertEqual((by_hand / name).read_bytes(), (driven / name).read_bytes())
             cycles, driven_cycles = self.run_by_hand(by_hand), driven / "cycles.csv"
-            self.assertEqual(count_cycles(cycles), 24)
+            self.assertEqual(count_cycles(cycles), 18, "the first round where a half-width of 1 is asked for")
             # The same program on the same machine with the same input: equal, digit for digit.
             self.assertEqual(cycles.read_text(), driven_cycles.read_text(), "the driver's cycles are not those run by hand")
 

@@ -89,6 +89,26 @@ TEST(CaseEstimate, ACommonDriftIsNotSteady) {
     EXPECT_EQ(drifting.estimate().steadiness, Steadiness::drifting);
 }
 
+/// Packings whose second half is higher than the quarter before it by `gain` + {-1, 0, 1, 0} x 0.01.
+Case gaining(double gain) {
+    Case rising;
+    for (double const own : {gain - 0.01, gain, gain + 0.01, gain}) {
+        rising.runs.emplace_back(24, 0.5);
+        for (std::size_t i = 0; i < 24; ++i) rising.runs.back()[i] += i < 6 ? 0.3 : i < 12 ? 0 : own;
+    }
+    return rising;
+}
+
+// The four gains scatter by s = 0.01 sqrt(2/3), and their mean is significant at 95 % beyond t(0.975; 3) s /
+// 2 = 3.182446 x 0.0081650 / 2 = 0.012992 (scipy.stats.t.ppf). The first quarter, 0.3 higher, does not count.
+TEST(CaseEstimate, ADriftSmallerThanTheHalfWidthIsReported) {
+    EXPECT_NEAR(gaining(0.01305).estimate().drift, 0.01305, 1e-12);
+    EXPECT_NEAR(gaining(-0.01305).estimate().drift, -0.01305, 1e-12);
+    EXPECT_EQ(gaining(0.01295).estimate().drift, 0);
+    EXPECT_EQ(gaining(0.01305).estimate().steadiness, Steadiness::steady) << "it is smaller than 0.02";
+    EXPECT_EQ((Case{{gaining(0.1).runs.front()}}.estimate().drift), 0) << "nothing to compare it with";
+}
+
 // Independent wanderers drift up and down; together they do not.
 TEST(CaseEstimate, WanderingIsNoCommonDrift) {
     Case wandering;

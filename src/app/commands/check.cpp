@@ -75,7 +75,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
             {"bulk_density_kg_per_m3", bulk_density(grains)},
             {"findings", findings},
             {"expected_packings", deck::expected_packings(plan)},
-            {"expected_cycles_per_packing", deck::expected_cycles(plan)},
+            {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
             {"expected_grain_steps", work},
             {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
 }

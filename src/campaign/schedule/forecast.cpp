@@ -49,7 +49,7 @@ Learned learn(std::vector<CaseOverview> const& cases) {
         if (!one.result || one.result->packings == 0) continue;
         scenario::MeasurementPlan const& wanted = one.planned->scenario().measure;
         double const expected = deck::expected_packings(wanted, learned.experience) *
-                                deck::expected_cycles(wanted, learned.experience);
+                                deck::expected_cycles(one.planned->scenario(), learned.experience);
         learned.ratios.push_back(std::log(one.result->cycles / expected));
     }
     return learned;

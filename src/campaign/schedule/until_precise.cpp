@@ -24,13 +24,6 @@ double rounded(double efficiency) {
     return std::round(1000 * efficiency) / 1000;
 }
 
-/// Clumps start at rest: LIGGGHTS 3.8.0 sets the velocities of their spheres, but not those of the bodies,
-/// which then begin as slowly as without the command.
-bool may_start_moving(scenario::Scenario const& scenario) {
-    return !is_clump(scenario.grains) && scenario.layer.block == scenario::Block::none &&
-           scenario.trough.vibration_angle > 0;
-}
-
 /// The state of the replay: packings with their starts, and the cycles that all of them have.
 struct Round {
     std::vector<deck::PackingPlan> packings;
@@ -65,7 +58,7 @@ class Replay {
 
   private:
     /// Cycles of a packing in the first round.
-    int first_cycles() const { return static_cast<int>(deck::expected_cycles(plan_)); }
+    int first_cycles() const { return deck::first_round_cycles(prepared_.scenario); }
 
     /// The result, or the packings whose run was cut when its cycles were already enough.
     CaseDecision finish(Round const& round) const {
@@ -80,7 +73,7 @@ class Replay {
 
     /// The efficiency that the theory predicts; 0 where it has no answer.
     double predicted() const {
-        if (!may_start_moving(prepared_.scenario)) return 0;
+        if (!deck::may_start_moving(prepared_.scenario)) return 0;
         auto const motion = prepare::solve(prepared_.point_mass);
         return motion.converged ? motion.velocity_efficiency : 0;
     }
@@ -88,7 +81,7 @@ class Replay {
     void extend(Round& round, int packings, double expected) const {
         for (int number = round.count() + 1; number <= std::min(packings, plan_.max_packings); ++number) {
             deck::PackingPlan packing{number, round.cycles, {}, first_cycles()};
-            if (may_start_moving(prepared_.scenario) && plan_.max_packings > 1)
+            if (deck::may_start_moving(prepared_.scenario) && plan_.max_packings > 1)
                 packing.start_efficiency = start(number, expected);
             round.packings.push_back(packing);
         }
@@ -114,12 +107,18 @@ class Replay {
     /// The next round; false when the case ends with this one.
     bool advance(Round& round) const {
         if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
-        if (evaluate::outcome_of(estimate_, wanted_.half_width) == core::Outcome::finished) return false;
+        if (evaluate::outcome_of(estimate_, wanted_.half_width) == core::Outcome::finished)
+            return !leaves_room_for_drift() && lengthen(round);
         if (round.count() >= plan_.max_packings) {
             return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
         }
         if (round.count() > 1 && cycles_are_cheaper(round) && lengthen(round)) return true;
         return grow(round, packings_of_next_round(round));
+    }
+
+    /// Whether the interval is narrow enough even if half of the drift that is seen is missing in the mean.
+    bool leaves_room_for_drift() const {
+        return estimate_.half_width.value_or(0) + std::abs(estimate_.drift) / 2 <= wanted_.half_width;
     }
 
     /// For a case that is not steady: more cycles, and at the end enough packings to report both branches.

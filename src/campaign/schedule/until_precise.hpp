@@ -13,15 +13,17 @@ namespace vibrotrough::campaign {
 /// The work is done in rounds. All packings of a round have the same number of cycles, and the next round is
 /// decided only when all of them have them, from these cycles alone. So the answer does not depend on which
 /// packing happened to end first, and it can be found again from the files after a crash.
-/// - The first round has measure.packings packings (one, or an even number) of 24 cycles. They start in turn
-///   below and above the speed that the theory predicts; those of later rounds below and above the mean so
-///   far. Clumps and blocks start at rest.
+/// - The first round has measure.packings packings (one, or an even number) of 24 cycles, or fewer for wide
+///   intervals (deck::first_round_cycles). They start in turn below and above the speed that the theory
+///   predicts; those of later rounds below and above the mean so far. Clumps and blocks start at rest.
 /// - While the case is not steady, all packings are continued to twice the number of cycles, up to
 ///   measure.max_cycles. If packings that started below and above still differ then, at least four of each
 ///   kind are run, and the case ends as bistable-or-slow.
 /// - A steady case whose interval is too wide gets as many packings as it probably needs, at least 20 % more
 ///   and at most twice as many. It gets cycles instead where they cost less: where the packings hardly differ
 ///   by more than the fluctuations within a run explain, a longer run saves the start-up of another.
+/// - Where an interval is narrow enough, but not together with half of a drift that is seen
+///   (measure::CaseEstimate::drift), all packings are continued first.
 /// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
 ///   measure.max_core_time do not allow another round.
 class UntilPrecise : public Policy {

@@ -5,15 +5,17 @@ dropped, Student's t over the five means. The program is then asked for the half
 one campaign for all cases. Both run one engine at a time on the same machine in the same minutes, case by case in turn where that
 is possible; the processor time of the engines is compared, settling included.
 
-    VIBROTROUGH_BENCH_CASES=6 ctest --preset release -R bench.Precision -V      # about ten minutes
+    VIBROTROUGH_BENCH_CASES=6 ctest --preset release -R bench.Precision -V      # about four minutes
 
-Two questions are put to the program. First, the half-width that the user happened to reach in each case: five packings know their
-scatter so badly that it comes out much too small in some cases, which then are expensive (the mean of 1 / s^2 over samples of
-five is twice 1 / sigma^2). Second, one half-width for all cases, the widest of the user's: a campaign in which every case is at
-least that precise, for which the user's plan has to suit the worst case.
+The program is asked for one half-width in all cases, the widest of the user's: a campaign in which every case is at least that
+precise, for which the user's plan has to suit the worst case.
 
 VIBROTROUGH_BENCH_CASES=24 runs all cases (throw numbers 1 to 3, three vibration angles); without the variable nothing is run.
-VIBROTROUGH_BENCH_TWICE=1 repeats the comparison at half of the half-width, for which the user needs four times the packings.
+VIBROTROUGH_BENCH_TWICE=1 asks for half of the half-width as well. The user then needs 13 packings, because t(0.975; 12) / sqrt(13) is
+half of t(0.975; 4) / sqrt(5); their cost is worked out from that of the five.
+VIBROTROUGH_BENCH_EACH=1 also asks for the half-width that the user happened to reach in each case: five packings know their scatter so
+badly that it comes out much too small in some cases, which then are expensive (the mean of 1 / s^2 over samples of five is twice
+1 / sigma^2).
 """
 
 import json
@@ -29,9 +31,12 @@ from pathlib import Path
 
 PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
 HERE = Path(__file__).resolve().parent
-STUDENT = {5: 2.776, 20: 2.093}  # t(0.975; P - 1)
+PACKINGS = 5
+PACKINGS_FOR_HALF = 13
+STUDENT = 2.776  # t(0.975; 4)
 CASES = int(os.environ.get("VIBROTROUGH_BENCH_CASES", "0"))
 TWICE = os.environ.get("VIBROTROUGH_BENCH_TWICE", "") == "1"
+EACH = os.environ.get("VIBROTROUGH_BENCH_EACH", "") == "1"
 
 THROW_NUMBERS = [1.1, 1.3, 1.5, 1.7, 1.9, 2.2, 2.6, 3.0]
 TANGENTS = [0.35, 0.5, 0.7]
@@ -66,15 +71,15 @@ class PrecisionBench(unittest.TestCase):
         deck.write_text("\n".join(plain) + "\n")
         (folder / "control.in").write_text("variable stop equal ${done}>=60\n")
 
-    def careful_user(self, points, packings):
+    def careful_user(self, points):
         """Mean, half-width and core time of each case."""
         decks = self.folder / "decks"
-        campaign = self.campaign(points, f"packings = {packings}\nmax_cycles = 60")
+        campaign = self.campaign(points, f"packings = {PACKINGS}\nmax_cycles = 60")
         subprocess.run([PROGRAM, "deck", str(campaign), "--output", str(decks)], check=True, capture_output=True)
         found = []
         for number, point in enumerate(points, start=1):
             means, seconds = [], 0.0
-            for packing in range(1, packings + 1):
+            for packing in range(1, PACKINGS + 1):
                 folder = decks / f"case-{number:03d}" / f"packing-{packing}"
                 self.make_plain(folder)
                 for deck in ("settle.liggghts", "in.liggghts"):
@@ -89,16 +94,14 @@ class PrecisionBench(unittest.TestCase):
                 eta = [(b - a) / stroke for a, b in zip(x, x[1:])]
                 self.assertEqual(len(eta), 60)
                 means.append(sum(eta[10:]) / len(eta[10:]))
-            mean = sum(means) / packings
-            deviation = math.sqrt(sum((one - mean) ** 2 for one in means) / (packings - 1))
-            found.append((mean, STUDENT[packings] * deviation / math.sqrt(packings), seconds))
-            print(f"user    {point}: {mean:.3f} +- {found[-1][1]:.3f}, {seconds:.0f} core-seconds", flush=True)
+            found.append((statistics.mean(means), STUDENT * statistics.stdev(means) / math.sqrt(PACKINGS), seconds))
+            print(f"user    {point}: {found[-1][0]:.3f} +- {found[-1][1]:.3f}, {seconds:.0f} core-seconds", flush=True)
         return found
 
     def ours(self, name, points, half_widths):
         wanted = [dict(point, **{"measure.half_width": max(width, 1e-4)}) for point, width in zip(points, half_widths)]
         campaign = self.campaign(wanted, "packings = 4")
-        output = self.folder / f"runs-{name}"
+        output = self.folder / f"runs-{name.split()[0]}"
         done, seconds = timed(PROGRAM, "run", str(campaign), "--output", str(output), "--jobs", "1", "--quiet")
         self.assertIn(done.returncode, (0, 1), done.stderr)
         table = json.loads(subprocess.run([PROGRAM, "compare", str(output), "--json"], capture_output=True, text=True).stdout)
@@ -107,23 +110,17 @@ class PrecisionBench(unittest.TestCase):
                   f"{row['efficiency_dem_half_width']} from {row['packings']} packings, {row['outcome']}", flush=True)  # fmt: skip
         return table, seconds
 
-    def compare(self, points, packings):
-        self.settling = 0.0
-        user = self.careful_user(points, packings)
-        spent = sum(cost for _, _, cost in user)
-        cycles = len(user) * packings * 60
-        print(f"careful user: {spent:.0f} core-seconds, {self.settling:.0f} of them for settling; {cycles} cycles", flush=True)
-        widths = [half_width for _, half_width, _ in user]
-        for name, asked in (("widest", [max(widths)] * len(widths)), ("each", widths)):
-            table, seconds = self.ours(name, points, asked)
-            apart = sum(abs(mean - row["efficiency_dem"]) > math.hypot(width, row["efficiency_dem_half_width"])
-                        for (mean, width, _), row in zip(user, table) if row["efficiency_dem"] is not None)  # fmt: skip
-            finished = [row for row in table if row["outcome"] == "finished"]
-            reached = [row["efficiency_dem_half_width"] / width for row, width in zip(table, asked) if row in finished]
-            run = sum((row["cycles_measured"] or 0) + (row["cycles_discarded"] or 0) for row in table)
-            print(f"{name} half-width, {len(points)} cases: careful user {spent:.0f} core-seconds, program {seconds:.0f}: "
-                  f"{seconds / spent:.2f} of it, {run} cycles; {len(finished)} finished, with {statistics.median(reached or [math.nan]):.2f} of the half-width "
-                  f"asked for (median); {apart} means differ by more than both intervals together", flush=True)  # fmt: skip
+    def compare(self, name, user, points, asked, spent):
+        """Prints what the program spends for these half-widths, beside what the user `spent`."""
+        table, seconds = self.ours(name, points, asked)
+        apart = sum(abs(mean - row["efficiency_dem"]) > math.hypot(width, row["efficiency_dem_half_width"])
+                    for (mean, width, _), row in zip(user, table) if row["efficiency_dem"] is not None)  # fmt: skip
+        finished = [row for row in table if row["outcome"] == "finished"]
+        reached = [row["efficiency_dem_half_width"] / width for row, width in zip(table, asked) if row in finished]
+        run = sum((row["cycles_measured"] or 0) + (row["cycles_discarded"] or 0) for row in table)
+        print(f"{name} half-width, {len(points)} cases: careful user {spent:.0f} core-seconds, program {seconds:.0f}: "
+              f"{seconds / spent:.2f} of it, {run} cycles; {len(finished)} finished, with {statistics.median(reached or [math.nan]):.2f} of the half-width "
+              f"asked for (median); {apart} means differ by more than both intervals together", flush=True)  # fmt: skip
 
     def test_cost_of_what_a_careful_user_reaches(self):
         temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-precision-")
@@ -133,12 +130,16 @@ class PrecisionBench(unittest.TestCase):
         points = every[:: max(1, len(every) // CASES)][:CASES]
         # The engine is probed beforehand: it is probed once for all campaigns.
         subprocess.run([PROGRAM, "probe-engine"], capture_output=True)
-        self.compare(points, 5)
+        self.settling = 0.0
+        user = self.careful_user(points)
+        spent = sum(cost for _, _, cost in user)
+        print(f"careful user: {spent:.0f} core-seconds, {self.settling:.0f} of them for settling; {len(user) * PACKINGS * 60} cycles", flush=True)
+        widths = [half_width for _, half_width, _ in user]
+        self.compare("widest", user, points, [max(widths)] * len(widths), spent)
         if TWICE:
-            temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-precision-")
-            self.addCleanup(temporary.cleanup)
-            self.folder = Path(temporary.name)
-            self.compare(points, 20)
+            self.compare("half of the widest", user, points, [max(widths) / 2] * len(widths), spent * PACKINGS_FOR_HALF / PACKINGS)
+        if EACH:
+            self.compare("each", user, points, widths, spent)
 
 
 if __name__ == "__main__":
