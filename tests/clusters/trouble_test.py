@@ -166,8 +166,7 @@ class Trouble(EndToEndTest):
         driver = self.start_campaign(campaign)
         tables = wait_until(lambda: list(self.output.glob("cases/*/packing-1/cycles.csv")), "the packing ran", driver)
         wait_until(lambda: count_cycles(tables[0]) > 0, "a cycle was simulated", driver)
-        (engine,) = engines_in(self.output)
-        self.assertTrue(pause(engine))
+        engine = wait_until(lambda: next(filter(pause, engines_in(self.output)), None), "an engine was stopped", driver)
         log = self.output / "campaign.log"
         wait_until(lambda: "no cycle for" in log.read_text(), "the log says so", driver)
         seen = count_cycles(tables[0])

@@ -319,6 +319,7 @@ class Security(EndToEndTest):
         campaign = self.write_campaign(LONG)
         driver = self.start_campaign(campaign)
         self.wait_for_cycles(driver, 6)
+        wait_until(lambda: engines_in(self.output), "an engine worked; none does between two rounds", driver)
         driver.send_signal(signal.SIGKILL)
         driver.wait()
         orphans = engines_in(self.output)
