@@ -91,7 +91,8 @@ std::string HelpFormatter::make_description(CLI::App const* command) const {
 }
 
 std::string HelpFormatter::make_footer(CLI::App const* command) const {
-    return reflowed(command->get_footer());
+    // CLI11 2.3 puts a blank line before it and 2.4 does not; make_help() removes one too many.
+    return "\n" + reflowed(command->get_footer());
 }
 
 }  // namespace vibrotrough::app

@@ -73,7 +73,7 @@ class WrongInput(EndToEndTest):
             (("conquer",), "there is no command 'conquer'"),
             (("run",), "CAMPAIGN.toml is required"),
             (("run", campaign, "--fast"), "--fast"),
-            (("run", campaign, "--jobs", "0"), "--jobs: Value 0 not in range 1 to 4096"),
+            (("run", campaign, "--jobs", "0"), "--jobs: Value 0 not in range"),
             (("run", campaign, "--jobs", "two"), "--jobs"),
             (("deck", campaign), "--output is required"),
             (("compare", self.folder, "--csv", "--json"), "--json excludes --csv"),
@@ -102,7 +102,8 @@ class WrongInput(EndToEndTest):
 
     def test_help_of_every_command_fits_and_has_an_example(self):
         def commands(*path):
-            listed = self.call(*path, "--help").stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
+            # The list ends where a line is not indented: CLI11 2.4 leaves no blank line behind it.
+            listed = re.match(r"(?: .*\n)*", self.call(*path, "--help").stdout.partition("Subcommands:\n")[2])[0]
             return [(*path, name) for name in re.findall(r"^  (\S+)", listed, re.MULTILINE)]
 
         every = [command for command in commands() if command != ("theory",)] + commands("theory")
