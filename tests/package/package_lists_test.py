@@ -49,6 +49,6 @@ class PackageLists(unittest.TestCase):
 if __name__ == "__main__":
     # Packages may be known to dpkg only, when the lists of apt were removed as in a small container.
     if not shutil.which("apt-get") or subprocess.run(["apt-cache", "show", "liggghts"], capture_output=True).returncode != 0:
-        print("there is no apt that knows liggghts: 'apt-get update' first")
+        print("apt does not know the package liggghts; run 'apt-get update' first")
         sys.exit(SKIPPED)
     unittest.main()

@@ -91,9 +91,8 @@ class PackingRun {
     std::string started_;
     std::string engine_certificate_;
     int cycles_ = 0;
-    double last_cycle_at_ =
-        0;          ///< s, `wall_time` when the last of them was seen, or when the engine was started
-    int stop_ = 0;  ///< cycle after which the engine ends
+    double last_cycle_at_ = 0;  ///< s, `wall_time` when the last was seen or the engine started
+    int stop_ = 0;              ///< cycle after which the engine ends
     std::optional<measure::PackingEstimate> estimate_;
     std::optional<evaluate::EvaluatedPacking> evaluated_;
     int sealed_cycle_ = 0;
