@@ -6,6 +6,8 @@
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace vibrotrough::app {
@@ -14,6 +16,11 @@ double read_core_time(std::string const& text) {
     std::string plain = text;
     if (auto const at = plain.find("core-"); at != std::string::npos) plain.erase(at, 5);
     return read_positive_quantity("--budget", plain, "s", "4 core-hours");
+}
+
+int usual_batch(int jobs, campaign::Plan const& plan) {
+    int const packings = plan.cases.empty() ? 1 : plan.cases.front().scenario().measure.packings;
+    return std::max(2, jobs / std::max(1, packings));
 }
 
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted) {

@@ -21,12 +21,12 @@ template <typename A, typename B>
 double squared_distance(A const& a, B const& b, Vector const& lengths) {
     double sum = 0;
     for (Eigen::Index j = 0; j < lengths.size(); ++j) sum += std::pow((a(j) - b(j)) / lengths(j), 2);
-    return 5 * sum;
+    return 3 * sum;
 }
 
 double matern(double squared_a, double deviation) {
     double const a = std::sqrt(squared_a);
-    return deviation * deviation * (1 + a + squared_a / 3) * std::exp(-a);
+    return deviation * deviation * (1 + a) * std::exp(-a);
 }
 
 Matrix matern_of(Matrix const& inputs, Hyperparameters const& h) {
@@ -129,10 +129,10 @@ Vector GaussianProcess::log_likelihood_gradient() const {
         for (Eigen::Index j = 0; j < i; ++j) {
             double const a = std::sqrt(
                 squared_distance(data_.inputs.row(i), data_.inputs.row(j), hyperparameters_.lengths));
-            double const common = inner(i, j) * variance * (1 + a) / 3 * std::exp(-a);
+            double const common = inner(i, j) * variance * std::exp(-a);
             for (Eigen::Index k = 0; k < inputs; ++k) {
                 double const d = (data_.inputs(i, k) - data_.inputs(j, k)) / hyperparameters_.lengths(k);
-                gradient(1 + k) += common * 5 * d * d;
+                gradient(1 + k) += common * 3 * d * d;
             }
         }
     }

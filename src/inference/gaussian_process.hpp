@@ -46,11 +46,11 @@ struct ProcessValue {
 /// A Gaussian process: normal distributions of a function's values at all inputs, conditioned on data.
 ///
 ///     f(x) = h(x) beta + z(x),   beta_k ~ N(mean_k, sd_k^2),
-///     cov z(x), z(x') = deviation^2 (1 + a + a^2 / 3) exp(-a),   a^2 = 5 sum_j ((x_j - x'_j) / length_j)^2,
+///     cov z(x), z(x') = deviation^2 (1 + a) exp(-a),   a^2 = 3 sum_j ((x_j - x'_j) / length_j)^2,
 ///
-/// the Matern covariance of smoothness 5/2 with one length per input. (C.E. Rasmussen and C.K.I. Williams,
-/// Gaussian Processes for Machine Learning, 2006, Eqs. 2.23-2.24, 2.30, 4.17, 5.8-5.12; the trend is part of
-/// the covariance, section 2.7.)
+/// the Matern covariance of smoothness 3/2 with one length per input: functions whose slope is continuous and
+/// may change within a short range. (C.E. Rasmussen and C.K.I. Williams, Gaussian Processes for Machine
+/// Learning, 2006, Eqs. 2.23-2.24, 2.30, 4.17, 5.8-5.12; the trend is part of the covariance, section 2.7.)
 class GaussianProcess {
   public:
     /// Conditions a process on data. @throws std::invalid_argument when sizes do not fit, a number is out of

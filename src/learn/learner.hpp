@@ -15,7 +15,7 @@ namespace vibrotrough::learn {
 struct LearnGoal {
     double half_width;  ///< largest 95 % half-width of the velocity efficiency in the domain, > 0
     double budget;      ///< core-seconds of all packings together, > 0
-    int batch = 4;      ///< cases that are chosen at once, >= 1
+    int batch = 2;      ///< cases that are chosen at once, >= 1
 };
 
 /// How well a surface is known over its domain.

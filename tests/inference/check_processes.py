@@ -78,7 +78,7 @@ class Trend(Kernel):
 def kernel_of(one, bounds):
     inputs = len(one["lengths"])
     matern = ConstantKernel(one["deviation"]**2, (1e-6, 9) if bounds else "fixed") * Matern(
-        one["lengths"], (0.05, 20) if bounds else "fixed", nu=2.5)
+        one["lengths"], (0.05, 20) if bounds else "fixed", nu=1.5)
     kernel = Columns(matern, 0, inputs) + Columns(Trend(), inputs, inputs + 2)
     if one["has_extra_noise"]:
         kernel += WhiteKernel(max(one["extra_noise"]**2, 1e-8), (1e-8, 1) if bounds else "fixed")

@@ -77,7 +77,7 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
     ReadyCampaign ready = prepare_run(running);
     if (ready.is_interrupted) return interrupted;
     scenario::CaseMaker const maker(running.campaign_file);
-    learn::LearnGoal const goal{useful_half_width(speeds), budget, std::max(4, running.jobs)};
+    learn::LearnGoal const goal{useful_half_width(speeds), budget, usual_batch(running.jobs, ready.plan)};
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
     while (true) {
         if (!simulate(running, ready, wanted)) return interrupted;

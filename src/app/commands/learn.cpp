@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 
-#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -25,8 +24,7 @@ learn::LearnGoal read_goal(LearnArguments const& options) {
     goal.half_width = read_number_within("--half-width", required("--half-width", options.half_width, "0.03"),
                                          "0.03", 1e-4, 1);
     goal.budget = read_core_time(required("--budget", options.budget, "\"4 core-hours\""));
-    goal.batch = options.batch ? read_count("--batch", *options.batch, "8", 1, 1000)
-                               : std::max(4, options.shared.jobs);
+    if (options.batch) goal.batch = read_count("--batch", *options.batch, "8", 1, 1000);
     return goal;
 }
 
@@ -66,9 +64,10 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std
 }
 
 int run_learn(LearnArguments const& options) {
-    learn::LearnGoal const goal = read_goal(options);
+    learn::LearnGoal goal = read_goal(options);
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
+    if (!options.batch) goal.batch = usual_batch(options.shared.jobs, ready.plan);
     scenario::CaseMaker const maker(options.shared.campaign_file);
     learn::Learner learner(ready.plan, maker, goal);
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
@@ -102,7 +101,7 @@ void add_learn(CLI::App& program, int& exit_code) {
     command->add_option("--budget", options->budget,
                         "Core time of all simulations together, for example \"4 core-hours\"");
     command->add_option("--batch", options->batch,
-                        "Cases that are chosen at once; default: 4, or the number of jobs if larger");
+                        "Cases that are chosen at once; default: as many as keep all jobs busy, at least 2");
     command->footer(
         R"(The section [domain] of the campaign file gives the ranges of the inputs. A few cases that fill the domain are
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that

@@ -8,7 +8,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,7 +28,7 @@ using Json = nlohmann::ordered_json;
 struct PredictArguments {
     std::string folder;
     std::vector<std::string> places;
-    bool json = false, csv = false;
+    bool json = false, csv = false, without_theory = false;
 };
 
 /// "a=1,b=2" by whole keys.
@@ -96,26 +101,61 @@ std::string remarks(learn::Surface const& surface, learn::CampaignPoints const& 
     return fmt::format("{}", fmt::join(all, " "));
 }
 
-Prediction predict(campaign::Plan const& plan, scenario::CaseMaker const& maker, std::string const& text) {
-    auto const values = read_place(text, maker);
-    auto const words = words_among(values);
-    learn::CampaignPoints const points = learn::campaign_points(plan, maker, words);
-    learn::Place const place = numbers_at(values, points.inputs, text);
-    learn::CampaignTheory const theory(maker, points.inputs, words);
-    static_cast<void>(theory.scenario_at(place));  // says what is wrong with the place
-    auto const efficiency = theory.efficiency_at(place);
-    if (!efficiency)
-        throw core::InputError(fmt::format(
-            "--at {}: the theory has no mean speed there, and neither has the surface; choose another place",
-            text));
-    learn::Surface const surface(points.inputs, points.points);
-    bool is_inside = true;
-    for (std::size_t k = 0; k < place.size(); ++k)
-        is_inside = is_inside && place[k] >= points.inputs[k].low && place[k] <= points.inputs[k].high;
-    return {points.inputs,    place,     surface.at(place, *efficiency),
-            *efficiency,      is_inside, remarks(surface, points, place, is_inside),
-            surface.quality()};
-}
+/// A surface over the cases that are alike in the words among their keys.
+struct FittedSurface {
+    FittedSurface(campaign::Plan const& plan, scenario::CaseMaker const& maker,
+                  std::map<std::string, scenario::Content> const& words, learn::Trend trend)
+        : points(learn::campaign_points(plan, maker, words)),
+          theory(maker, points.inputs, words),
+          surface(points.inputs, points.points, trend) {}
+
+    learn::CampaignPoints points;
+    learn::CampaignTheory theory;
+    learn::Surface surface;
+};
+
+/// Predicts the efficiency at places of one campaign; each surface is fitted once.
+class Predictor {
+  public:
+    explicit Predictor(PredictArguments const& options)
+        : plan_(campaign::open_plan(options.folder)),
+          maker_(std::filesystem::path(options.folder) / "campaign.toml"),
+          trend_(options.without_theory ? learn::Trend::constant : learn::Trend::theory) {}
+
+    Prediction at(std::string const& text) {
+        auto const values = read_place(text, maker_);
+        auto const& [points, theory, surface] = surface_of(words_among(values));
+        learn::Place const place = numbers_at(values, points.inputs, text);
+        static_cast<void>(theory.scenario_at(place));  // says what is wrong with the place
+        auto const efficiency = theory.efficiency_at(place);
+        if (!efficiency)
+            throw core::InputError(
+                fmt::format("--at {}: the theory has no mean speed there, and neither has the surface; "
+                            "choose another place",
+                            text));
+        bool is_inside = true;
+        for (std::size_t k = 0; k < place.size(); ++k)
+            is_inside = is_inside && place[k] >= points.inputs[k].low && place[k] <= points.inputs[k].high;
+        return {points.inputs,    place,     surface.at(place, *efficiency),
+                *efficiency,      is_inside, remarks(surface, points, place, is_inside),
+                surface.quality()};
+    }
+
+  private:
+    FittedSurface const& surface_of(std::map<std::string, scenario::Content> const& words) {
+        auto const found = surfaces_.find(words);
+        if (found != surfaces_.end()) return found->second;
+        return surfaces_
+            .emplace(std::piecewise_construct, std::forward_as_tuple(words),
+                     std::forward_as_tuple(plan_, maker_, words, trend_))
+            .first->second;
+    }
+
+    campaign::Plan plan_;
+    scenario::CaseMaker maker_;
+    learn::Trend trend_;
+    std::map<std::map<std::string, scenario::Content>, FittedSurface> surfaces_;
+};
 
 Json as_json(Prediction const& p) {
     Json at = Json::object();
@@ -151,10 +191,9 @@ void print_text(Prediction const& p) {
 }
 
 void run_predict(PredictArguments const& options) {
-    campaign::Plan const plan = campaign::open_plan(options.folder);
-    scenario::CaseMaker const maker(std::filesystem::path(options.folder) / "campaign.toml");
+    Predictor predictor(options);
     std::vector<Prediction> predictions;
-    for (std::string const& place : options.places) predictions.push_back(predict(plan, maker, place));
+    for (std::string const& place : options.places) predictions.push_back(predictor.at(place));
     if (options.json) {
         Json json = Json::array();
         for (Prediction const& p : predictions) json.push_back(as_json(p));
@@ -183,6 +222,8 @@ void add_predict(CLI::App& program, int& exit_code) {
     auto* const json =
         command->add_flag("--json", options->json, "Print JSON: an object, or a list for several places");
     command->add_flag("--csv", options->csv, "Print CSV")->excludes(json);
+    command->add_flag("--without-theory", options->without_theory,
+                      "Leave the theory out of the surface, to see how much it helps");
     command->footer(
         R"(Fits a Gaussian process to the cases that have a result: the theory is its trend, and only the difference between
 layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval. Q2 tells
