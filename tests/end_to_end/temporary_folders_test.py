@@ -1,0 +1,122 @@
+"""No end of the program leaves a folder in the temporary folder, but for SIGKILL; what that leaves the next run removes."""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from trough_program import PROGRAM, EndToEndTest, engines_in, processes_in, wait_until
+
+# One packing that no test waits for, with a checkpoint at each stop.
+ENDLESS = {"measure.packings": 2, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
+FAILING = "exit 1"
+CRASHING = "kill -SEGV $$"
+
+
+class TemporaryFolders(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir()
+        before = os.environ.get("TMPDIR")
+        os.environ["TMPDIR"] = str(self.temporary)
+        self.addCleanup(lambda: os.environ.pop("TMPDIR") if before is None else os.environ.update(TMPDIR=before))
+        self.real = shutil.which("liggghts")
+
+    def left(self):
+        return sorted(path.name for path in self.temporary.iterdir())
+
+    def start(self, *arguments):
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        self.addCleanup(self.end, process)
+        return process
+
+    def slow_engine(self, seconds=2):
+        """The real engine, which takes its time to name its version."""
+        script = self.folder / "slow-liggghts"
+        script.write_text(f'#!/bin/sh\ncase "$*" in *-h*) touch "{self.folder}/asked"; sleep {seconds};; esac\nexec "{self.real}" "$@"\n')
+        script.chmod(0o755)
+        return script
+
+    def stop(self, process, number, times=1):
+        for _ in range(times):
+            os.killpg(process.pid, number) if number == signal.SIGINT else process.send_signal(number)
+            time.sleep(0.3)
+        return self.finish(process)[0]
+
+    def test_ordinary_end(self):
+        done = self.call(*self.run_arguments(self.write_campaign()), "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.left(), [])
+        self.assertEqual(self.call("probe-engine").returncode, 0)
+        self.assertEqual(self.left(), [])
+
+    def test_failed_engine(self):
+        for commands in (FAILING, CRASHING, "sleep 1000 & exit 1"):
+            os.environ["VIBROTROUGH_TEST_BREAK"] = commands
+            done = self.call(*self.run_arguments(self.write_campaign()), "--quiet")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(self.left(), [], commands)
+
+    def test_no_engine(self):
+        done = self.call("run", self.write_campaign(), "--output", self.output, "--liggghts", "/bin/true")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(self.left(), [])
+
+    def test_stopped_while_packings_run(self):
+        campaign = self.write_campaign(ENDLESS)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for times in (1, 3):
+                process = self.start_campaign(campaign)
+                wait_until(lambda: engines_in(self.output), "an engine ran", process)
+                time.sleep(0.5)
+                self.assertEqual(self.stop(process, number, times), 130)
+                self.assertEqual(self.left(), [], (number, times))
+
+    def test_stopped_while_the_engine_is_asked_for_its_version(self):
+        campaign = self.write_campaign(ENDLESS)
+        for arguments in (["run", campaign, "--output", self.output], ["plan", campaign, "--output", self.output]):
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                asked = self.folder / "asked"
+                asked.unlink(missing_ok=True)
+                process = self.start(*arguments, "--liggghts", self.slow_engine())
+                wait_until(asked.exists, "the engine was asked", process)
+                self.assertEqual(self.stop(process, number), -number)
+                self.assertEqual(self.left(), [], (arguments[0], number))
+
+    def test_stopped_while_it_probes(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start("probe-engine")
+            wait_until(lambda: engines_in(self.temporary), "a probe ran", process)
+            self.stop(process, number)
+            self.assertEqual(self.left(), [], number)
+
+    def test_stopped_task(self):
+        campaign = self.write_campaign(ENDLESS)
+        tasks = self.folder / "tasks.txt"
+        done = self.call("prepare", campaign, "--output", self.output, "--liggghts", self.engine, "--task-list", tasks)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.left(), [])
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start("work", self.output, "--task-list", tasks, "--index", 0)
+            wait_until(lambda: engines_in(self.output), "the task's engine ran", process)
+            self.stop(process, number)
+            self.assertEqual(self.left(), [], number)
+
+    def test_several_ranks(self):
+        campaign = self.write_campaign({**ENDLESS, "run.ranks": 2} if False else ENDLESS)
+        campaign.write_text(campaign.read_text() + "[run]\nranks = 2\n")
+        for number, times in ((signal.SIGTERM, 1), (signal.SIGTERM, 3)):
+            process = self.start_campaign(campaign)
+            wait_until(lambda: engines_in(self.output), "an engine ran", process)
+            time.sleep(1)
+            self.assertEqual(self.stop(process, number, times), 130)
+            wait_until(lambda: not processes_in(self.output), "the ranks were gone")
+            self.assertEqual(self.left(), [], times)
+
+
+if __name__ == "__main__":
+    unittest.main()
