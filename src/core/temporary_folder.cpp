@@ -28,8 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is removed when a signal ends the process. A handler may neither allocate nor lock.
-std::array<std::atomic<char const*>, 64> folders_of_process;
+/// What is removed when a signal ends the process that made it, and not when it ends a child of it.
+struct Registered {
+    std::atomic<char const*> path = nullptr;
+    std::atomic<pid_t> owner = 0;
+};
+
+/// A handler may neither allocate nor lock.
+std::array<Registered, 64> folders_of_process;
 
 void remove_with_child(char const* path) {
     pid_t const child = ::vfork();
@@ -46,7 +52,8 @@ void remove_with_child(char const* path) {
 void remove_folders(int number) {
     int const kept = errno;
     for (auto const& folder : folders_of_process) {
-        if (char const* const path = folder.load()) remove_with_child(path);
+        char const* const path = folder.path.load();
+        if (path != nullptr && folder.owner.load() == ::getpid()) remove_with_child(path);
     }
     std::signal(number, SIG_DFL);
     ::raise(number);
@@ -67,14 +74,16 @@ void handle_signals() {
 void remember(char const* path) {
     for (auto& folder : folders_of_process) {
         char const* none = nullptr;
-        if (folder.compare_exchange_strong(none, path)) return;
+        if (!folder.path.compare_exchange_strong(none, path)) continue;
+        folder.owner = ::getpid();
+        return;
     }
 }
 
 void forget(char const* path) {
     for (auto& folder : folders_of_process) {
         char const* own = path;
-        if (folder.compare_exchange_strong(own, nullptr)) return;
+        if (folder.path.compare_exchange_strong(own, nullptr)) return;
     }
 }
 

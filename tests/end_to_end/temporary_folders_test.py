@@ -107,7 +107,7 @@ class TemporaryFolders(EndToEndTest):
             self.assertEqual(self.left(), [], number)
 
     def test_several_ranks(self):
-        campaign = self.write_campaign({**ENDLESS, "run.ranks": 2} if False else ENDLESS)
+        campaign = self.write_campaign(ENDLESS)
         campaign.write_text(campaign.read_text() + "[run]\nranks = 2\n")
         for number, times in ((signal.SIGTERM, 1), (signal.SIGTERM, 3)):
             process = self.start_campaign(campaign)
@@ -116,6 +116,29 @@ class TemporaryFolders(EndToEndTest):
             self.assertEqual(self.stop(process, number, times), 130)
             wait_until(lambda: not processes_in(self.output), "the ranks were gone")
             self.assertEqual(self.left(), [], times)
+
+    def test_what_killed_runs_left_is_removed_by_the_next(self):
+        campaign = self.write_campaign(ENDLESS)
+        process = self.start_campaign(campaign)
+        wait_until(lambda: engines_in(self.output), "an engine ran", process)
+        self.assertEqual(self.stop(process, signal.SIGKILL), -signal.SIGKILL)
+        wait_until(lambda: not processes_in(self.output), "the engines were gone")
+        dead = self.left()
+        self.assertGreater(len(dead), 0, "SIGKILL leaves the folders of engines")
+        older = self.temporary / "vibrotrough-engine-a1B2c3"  # of an older version: nobody knows whether its owner lives
+        older.mkdir()
+
+        living = self.start("run", campaign, "--output", self.folder / "other", "--liggghts", self.engine)
+        wait_until(lambda: engines_in(self.folder / "other"), "an engine of the next run ran", living)
+        in_use = set(self.left()) - {older.name}
+        self.assertEqual(in_use & set(dead), set(), "the next run removes what the dead one left")
+        self.assertGreater(len(in_use), 0)
+
+        done = self.call("plan", campaign, "--output", self.folder / "third", "--liggghts", self.engine)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual(in_use, set(self.left()), "those of a living run stay")
+        self.assertEqual(self.stop(living, signal.SIGTERM), 130)
+        self.assertEqual(self.left(), [older.name])
 
 
 if __name__ == "__main__":
