@@ -73,7 +73,8 @@ class TemporaryFolders(EndToEndTest):
                 process = self.start_campaign(campaign)
                 wait_until(lambda: engines_in(self.output), "an engine ran", process)
                 time.sleep(0.5)
-                self.assertEqual(self.stop(process, number, times), 130)
+                # Later signals may come when the run has ended and the program is about to.
+                self.assertIn(self.stop(process, number, times), [130, -number][:times])
                 self.assertEqual(self.left(), [], (number, times))
 
     def test_stopped_while_the_engine_is_asked_for_its_version(self):
@@ -113,7 +114,7 @@ class TemporaryFolders(EndToEndTest):
             process = self.start_campaign(campaign)
             wait_until(lambda: engines_in(self.output), "an engine ran", process)
             time.sleep(1)
-            self.assertEqual(self.stop(process, number, times), 130)
+            self.assertIn(self.stop(process, number, times), [130, -number][:times])
             wait_until(lambda: not processes_in(self.output), "the ranks were gone")
             self.assertEqual(self.left(), [], times)
 
