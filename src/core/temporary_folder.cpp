@@ -15,6 +15,7 @@
 #include <mutex>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -27,6 +28,8 @@ namespace vibrotrough::core {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int attempts_to_lock = 3;
 
 /// What is removed when a signal ends the process that made it, and not when it ends a child of it.
 struct Registered {
@@ -110,6 +113,14 @@ int open_folder(fs::path const& path) {
     return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
+/// Waits while another process looks whether the folder was left.
+bool take_lock(int descriptor) {
+    int result = 0;
+    do result = ::flock(descriptor, LOCK_EX);
+    while (result != 0 && errno == EINTR);
+    return result == 0;
+}
+
 /// Whether a process that this user may look into works below the folder, or names it in its environment:
 /// MPI's ranks close the lock that they inherit.
 bool is_in_use(fs::path const& path) {
@@ -146,8 +157,7 @@ fs::path parent_of_folders() {
     return parent;
 }
 
-fs::path make_folder_in(fs::path const& parent, std::string_view purpose) {
-    std::string const boot = boot_id();
+fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::string const& boot) {
     std::string name =
         (parent / fmt::format("{}-{}{}XXXXXX", purpose, boot, boot.empty() ? "" : "-")).string();
     if (::mkdtemp(name.data()) == nullptr) {
@@ -166,12 +176,17 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose) {
     static std::once_flag once;
     std::call_once(once, [&] { remove_left_folders(parent); });
     handle_signals();
-    while (true) {
-        path_ = make_folder_in(parent, purpose);
+    std::string boot = boot_id();
+    for (int attempt = 1;; ++attempt) {
+        // Where there are no locks, the name must not promise one.
+        if (attempt > attempts_to_lock) boot.clear();
+        path_ = make_folder_in(parent, purpose, boot);
+        if (boot.empty()) break;
         lock_ = open_folder(path_);
-        // Where there are no locks, nobody can take a folder for one that was left, either.
-        if (lock_ < 0 || ::flock(lock_, LOCK_EX) != 0 || is_named(path_, lock_)) break;
-        ::close(lock_);
+        if (lock_ >= 0 && take_lock(lock_) && is_named(path_, lock_)) break;
+        if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+        std::error_code ignored;
+        fs::remove(path_, ignored);
     }
     remember(path_.c_str());
 }
