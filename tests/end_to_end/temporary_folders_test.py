@@ -9,8 +9,8 @@ import unittest
 
 from trough_program import PROGRAM, EndToEndTest, engines_in, processes_in, wait_until
 
-# One packing that no test waits for, with a checkpoint at each stop.
-ENDLESS = {"measure.packings": 2, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
+# More packings than are simulated before a test stops the run.
+ENDLESS = {"measure.packings": 60, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
 FAILING = "exit 1"
 CRASHING = "kill -SEGV $$"
 
@@ -70,6 +70,7 @@ class TemporaryFolders(EndToEndTest):
         campaign = self.write_campaign(ENDLESS)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             for times in (1, 3):
+                self.output = self.folder / f"runs-{number}-{times}"
                 process = self.start_campaign(campaign)
                 wait_until(lambda: engines_in(self.output), "an engine ran", process)
                 time.sleep(0.5)
@@ -111,6 +112,7 @@ class TemporaryFolders(EndToEndTest):
         campaign = self.write_campaign(ENDLESS)
         campaign.write_text(campaign.read_text() + "[run]\nranks = 2\n")
         for number, times in ((signal.SIGTERM, 1), (signal.SIGTERM, 3)):
+            self.output = self.folder / f"runs-{times}"
             process = self.start_campaign(campaign)
             wait_until(lambda: engines_in(self.output), "an engine ran", process)
             time.sleep(1)
