@@ -7,6 +7,9 @@ namespace vibrotrough::core {
 
 /// A folder that exists as long as this object. It has a unique name, only its owner can read it, and it is
 /// removed with all its content in the end. Symbolic links in it are removed; their targets stay.
+///
+/// SIGINT, SIGTERM and SIGHUP remove it, too, where they would end the process. What SIGKILL leaves behind is
+/// removed by the next process that makes such a folder (remove_left_folders()).
 class TemporaryFolder {
   public:
     /// Makes the folder below TMPDIR, or below /tmp if that is not set.
@@ -19,8 +22,20 @@ class TemporaryFolder {
 
     std::filesystem::path const& path() const { return path_; }  ///< of the folder
 
+    /// To be called in a child between fork and exec: the folder counts as in use until the child, and
+    /// whatever inherits its files, has ended.
+    void keep_in_child() const;
+
   private:
     std::filesystem::path path_;
+    int lock_ = -1;  ///< descriptor of the folder, locked by its owner; -1 where there are no locks
 };
+
+/// Removes the temporary folders in `parent` that processes of this user left behind. The name of a folder
+/// contains the kernel's boot id, so that those of other machines and of earlier boots stay, and its owner
+/// holds a lock on it, which the kernel releases when the last process that inherited it has ended. A folder
+/// that a process still works in or names in its environment stays, too.
+/// @return how many were removed
+int remove_left_folders(std::filesystem::path const& parent);
 
 }  // namespace vibrotrough::core

@@ -7,6 +7,7 @@
 #include "engine/binary_watch.hpp"
 #include "engine/sole_writer.hpp"
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -42,10 +43,13 @@ void prepare_child(pid_t driver) {
     if (::getppid() != driver) ::_exit(1);  // the driver has died in the meantime
 }
 
-/// One MPI rank does not need a daemon. Without this variable the engine starts one and takes 0.15 s longer,
-/// or 5 s if the name of the machine cannot be resolved. (Set with env, because the environment class of
+/// Settings of Open MPI for one rank, which talks to nobody. Without the first, the engine starts a daemon
+/// and takes 0.15 s longer, or 5 s if the name of the machine cannot be resolved. Without the second, Open
+/// MPI loads every network that it knows, and one of them, PSM, sleeps 0.2 s to calibrate its clock. The
+/// third keeps it from looking for networks below that. (Set with env, because the environment class of
 /// Boost 1.74 reads beyond its strings.)
-constexpr char const* no_daemon = "OMPI_MCA_ess_singleton_isolated=1";
+constexpr std::array single_rank_settings{"OMPI_MCA_ess_singleton_isolated=1", "OMPI_MCA_pml=ob1",
+                                          "OMPI_MCA_btl=self"};
 
 /// The setting that gives an engine a folder of its own for what Open MPI keeps while it runs. By default all
 /// engines of a user share one below the temporary folder, which goes when the last one ends: an engine that
@@ -55,6 +59,27 @@ std::string session_setting(core::TemporaryFolder const& session) {
 }
 
 constexpr char const* session_name = "vibrotrough-engine";
+
+/// Holds back the signals that end the process until it has removed what it made. A program that was asked
+/// for its version has ten seconds.
+class SignalsHeldBack {
+  public:
+    SignalsHeldBack() {
+        sigset_t held;
+        ::sigemptyset(&held);
+        for (int const number : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&held, number);
+        ::pthread_sigmask(SIG_BLOCK, &held, &before_);
+    }
+    ~SignalsHeldBack() { release(); }
+    SignalsHeldBack(SignalsHeldBack const&) = delete;
+    SignalsHeldBack& operator=(SignalsHeldBack const&) = delete;
+
+    /// Also to be called in a child, which would inherit it.
+    void release() const { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  private:
+    sigset_t before_{};
+};
 
 fs::path search_program(std::optional<fs::path> const& requested) {
     if (requested) {
@@ -76,16 +101,20 @@ fs::path search_program(std::optional<fs::path> const& requested) {
 }
 
 std::string ask_version(fs::path const& program) {
+    SignalsHeldBack const held;
     core::TemporaryFolder const session(session_name);
     std::string version, first_line;
     int code = 0;
     try {
         bp::ipstream output;
         // A program that is no LIGGGHTS may do anything, such as never end.
-        bp::child child(bp::search_path("env"),
-                        bp::args({no_daemon, session_setting(session), "timeout", "10", program.string(),
-                                  "-log", "none", "-h"}),
-                        (bp::std_out & bp::std_err) > output, bp::std_in < bp::null);
+        std::vector<std::string> words(single_rank_settings.begin(), single_rank_settings.end());
+        for (std::string const& word :
+             {session_setting(session), std::string("timeout"), std::string("10"), program.string(),
+              std::string("-log"), std::string("none"), std::string("-h")})
+            words.push_back(word);
+        bp::child child(bp::search_path("env"), bp::args(words), (bp::std_out & bp::std_err) > output,
+                        bp::std_in < bp::null, bp::extend::on_exec_setup([&](auto&) { held.release(); }));
         for (std::string line; std::getline(output, line);) {
             auto const start = line.find("(Version ");
             if (version.empty() && line.starts_with("LIGGGHTS") && start != std::string::npos) {
@@ -110,7 +139,8 @@ std::string ask_version(fs::path const& program) {
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
 std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
                                    core::TemporaryFolder const& session) {
-    std::vector<std::string> words{no_daemon, session_setting(session)};
+    std::vector<std::string> words(single_rank_settings.begin(), single_rank_settings.end());
+    words.push_back(session_setting(session));
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
             throw core::MissingError(
@@ -226,19 +256,20 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     WriterLock const lock(folder);
     auto const output = open_output(folder);
     try {
-        state_->process =
-            bp::child(bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
-                      bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > output.get(),
-                      bp::std_in < bp::null, context, bp::on_exit(ended), bp::posix::use_vfork,
-                      bp::extend::on_exec_setup([driver = ::getpid(), &lock](auto&) {
-                          prepare_child(driver);
-                          lock.keep_in_child();
-                      }),
-                      // With use_vfork Boost 1.74 does not throw when there is no new process; nobody would
-                      // ever see it end.
-                      bp::extend::on_error([](auto&, std::error_code const& failure) {
-                          throw bp::process_error(failure, "no new process");
-                      }));
+        state_->process = bp::child(
+            bp::search_path("env"), bp::args(run_words(engine, launch, state_->session)),
+            bp::start_dir(folder.string()), (bp::std_out & bp::std_err) > output.get(), bp::std_in < bp::null,
+            context, bp::on_exit(ended), bp::posix::use_vfork,
+            bp::extend::on_exec_setup([driver = ::getpid(), &lock, &session = state_->session](auto&) {
+                prepare_child(driver);
+                lock.keep_in_child();
+                session.keep_in_child();
+            }),
+            // With use_vfork Boost 1.74 does not throw when there is no new process; nobody would
+            // ever see it end.
+            bp::extend::on_error([](auto&, std::error_code const& failure) {
+                throw bp::process_error(failure, "no new process");
+            }));
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),

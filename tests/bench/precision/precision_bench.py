@@ -22,6 +22,7 @@ import json
 import math
 import os
 import resource
+import signal
 import statistics
 import subprocess
 import sys
@@ -146,4 +147,5 @@ if __name__ == "__main__":
     if CASES == 0:
         print("skipped: set VIBROTROUGH_BENCH_CASES to the number of cases, from 1 to 24")
         sys.exit(77)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that its folder is removed
     unittest.main()
