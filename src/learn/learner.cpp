@@ -19,6 +19,9 @@ constexpr int domain_points = 200;
 constexpr unsigned domain_seed = 20261122;
 /// A case that goes on is to have so much of its half-width, which doubles its packings.
 constexpr double narrowing = 0.7;
+/// A surface rests on at least so many points per input, however sure of itself it is with fewer: the rule of
+/// J.L. Loeppky, J. Sacks and W.J. Welch, Technometrics 51 (2009) 366-376.
+constexpr int least_points_per_input = 10;
 
 /// What a step would bring, for comparing candidates.
 struct Candidate {
@@ -134,6 +137,7 @@ LearnStatus Learner::look() {
     surface_.emplace(points_.inputs, points_.points);
     LearnStatus status{static_cast<int>(points_.points.size()),
                        static_cast<int>(points_.apart.size()),
+                       least_points_per_input * static_cast<int>(points_.inputs.size()),
                        certainty(*surface_),
                        surface_->quality(),
                        surface_->doubts(),
@@ -146,7 +150,8 @@ LearnStatus Learner::look() {
 }
 
 bool Learner::has_reached(LearnStatus const& status, LearnGoal const& goal) {
-    return status.certainty.at_worst.half_width <= goal.half_width && status.quality.coverage_is_right();
+    return status.certainty.at_worst.half_width <= goal.half_width && status.quality.coverage_is_right() &&
+           status.quality.points >= status.least_points;
 }
 
 std::vector<LearnStep> Learner::choose() const {

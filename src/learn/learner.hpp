@@ -30,6 +30,7 @@ struct DomainCertainty {
 struct LearnStatus {
     int cases;                        ///< of the campaign that are points of the surface
     int apart;                        ///< that are kept apart
+    int least_points;                 ///< that a surface with so many inputs needs to be trusted: 10 for each
     DomainCertainty certainty;        ///< of the domain
     SurfaceQuality quality;           ///< of the surface
     std::vector<std::string> doubts;  ///< see Surface::doubts()
@@ -80,7 +81,7 @@ class Learner {
     double first_half_width(scenario::Scenario const& scenario) const;
     /// Looks at the results. @throws core::InputError when there are too few for a surface
     LearnStatus look();
-    /// Whether the half-width and the coverage are as asked.
+    /// Whether the half-width and the coverage are as asked, and rest on enough points.
     static bool has_reached(LearnStatus const& status, LearnGoal const& goal);
     /// The next batch, after look(); empty when nothing helps or the budget does not allow a step.
     std::vector<LearnStep> choose() const;

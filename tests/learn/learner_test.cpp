@@ -71,6 +71,17 @@ TEST_F(LearnedCampaign, ReachesTheHalfWidth) {
     EXPECT_EQ(status.core_time_to_go, 0);
 }
 
+// A surface that is sure of itself with fewer than ten points per input goes on (Loeppky, Sacks & Welch
+// 2009): with two inputs, 19 points are too few and 20 enough.
+TEST(LearnGoal, RestsOnEnoughPoints) {
+    LearnStatus status{19, 0, 20, {{2, 0.1}, 0.5, {0.5, 0.04}, 0.03}, {19, 0.99, 18, 16, 19, 0, 1}, {}, 1, 0};
+    EXPECT_FALSE(Learner::has_reached(status, {0.05, 1}));
+    status.quality.points = 20;
+    EXPECT_TRUE(Learner::has_reached(status, {0.05, 1}));
+    status.certainty.at_worst.half_width = 0.06;
+    EXPECT_FALSE(Learner::has_reached(status, {0.05, 1}));
+}
+
 // What counts in the end: at places that were not simulated, the truth lies within the 95 % interval of the
 // surface in 90 to 99 of 100, the band of the issue, over five surfaces that were learnt from different
 // noise. (One surface alone may be worse, because its errors at neighbouring places are correlated.)

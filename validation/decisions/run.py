@@ -1,14 +1,13 @@
 #!/usr/bin/python3
-import json
 import math
 import pathlib
-import subprocess
 import sys
 import tomllib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
+import costs  # noqa: E402
 import numpy as np  # noqa: E402
 
 from campaign_program import Row, campaign_text, run_campaign  # noqa: E402
@@ -29,7 +28,7 @@ DOMAINS = {
 DESIGN, HELD_OUT = 24, 60  # simulated points of each domain: that make the surface, and that it does not see
 INPUTS = ["throw_number", "tan_vibration_angle", "rolling_friction"]
 POINTS = ["domain", *INPUTS, "efficiency", "half_width", "theory", "outcome"]
-PREDICTIONS = [*POINTS, "predicted", "predicted_half_width"]
+PREDICTIONS = [*POINTS, "predicted", "predicted_half_width", "learnt", "learnt_half_width"]
 STEADY = ("finished", "not-precise")
 
 
@@ -85,17 +84,20 @@ def simulate(run: ValidationCase, domain: str, name: str, count: int, seed: int)
 
 
 def predict_held_out(run: ValidationCase) -> None:
+    """Simulates design and held-out points, learns surfaces, and asks both surfaces for the held-out points."""
     design, held_out = [], []
     for domain, keys in DOMAINS.items():
         design += simulate(run, domain, "design", 4 if run.quick else DESIGN, 1)
-        for row in simulate(run, domain, "held-out", 2 if run.quick else HELD_OUT, 11):
-            values = dict(zip(POINTS, row))
-            place = ",".join(f"{name}={values[name]}" for name in (key.split(".")[1] for key in keys))
-            words = [run.program, "predict", str(run.runs / f"{domain}-design"), "--at", place, "--json"]
-            answer = json.loads(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
-            held_out.append([*row, answer["efficiency"], answer["half_width"]])
+        rows = simulate(run, domain, "held-out", 2 if run.quick else HELD_OUT, 11)
+        names = [POINTS.index(key.split(".")[1]) for key in keys]
+        places = np.array([[row[name] for name in names] for row in rows], dtype=float)
+        learnt = run.runs / f"{domain}-design" if run.quick else costs.learn(run, domain, keys, costs.GOALS[0])
+        predictions = [costs.predict(run, folder, keys, places) for folder in (run.runs / f"{domain}-design", learnt)]
+        held_out += [[*row, *one, *other] for row, one, other in zip(rows, *predictions)]
     run.write_table("design.csv", POINTS, design)
     run.write_table("held_out.csv", PREDICTIONS, held_out)
+    if not run.quick:
+        costs.measure_costs(run, DOMAINS)
 
 
 def band(count: int) -> tuple[int, int]:
@@ -115,26 +117,35 @@ def judge_calibrations(run: ValidationCase) -> None:
 
 
 def judge_surface(run: ValidationCase) -> list[Row]:
+    """How often the surfaces' intervals hold the held-out points; in the control, each point beside the next one's prediction."""
     rows = run.table("held_out.csv")
-    if run.control:  # each prediction beside the simulation of another place
-        predictions = [(row["predicted"], row["predicted_half_width"]) for row in rows]
-        for row, (value, half_width) in zip(rows, predictions[1:] + predictions[:1]):
-            row["predicted"], row["predicted_half_width"] = value, half_width
     for domain in DOMAINS:
         mine = [row for row in rows if row["domain"] == domain]
-        if not mine:
-            continue
-        number = {key: np.array([float(row[key]) for row in mine]) for key in (
-            "efficiency", "half_width", "theory", "predicted", "predicted_half_width")}
-        error = number["efficiency"] - number["predicted"]
-        inside = int(np.sum(np.abs(error) <= np.hypot(number["predicted_half_width"], number["half_width"])))
-        low, high = band(len(mine))
-        run.between(f"{domain}: held-out points of {len(mine)} within the predicted interval", inside, low, high,
-                    because="central 95 % of the binomial distribution at 95 %; both intervals are combined in squares")
-        rms, theory = (math.sqrt(float(np.mean(np.square(values)))) for values in (error, number["efficiency"] - number["theory"]))
-        run.finding(f"{domain}: the surface predicts better than the theory alone", rms < theory,
-                    f"root mean square error {rms:.3f} against {theory:.3f} over {len(mine)} held-out points of the {HELD_OUT} wanted")
+        number = {key: np.array([float(row[key]) for row in mine]) for key in (*POINTS[4:7], *PREDICTIONS[8:])}
+        for kind, surface in (("predicted", f"{DESIGN} Sobol points"), ("learnt", f"learnt to +-{costs.GOALS[0]}")):
+            predicted, half_width = (np.roll(number[key], int(run.control)) for key in (kind, f"{kind}_half_width"))
+            error = number["efficiency"] - predicted
+            inside = int(np.sum(np.abs(error) <= np.hypot(half_width, number["half_width"])))
+            low, high = band(len(mine))
+            run.between(f"{domain}, {surface}: held-out points of {len(mine)} within the predicted interval", inside, low, high,
+                        because="central 95 % of the binomial distribution at 95 %; both intervals are combined in squares")
+            rms, theory = (math.sqrt(float(np.mean(np.square(values)))) for values in (error, number["efficiency"] - number["theory"]))
+            run.finding(f"{domain}, {surface}: it predicts better than the theory alone", rms < theory,
+                        f"root mean square error {rms:.3f} against {theory:.3f} over {len(mine)} held-out points of the {HELD_OUT} wanted")
     return rows
+
+
+def judge_costs(run: ValidationCase) -> None:
+    """Whether learning costs a third of the alternatives; findings, since the answer belongs to these layers."""
+    rows = {(row["domain"], row["goal"], row["method"]): row for row in run.table("costs.csv")}
+    for (domain, goal, method), row in rows.items():
+        if method == "learnt":
+            continue
+        learnt = rows[domain, goal, "learnt"]
+        share = int(learnt["cycles"]) / int(row["cycles"])
+        reached = float(row["largest_half_width"]) <= float(goal)
+        run.finding(f"{domain}, +-{goal}: learning costs at most a third of a {method}", reached and share <= 1 / 3,
+                    f"{100 * share:.0f} % of the cycles: {learnt['cases']} cases, and {'' if reached else 'more than '}{row['cases']}")
 
 
 def draw(run: ValidationCase, rows: list[Row]) -> None:
@@ -155,7 +166,9 @@ def draw(run: ValidationCase, rows: list[Row]) -> None:
     measured, predicted = (np.array([float(row[key]) for row in rows]) for key in ("efficiency", "predicted"))
     right.errorbar(measured, predicted, xerr=[float(row["half_width"]) for row in rows],
                    yerr=[float(row["predicted_half_width"]) for row in rows], fmt=MARKERS[0], color=COLOURS[0], markersize=4,
-                   elinewidth=0.8, label="surface")
+                   elinewidth=0.8, label="surface of 24 Sobol points")
+    right.errorbar(measured, [float(row["learnt"]) for row in rows], yerr=[float(row["learnt_half_width"]) for row in rows],
+                   fmt=MARKERS[1], color=COLOURS[2], markersize=4, elinewidth=0.8, label="learnt surface")
     right.plot(measured, [float(row["theory"]) for row in rows], MARKERS[2], color=COLOURS[1], markersize=4, label="theory alone")
     right.plot([0, 1], [0, 1], color="black", linewidth=0.8)
     right.set_xlabel("velocity efficiency of held-out simulations  [-]")
@@ -171,6 +184,7 @@ def main() -> None:
         predict_held_out(run)
     judge_calibrations(run)
     draw(run, judge_surface(run))
+    judge_costs(run)
     run.finish()
 
 

@@ -55,6 +55,12 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std
             "not reached: the largest half-width is {:.4f} instead of {:g}, and the budget allows no further "
             "step; raise --budget\n",
             status.certainty.at_worst.half_width, goal.half_width);
+    } else if (status.quality.points < status.least_points) {
+        fmt::print(
+            "not reached: the half-widths are as asked, but they rest on {} points where {} are needed to "
+            "trust "
+            "them, and the budget allows no further step; raise --budget\n",
+            status.quality.points, status.least_points);
     } else {
         fmt::print("not reached: the half-widths are as asked, but they cannot be trusted\n");
     }
@@ -106,8 +112,9 @@ void add_learn(CLI::App& program, int& exit_code) {
         R"(The section [domain] of the campaign file gives the ranges of the inputs. A few cases that fill the domain are
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
-there. Learning ends when the largest half-width is as asked and left-out points lie within their predicted intervals as
-often as they should, or when the budget allows no further step; it then says why the goal was not reached.
+there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
+often as they should, and there are at least ten points for each input; or when the budget allows no further step. It
+then says why the goal was not reached.
 
 Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
 what is to go. Ctrl-C stops cleanly, and the same command continues.
