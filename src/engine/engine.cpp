@@ -34,6 +34,7 @@ namespace {
 namespace bp = boost::process;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using namespace std::string_literals;
 
 /// Runs in the child before the engine starts: leaves the process group of the terminal and asks to be killed
 /// when the driver dies. The child shares the driver's memory (vfork) and must not write to it.
@@ -51,11 +52,21 @@ void prepare_child(pid_t driver) {
 constexpr std::array single_rank_settings{"OMPI_MCA_ess_singleton_isolated=1", "OMPI_MCA_pml=ob1",
                                           "OMPI_MCA_btl=self"};
 
-/// The setting that gives an engine a folder of its own for what Open MPI keeps while it runs. By default all
+/// The settings that give an engine a folder of its own for what Open MPI keeps while it runs. By default all
 /// engines of a user share one below the temporary folder, which goes when the last one ends: an engine that
-/// starts at that moment ends with exit code 1 and no message.
-std::string session_setting(core::TemporaryFolder const& session) {
-    return "OMPI_MCA_orte_tmpdir_base=" + session.path().string();
+/// starts at that moment ends with exit code 1 and no message. Open MPI 4 knows the first name, 5 the second.
+std::vector<std::string> session_settings(core::TemporaryFolder const& session) {
+    std::string const folder = session.path().string();
+    return {"OMPI_MCA_orte_tmpdir_base=" + folder, "TMPDIR=" + folder};
+}
+
+/// Those of an engine of one rank, which needs no shared memory: Open MPI 5.0 never removes its file, of 16
+/// MB with 80 kB in use, from /dev/shm when there is no mpirun to do it.
+std::vector<std::string> lone_settings(core::TemporaryFolder const& session) {
+    std::vector<std::string> settings = session_settings(session);
+    settings.push_back("OMPI_MCA_btl_sm_backing_directory=" + session.path().string());
+    settings.insert(settings.end(), single_rank_settings.begin(), single_rank_settings.end());
+    return settings;
 }
 
 constexpr char const* session_name = "vibrotrough-engine";
@@ -108,11 +119,10 @@ std::string ask_version(fs::path const& program) {
     try {
         bp::ipstream output;
         // A program that is no LIGGGHTS may do anything, such as never end.
-        std::vector<std::string> words(single_rank_settings.begin(), single_rank_settings.end());
-        for (std::string const& word :
-             {session_setting(session), std::string("timeout"), std::string("10"), program.string(),
-              std::string("-log"), std::string("none"), std::string("-h")})
+        std::vector<std::string> words = lone_settings(session);
+        for (std::string const& word : {"timeout"s, "10"s, program.string(), "-log"s, "none"s, "-h"s}) {
             words.push_back(word);
+        }
         bp::child child(bp::search_path("env"), bp::args(words), (bp::std_out & bp::std_err) > output,
                         bp::std_in < bp::null, bp::extend::on_exec_setup([&](auto&) { held.release(); }));
         for (std::string line; std::getline(output, line);) {
@@ -139,8 +149,7 @@ std::string ask_version(fs::path const& program) {
 /// The command line of a run. Line-buffered, so that an error message is not lost with the buffer.
 std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
                                    core::TemporaryFolder const& session) {
-    std::vector<std::string> words(single_rank_settings.begin(), single_rank_settings.end());
-    words.push_back(session_setting(session));
+    std::vector<std::string> words = engine.ranks > 1 ? session_settings(session) : lone_settings(session);
     if (engine.ranks > 1) {
         if (bp::search_path("mpirun").empty()) {
             throw core::MissingError(
@@ -148,16 +157,11 @@ std::vector<std::string> run_words(Engine const& engine, Launch const& launch,
                 "ranks = 1 under [run]");
         }
         // mpirun would bind every run to the first cores; as root it wants to be told twice.
-        words = {session_setting(session),
-                 "OMPI_MCA_mpi_yield_when_idle=1",
-                 "OMPI_ALLOW_RUN_AS_ROOT=1",
-                 "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
-                 "mpirun",
-                 "--bind-to",
-                 "none",
-                 "--oversubscribe",
-                 "-np",
-                 std::to_string(engine.ranks)};
+        for (std::string const& word : {"OMPI_MCA_mpi_yield_when_idle=1"s, "OMPI_ALLOW_RUN_AS_ROOT=1"s,
+                                        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"s, "mpirun"s, "--bind-to"s, "none"s,
+                                        "--oversubscribe"s, "-np"s, std::to_string(engine.ranks)}) {
+            words.push_back(word);
+        }
     }
     for (char const* word : {"stdbuf", "-oL"}) words.push_back(word);
     words.push_back(engine.program.string());

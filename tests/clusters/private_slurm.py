@@ -211,8 +211,9 @@ class PrivateSlurm:
         data.mkdir()
         own = ["mariadbd", "--no-defaults", f"--datadir={data}", f"--user={user}", "--innodb-buffer-pool-size=16M",
                "--innodb-flush-log-at-trx-commit=0"]  # fmt: skip
-        # What mariadb-install-db does, which wants another package.
-        tables = "CREATE DATABASE mysql;\nUSE mysql;\n" + Path("/usr/share/mysql/mysql_system_tables.sql").read_text()
+        # What mariadb-install-db does, which wants another package. The first name is MariaDB 11's (Debian 13).
+        scripts = [Path("/usr/share/mariadb/mariadb_system_tables.sql"), Path("/usr/share/mysql/mysql_system_tables.sql")]
+        tables = "CREATE DATABASE mysql;\nUSE mysql;\n" + next(script for script in scripts if script.is_file()).read_text()
         made = subprocess.run([*own, "--bootstrap"], input=tables, capture_output=True, text=True, timeout=300)
         if made.returncode != 0:
             raise AssertionError((made.stdout + made.stderr)[-2000:])

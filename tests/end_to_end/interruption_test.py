@@ -4,8 +4,10 @@ import json
 import os
 import signal
 import unittest
+import unittest.mock
+from pathlib import Path
 
-from trough_program import EndToEndTest, engines_in, fingerprint, pause, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest, count_cycles, engines_in, fingerprint, pause, processes_in, wait_until, without_wall_time
 
 # Three packings and two engines at a time: when a case is finished, the next one has some of its packings.
 SWEEP = {"layer.grains": [60, 70, 80]}
@@ -107,6 +109,22 @@ class Interruption(EndToEndTest):
         # What is finished is in the table of the interrupted campaign already.
         self.assertTrue((self.output / "campaign.h5").is_file())
         self.assert_resumes(kept, self.finished_packings(), digits="others")
+
+    def test_an_engine_leaves_nothing_behind(self):
+        """Open MPI 5 (Debian 13) leaves a file in shared memory and a folder in the temporary folder after each engine without mpirun."""
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        with unittest.mock.patch.dict(os.environ, TMPDIR=str(temporary)):
+            driver = self.start_campaign(self.write_campaign(CHANGES | {"measure.packings": 1}))
+        # By its first cycle an engine has started MPI.
+        begun = lambda: [path.parent for path in self.output.glob("cases/*/packing-1/cycles.csv") if count_cycles(path) > 1]  # noqa: E731
+        engine = wait_until(lambda: next((one for one in begun() and engines_in(self.output) if pause(one)), None), "an engine ran", driver)
+        used = Path(f"/proc/{engine}/maps").read_text().splitlines()
+        self.assertEqual([line for line in used if "/dev/shm/" in line], [])
+        os.kill(engine, signal.SIGCONT)
+        driver.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(driver)[0], 130)
+        self.assertEqual(list(temporary.iterdir()), [])
 
     def test_killed_engine(self):
         driver = self.start_campaign(self.campaign)

@@ -53,6 +53,7 @@ class CampaignBench(ManyCases):
         self.make_results(campaign)
         self.show("plan, finished", *self.plan_arguments(campaign))
         self.show("status, finished", "status", self.output, "--json")
+        self.show("compare, finished", "compare", self.output)
         self.show("compare --json, finished", "compare", self.output, "--json")
         self.show("compare --csv, finished", "compare", self.output, "--csv")
         self.show("run, finished", *self.driver_arguments(campaign))
