@@ -45,10 +45,11 @@ def cycles_of(rows: Sequence[Row]) -> int:
     return sum(int(row["cycles_measured"]) + int(row["cycles_discarded"]) for row in rows if row["cycles_measured"])
 
 
-def learn(run: ValidationCase, name: str, domain: Domain, goal: float) -> pathlib.Path:
-    """Learns a surface, or continues; the folder of its campaign."""
-    folder = run.runs / f"{name}-learnt-{goal:g}"
+def learn(run: ValidationCase, name: str, domain: Domain, goal: float, seed: int = 1) -> pathlib.Path:
+    """Learns a surface from a start of its own for each seed, or continues; the folder of its campaign."""
+    folder = run.runs / (f"{name}-learnt-{goal:g}" + (f"-{seed}" if seed > 1 else ""))
     text = campaign_text(run.sections(), {"campaign.name": folder.name}, {}).replace("[sweep]\n", "[domain]\n")
+    text += f"seed = {seed}\n" if seed > 1 else ""
     text += "".join(f'"{key}" = {{ from = {low}, to = {high} }}\n' for key, (low, high) in domain.items())
     file = folder.with_name(folder.name + ".toml")
     file.parent.mkdir(parents=True, exist_ok=True)
