@@ -194,7 +194,11 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
 
 std::string design_campaign(DesignTask const& t, RiskDesign const& d, double diameter) {
     theory::Drive const& m = d.drive;
-    double const mm = 1e3 * diameter;
+    double const mm = 1e3 * diameter, depth = std::max(1e3 * d.depth, 3 * mm);
+    // Waves and convection need a part that is as long as the layer is deep and as the stroke along the
+    // trough.
+    double const stroke_along = 2e3 * m.amplitude * std::cos(m.vibration_angle);
+    double const length = std::ceil(std::max({12 * mm, 1.1 * depth, 1.1 * stroke_along}));
     return fmt::format(
         R"(# Checks a design of 'vibrotrough design' with grains: {:.4g} t/h on a trough {:.4g} m wide, layer {:.4g} mm deep.
 # The grains are assumed: spheres of {:.4g} mm that roll freely. Put in what you know of yours.
@@ -237,7 +241,7 @@ half_width = 0.03
 )",
         tonnes_per_hour * t.mass_flow, t.width, 1e3 * d.depth, mm, m.inclination / degree,
         m.vibration_angle / degree, 2e3 * m.amplitude, 60 * m.frequency, t.width, t.friction.median, mm,
-        t.bulk_density, 12 * mm, 6 * mm, std::max(1e3 * d.depth, 3 * mm), frictions(t.friction));
+        t.bulk_density, length, 6 * mm, depth, frictions(t.friction));
 }
 
 }  // namespace vibrotrough::learn

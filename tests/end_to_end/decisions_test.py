@@ -101,10 +101,12 @@ class Engineer(EndToEndTest):
     def test_every_campaign_that_it_writes_passes_the_check(self):
         campaign = self.folder / "check.toml"
         for words in (["--objective", "gentlest-landing"], ["--objective", "least-power", "--grain-diameter", "6 mm"],
-                      ["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"]):
+                      ["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"],
+                      ["--friction-uncertainty", "0.1", "--machine-number", "4"]):  # a deep layer
             self.design("--friction", "0.35", *words, "--campaign", campaign)
             checked = self.call("check", campaign)
             self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+            self.assertNotIn("warning: layer", checked.stdout + checked.stderr)
 
     def test_what_cannot_be_reached_is_said(self):
         answer = self.call("design", "--mass-flow", "900 t/h", *TROUGH, "--friction", "0.3")
