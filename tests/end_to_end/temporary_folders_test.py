@@ -133,6 +133,7 @@ class TemporaryFolders(EndToEndTest):
 
         living = self.start("run", campaign, "--output", self.folder / "other", "--liggghts", self.engine)
         wait_until(lambda: engines_in(self.folder / "other"), "an engine of the next run ran", living)
+        os.kill(living.pid, signal.SIGSTOP)  # so that no packing of it ends between the looks
         in_use = set(self.left()) - {older.name}
         self.assertEqual(in_use & set(dead), set(), "the next run removes what the dead one left")
         self.assertGreater(len(in_use), 0)
@@ -140,6 +141,7 @@ class TemporaryFolders(EndToEndTest):
         done = self.call("plan", campaign, "--output", self.folder / "third", "--liggghts", self.engine)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLessEqual(in_use, set(self.left()), "those of a living run stay")
+        os.kill(living.pid, signal.SIGCONT)
         self.assertEqual(self.stop(living, signal.SIGTERM), 130)
         self.assertEqual(self.left(), [older.name])
 

@@ -5,6 +5,7 @@
 #include "engine/run_report.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 
 #include <boost/asio/steady_timer.hpp>
@@ -106,8 +107,10 @@ TEST_F(EngineTest, AnExitCodeIsNoSignal) {
 
 // Open MPI's networks are not loaded for one rank. One of them, PSM, sleeps 0.2 s in some 350 short pauses;
 // each makes the engine give up its core. Without them it did so 7 or 8 times, with them 720 to 920 times
-// (three starts each); stdbuf, env and one deck add a few.
+// (three starts each); stdbuf, env and one deck add a few. Open MPI 5.0.7 loads no such network: it gives up
+// the core 540 to 670 times with and without these settings.
 TEST_F(EngineTest, DoesNotWaitForNetworksThatOneRankDoesNotNeed) {
+    if (std::system("mpirun --version | grep -q 'Open MPI) 4'") != 0) GTEST_SKIP() << "for Open MPI 4 alone";
     Engine const engine = find_engine({});
     write_deck("print \"nothing\"\n");
     rusage before{}, after{};
