@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -213,6 +214,17 @@ double time_of_process(pid_t process) {
     return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
+/// Waits, for 2 s at most, until a killed process has ended, and leaves its status to whoever asks for it.
+/// Until then it may still make files in its session folder, which could not be removed whole.
+void await_end(pid_t process) {
+    auto const until = std::chrono::steady_clock::now() + 2s;
+    siginfo_t info{};
+    while (::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == 0 && std::chrono::steady_clock::now() < until) {
+        std::this_thread::sleep_for(2ms);
+    }
+}
+
 }  // namespace
 
 Engine find_engine(std::optional<fs::path> const& requested) {
@@ -283,7 +295,9 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
 
 EngineProcess::~EngineProcess() {
     state_->on_exit = nullptr;
+    if (state_->ended || !state_->process.valid()) return;
     state_->signal(SIGKILL);
+    await_end(state_->process.id());
 }
 
 double EngineProcess::core_time() const {
