@@ -75,7 +75,10 @@ class TemporaryFolders(EndToEndTest):
                 wait_until(lambda: engines_in(self.output), "an engine ran", process)
                 time.sleep(0.5)
                 # Later signals may come when the run has ended and the program is about to.
-                self.assertIn(self.stop(process, number, times), [130, -number][:times])
+                code = self.stop(process, number, times)
+                self.assertIn(code, [130, -number][:times])
+                if code == -number:  # it may have come while a folder was being removed; the next process goes on with that
+                    self.call("plan", campaign, "--output", self.folder / "next", "--liggghts", self.engine)
                 self.assertEqual(self.left(), [], (number, times))
 
     def test_stopped_while_the_engine_is_asked_for_its_version(self):
