@@ -58,8 +58,7 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std
     } else if (status.quality.points < status.least_points) {
         fmt::print(
             "not reached: the half-widths are as asked, but they rest on {} points where {} are needed to "
-            "trust "
-            "them, and the budget allows no further step; raise --budget\n",
+            "trust them, and the budget allows no further step; raise --budget\n",
             status.quality.points, status.least_points);
     } else {
         fmt::print("not reached: the half-widths are as asked, but they cannot be trusted\n");
