@@ -78,7 +78,8 @@ class LogSink : public spdlog::sinks::base_sink<std::mutex> {
 }  // namespace
 
 void JsonProgress::progressed(campaign::Progress const& progress) {
-    if (shown_ >= 0 && progress.elapsed - shown_ < 1) return;
+    bool const is_last = progress.left == 0 && progress.running == 0;
+    if (!is_last && shown_ >= 0 && progress.elapsed - shown_ < 1) return;
     shown_ = progress.elapsed;
     Json engines = Json::array();
     for (auto const& one : progress.engines) engines.push_back(as_json(one));

@@ -14,10 +14,10 @@ class logger;  // NOLINT(readability-identifier-naming): spdlog's name
 namespace vibrotrough::app {
 
 /// Prints progress as JSON on standard error, one object per line. Its member "event" is "progress" (at most
-/// once a second) or "case_ended".
+/// once a second, and once more when all cases have ended) or "case_ended".
 class JsonProgress : public campaign::Observer {
   public:
-    /// Prints the progress, at most once a second.
+    /// Prints the progress, at most once a second but in any case when nothing is left to do.
     void progressed(campaign::Progress const& progress) override;
     /// Prints that a case has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,

@@ -210,10 +210,9 @@ class Trouble(EndToEndTest):
         done = self.call(*self.run_arguments(campaign), "--progress", "json")
         events = [json.loads(line) for line in done.stderr.splitlines() if line.startswith("{")]
         self.assertEqual({event["event"] for event in events}, {"progress", "case_ended"})
-        last = [event for event in events if event["event"] == "progress"][-1]
+        last = events[-1]
+        self.assertEqual([last[key] for key in ("event", "finished", "left", "running")], ["progress", 2, 0, 0])
         self.assertGreater(last["core_time_s"], 0)
-        engines = [engine for event in events if event["event"] == "progress" for engine in event["engines"]]
-        self.assertTrue(any(engine["efficiency"] is not None for engine in engines), events)
         shutil.rmtree(self.output)
         quiet = self.call(*self.run_arguments(campaign), "--quiet").stderr
         self.assertNotRegex(quiet, "done,|: finished", "what the check warns of is all")
@@ -221,6 +220,22 @@ class Trouble(EndToEndTest):
         self.assertRegex(log, r"(?m)^\d{4}-\d\d-\d\dT[\d:]+Z info run starts: vibrotrough .*$")
         self.assertEqual(log.count(": finished\n"), 2)
         self.assertIn("run ends: 2 of 2 cases finished\n", log)
+
+    def test_progress_tells_what_the_engines_measure(self):
+        """However fast they are: this one goes on until it is stopped."""
+        campaign = self.write_campaign({"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000})
+        driver = subprocess.Popen([PROGRAM, *map(str, self.run_arguments(campaign)), "--progress", "json"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)  # fmt: skip
+        self.addCleanup(self.end, driver)
+        for line in driver.stderr:
+            engines = json.loads(line).get("engines", []) if line.startswith("{") else []
+            if any(engine["efficiency"] is not None for engine in engines):
+                break
+        else:
+            self.fail(f"no line told of an efficiency before the run ended with {driver.wait()}")
+        driver.send_signal(signal.SIGINT)
+        code, output, errors = self.finish(driver)
+        self.assertEqual(code, 130, output + errors)
 
 
 if __name__ == "__main__":
