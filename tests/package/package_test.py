@@ -20,7 +20,9 @@ def call(*command, **settings):
     return subprocess.run([*map(str, command)], capture_output=True, text=True, **settings)
 
 
-class Package(unittest.TestCase):
+class Unpacked(unittest.TestCase):
+    """The package, unpacked once for the tests of a class."""
+
     @classmethod
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-package-")
@@ -35,6 +37,8 @@ class Package(unittest.TestCase):
         subprocess.run(["dpkg-deb", "--extract", cls.package, cls.root], check=True)
         cls.program = cls.root / "usr/bin/vibrotrough"
 
+
+class Package(Unpacked):
     def field(self, name):
         return call("dpkg-deb", "--field", self.package, name).stdout.strip()
 
@@ -52,23 +56,6 @@ class Package(unittest.TestCase):
                 content = path.read_bytes()
                 self.assertNotIn(SOURCE.encode(), content, path)
                 self.assertNotIn(BUILD.encode(), content, path)
-
-    def test_a_campaign_from_simulation_to_report(self):
-        """As a user without rights, in a folder of his own, with nothing of the sources at hand."""
-        home = self.folder / "home"
-        home.mkdir()
-        os.chown(home, 65534, 65534) if os.geteuid() == 0 else None
-        user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
-        settings = {"cwd": home, "env": {"PATH": "/usr/bin:/bin", "HOME": str(home), "TMPDIR": str(home)}, **user}
-        (self.folder / "campaign.toml").write_text(campaign_text({"output.frames_per_cycle": 4}))
-        for words in (("run", self.folder / "campaign.toml", "--output", "runs", "--quiet"), ("compare", "runs", "--json"),
-                      ("report", "runs"), ("export", "runs"), ("validate", "theory_exact", "--points", 20)):  # fmt: skip
-            done = call(self.program, *words, **settings)
-            self.assertEqual(done.returncode, 0, f"{words}: {done.stdout}{done.stderr}")
-            if words[0] == "compare":
-                self.assertEqual([row["outcome"] for row in json.loads(done.stdout)], ["finished"])
-        self.assertTrue((home / "runs/report/report.html").is_file())
-        self.assertTrue(list((home / "runs").rglob("*.pvd")) + list((home / "runs").rglob("*.vtp*")))
 
     def test_python_finds_the_module(self):
         modules = self.root / "usr/lib/python3/dist-packages"
@@ -117,6 +104,48 @@ class Package(unittest.TestCase):
     def test_what_to_cite(self):
         self.assertIn("Powder Technology 87 (1996) 203-210", call(self.program, "cite").stdout)
         self.assertEqual(call(self.program, "cite", "--bibtex").stdout.count("@"), 3)
+
+
+class Campaign(Unpacked):
+    """A campaign from its simulation to its report: as a user without rights, in a folder of his own, with nothing of the sources at
+    hand."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.home = cls.folder / "home"
+        cls.home.mkdir()
+        cls.user = {}
+        if os.geteuid() == 0:
+            os.chown(cls.home, 65534, 65534)
+            cls.user = {"user": 65534, "group": 65534, "extra_groups": []}
+        (cls.folder / "campaign.toml").write_text(campaign_text({"output.frames_per_cycle": 4}))
+        cls.simulated = cls.run_as_user("run", cls.folder / "campaign.toml", "--output", "runs", "--quiet")
+
+    @classmethod
+    def run_as_user(cls, *words):
+        return call(cls.program, *words, cwd=cls.home, **cls.user,
+                    env={"PATH": "/usr/bin:/bin", "HOME": str(cls.home), "TMPDIR": str(cls.home)})  # fmt: skip
+
+    def assert_done(self, done):
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_it_is_simulated_and_compared(self):
+        self.assert_done(self.simulated)
+        done = self.run_as_user("compare", "runs", "--json")
+        self.assert_done(done)
+        self.assertEqual([row["outcome"] for row in json.loads(done.stdout)], ["finished"])
+
+    def test_it_is_reported(self):
+        self.assert_done(self.run_as_user("report", "runs"))
+        self.assertTrue((self.home / "runs/report/report.html").is_file())
+
+    def test_it_is_exported(self):
+        self.assert_done(self.run_as_user("export", "runs"))
+        self.assertTrue(list((self.home / "runs").rglob("*.pvd")))
+
+    def test_the_theory_is_validated(self):
+        self.assert_done(self.run_as_user("validate", "theory_exact", "--points", 20))
 
 
 class Sources(unittest.TestCase):
