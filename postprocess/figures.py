@@ -8,8 +8,12 @@ theory. Prints the path of every file it wrote. Nothing of the theory is compute
 """
 
 import argparse
+import concurrent.futures.process
 import json
+import multiprocessing
+import os
 import pathlib
+import signal
 import sys
 from collections.abc import Callable, Collection, Iterator
 from typing import Any
@@ -58,13 +62,46 @@ def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Itera
     for paths in draw_general(source, only):
         drawn.remember(paths, data)
         yield paths
-    for case in source.campaign["case"]:
-        if cases and case not in cases:
-            continue
-        data = digest_of_data(source.directory, source.output, case)
-        for paths in draw_case(source, only, case):
+    for data, figures in draw_cases(source, only, [case for case in source.campaign["case"] if not cases or case in cases]):
+        for paths in figures:
             drawn.remember(paths, data)
             yield paths
+
+
+Figures = tuple[str, list[list[pathlib.Path]]]  # what a case's figures were drawn from, and the files of each
+
+
+def figures_of_case(source: Source, only: Collection[str], case: str) -> Figures:
+    return digest_of_data(source.directory, source.output, case), list(draw_case(source, only, case))
+
+
+# A process that draws knows them from the process that made it.
+inherited: tuple[Source, Collection[str]] | None = None
+
+
+def draw_inherited(case: str) -> Figures:
+    assert inherited is not None
+    return figures_of_case(*inherited, case)
+
+
+def end_with_the_others() -> None:
+    """Ctrl-C reaches all processes of a command: one that draws ends at once, and the first one says so."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def draw_cases(source: Source, only: Collection[str], cases: list[str]) -> Iterator[Figures]:
+    """The figures of each case, in this order; as many cases are drawn at a time as there are processors."""
+    global inherited
+    processes = min(len(os.sched_getaffinity(0)), len(cases))
+    if processes < 2:
+        yield from (figures_of_case(source, only, case) for case in cases)
+        return
+    inherited = source, only
+    with concurrent.futures.ProcessPoolExecutor(processes, multiprocessing.get_context("fork"), end_with_the_others) as pool:
+        try:
+            yield from pool.map(draw_inherited, cases)
+        except concurrent.futures.process.BrokenProcessPool as error:
+            raise Problem("a process that drew figures was ended, perhaps because memory ran out; run the command again") from error
 
 
 def fitting(name: str, draw_one: Callable[[], list[pathlib.Path]]) -> list[pathlib.Path]:

@@ -10,6 +10,7 @@ import hashlib
 import html
 import html.parser
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -235,6 +236,21 @@ def check_that_figures_belong_to_the_data(scripts, folder):
     assert precious.read_text() == "dear"
 
 
+def check_processes(scripts, folder, drawn):
+    """Cases are drawn side by side: the same files in the same order as on one processor, and a process that is ended is told."""
+    before = [path.read_bytes() for path in drawn]
+    command = [sys.executable, "-B", scripts / "figures.py", folder]
+    alone = subprocess.run(["taskset", "--cpu-list", str(min(os.sched_getaffinity(0))), *command], capture_output=True, text=True)
+    assert alone.stdout.splitlines() == [str(path) for path in drawn], alone.stderr
+    assert [path.read_bytes() for path in drawn] == before
+    if len(os.sched_getaffinity(0)) < 2:
+        return
+    killed = "import os, sys; sys.path.insert(0, sys.argv[1]); sys.argv[:2] = ['figures.py']; import figures; " \
+             "figures.figures_of_case = lambda *_: os.abort()\ntry: figures.main()\nexcept figures.Problem as problem: print(problem)"
+    done = subprocess.run([sys.executable, "-B", "-c", killed, scripts, folder], capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1].startswith("a process that drew figures was ended"), done.stdout + done.stderr
+
+
 def check_in_browser(browser, report, work):
     probed = work / "probed.html"
     page = report.read_text(encoding="utf-8")
@@ -275,6 +291,7 @@ def main(scripts, sample, columns, work):
         if path.suffix == ".svg":
             text = path.read_text(encoding="utf-8")
             assert "sample  \u00b7  Vibrotrough" in text, f"{path} does not name campaign and program"
+    check_processes(scripts, folder, drawn)
     check_budget(scripts, folder)
     check_words(scripts)
     check_swept(scripts, folder, work)
