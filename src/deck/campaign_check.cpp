@@ -61,7 +61,9 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         ++total.cases;
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
         double const packings = expected_packings(scenario.measure);
-        total.grain_steps += packings * expected_work(prepared);
+        total.work += packings * expected_work(prepared);
+        total.largest_step_cost =
+            std::max(total.largest_step_cost, prepared.work(1) / prepared.grain_steps(1));
         total.bytes += expected_bytes(prepared);
         total.largest_bytes += largest_bytes(prepared);
         total.engine_memory = std::max(total.engine_memory, expected_memory(prepared));

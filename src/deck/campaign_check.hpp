@@ -19,7 +19,8 @@ struct CheckedItem {
 struct CampaignCheck {
     std::vector<CheckedItem> items;  ///< in the order of deck::check
     int cases = 0;                   ///< number of cases
-    double grain_steps = 0;          ///< expected number of time steps times grains of the whole campaign
+    double work = 0;                 ///< expected of the whole campaign, see expected_work
+    double largest_step_cost = 1;    ///< prepare::relative_step_cost of the largest layer
     double bytes = 0;                ///< expected size of all files, bytes
     double largest_bytes = 0;        ///< if all cases go to max_packings and max_cycles, bytes
     double engine_memory = 0;        ///< of one engine of the largest case, bytes

@@ -129,7 +129,7 @@ double expected_cycles(scenario::Scenario const& scenario, Experience const& exp
 
 double expected_work(prepare::PreparedCase const& c, Experience const& experience) {
     double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
-    return c.grain_steps(settling / c.time.steps_per_cycle + expected_cycles(c.scenario, experience));
+    return c.work(settling / c.time.steps_per_cycle + expected_cycles(c.scenario, experience));
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {

@@ -76,8 +76,9 @@ int expected_packings(scenario::MeasurementPlan const& plan, Experience const& e
 /// Number of cycles that one packing will take, at most max_cycles.
 double expected_cycles(scenario::Scenario const& scenario, Experience const& experience = {});
 
-/// Grain-steps of one packing, including settling (five times the time of a free fall; less if another case
-/// has settled the same packing). A clump counts with the number of its spheres.
+/// What one packing costs, in grain-steps of a small layer (prepare::PreparedCase::work), including settling
+/// (five times the time of a free fall; less if another case has settled the same packing). A clump counts
+/// with the number of its spheres.
 double expected_work(prepare::PreparedCase const& prepared, Experience const& experience = {});
 
 /// Number of bytes of all files of a case with so many packings of so many cycles. The lengths of the rows

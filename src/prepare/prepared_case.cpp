@@ -100,6 +100,16 @@ double PreparedCase::grain_steps(double cycles) const {
     return scenario.layer.grains * static_cast<double>(spheres_per_grain) * time.steps_per_cycle * cycles;
 }
 
+double PreparedCase::work(double cycles) const {
+    return grain_steps(cycles) *
+           relative_step_cost(scenario.layer.grains * static_cast<double>(spheres_per_grain));
+}
+
+double relative_step_cost(double spheres) {
+    constexpr double most = 2.7, half_way = 30000, steepness = 1.5;
+    return 1 + most / (1 + std::pow(half_way / spheres, steepness));
+}
+
 PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
     PreparedCase prepared{};
     prepared.scenario = scenario;

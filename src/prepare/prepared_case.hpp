@@ -51,9 +51,20 @@ struct PreparedCase {
     // Theory.
     PointMassInputs point_mass;  ///< what the theory needs to predict the case
 
-    /// Grain-steps of a number of cycles of one packing: spheres times time steps, the unit of cost.
+    /// Grain-steps of a number of cycles of one packing: spheres times time steps.
     double grain_steps(double cycles) const;
+
+    /// What they cost, in grain-steps of a small layer, the unit of cost: grain_steps() times
+    /// relative_step_cost() of the layer's spheres.
+    double work(double cycles) const;
 };
+
+/// How much more processor time a step of a grain takes in a layer of so many spheres than in a small one,
+/// whose grains stay in the processor's caches: 1 below 3000 spheres, 3.6 above 300,000.
+///
+/// A curve through what one machine (AMD EPYC, LIGGGHTS 3.8.0, one rank) took for 3000, 10,000, 100,000 and
+/// 300,000 grains (tests/bench/README.md). Other caches give other numbers: within a factor of 1.5 or so.
+double relative_step_cost(double spheres);
 
 /// Prepares the cases of a campaign. What cases have in common (the integrated shape of clumps) is kept from
 /// one case to the next. Not for use by several threads at once.

@@ -30,8 +30,8 @@ class Tasks : public CampaignFolder {
 
 // A packing takes (grain-steps of its cycles) / (grain-steps per second).
 TEST_F(Tasks, TakeAsManyPackingsAsFitIntoTheirDuration) {
-    double const steps = planned.prepared->grain_steps(24);
-    TaskSize size{{}, steps / 60, 1};  // a minute per packing
+    double const work = planned.prepared->work(24);
+    TaskSize size{{}, work / 60, 1};  // a minute per packing
     EXPECT_DOUBLE_EQ(expected_time(orders(1, 24)[0], size), 60);
     EXPECT_EQ(sizes(make_tasks(orders(7, 24), size)), std::vector<std::size_t>(7, 1));
     size.duration = 180.5;
@@ -42,13 +42,13 @@ TEST_F(Tasks, TakeAsManyPackingsAsFitIntoTheirDuration) {
     EXPECT_TRUE(make_tasks({}, size).empty());
     // 0 cycles: as many as the campaign file allows.
     EXPECT_DOUBLE_EQ(expected_time(orders(1, 0)[0], size),
-                     planned.prepared->grain_steps(planned.scenario().measure.max_cycles) / size.speed);
+                     planned.prepared->work(planned.scenario().measure.max_cycles) / size.speed);
 }
 
 TEST_F(Tasks, CountOnSeveralRanksAsFarAsTheyWereMeasured) {
     int const grains = planned.scenario().layer.grains;
     TaskSize const size{{}, 1, 2};
-    EXPECT_DOUBLE_EQ(planned.prepared->grain_steps(24) / expected_time(orders(1, 24)[0], size),
+    EXPECT_DOUBLE_EQ(planned.prepared->work(24) / expected_time(orders(1, 24)[0], size),
                      std::max(1.0, 2 * parallel_efficiency(grains / 2.0)));
 }
 

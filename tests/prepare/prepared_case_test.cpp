@@ -47,6 +47,19 @@ TEST(PreparedCase, AClumpCostsItsSpheres) {
                      8.0 * cubes.scenario.layer.grains * cubes.time.steps_per_cycle * 10);
 }
 
+// cost = grain-steps (1 + 2.7 / (1 + (30,000 / n)^1.5)): what a step of a grain was measured to cost among n
+// spheres, over that in a layer of 1000 (tests/bench/README.md). Tolerance: a tenth, as the measurements
+// scatter on a busy machine.
+TEST(PreparedCase, AStepCostsMoreInALargeLayer) {
+    EXPECT_NEAR(relative_step_cost(100), 1, 0.001);
+    EXPECT_NEAR(relative_step_cost(3000), 1.07, 0.107);
+    EXPECT_NEAR(relative_step_cost(10'000), 1.4, 0.14);
+    EXPECT_NEAR(relative_step_cost(100'000), 3.3, 0.33);
+    EXPECT_NEAR(relative_step_cost(300'000), 3.6, 0.36);
+    PreparedCase const c = prepare_case(scenario(with("height = \"12 mm\"", "grains = 100000")));
+    EXPECT_DOUBLE_EQ(c.work(3), c.grain_steps(3) * relative_step_cost(c.scenario.layer.grains));
+}
+
 TEST(PreparedCase, CasesShareTheirClump) {
     CasePreparer preparer;
     std::string const cubes = with("diameter_spread = 0.1", "shape = \"cube\"");

@@ -68,6 +68,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     scenario::MeasurementPlan const& plan = prepared.scenario.measure;
     double const work = deck::expected_packings(plan) * deck::expected_work(prepared);
+    double const step_cost = prepared.work(1) / prepared.grain_steps(1);
     scenario::Grains const& grains = prepared.scenario.grains;
     return {{"case", number},
             {"throw_number", prepared.throw_number},
@@ -76,7 +77,8 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
             {"findings", findings},
             {"expected_packings", deck::expected_packings(plan)},
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
-            {"expected_grain_steps", work},
+            {"expected_grain_steps", work / step_cost},
+            {"relative_step_cost", step_cost},
             {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
 }
 
@@ -88,7 +90,7 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                     {"expected_bytes", found.bytes},
                     {"largest_bytes", found.largest_bytes},
                     {"engine_memory_bytes", found.engine_memory},
-                    {"expected_core_hours", found.grain_steps / speed.grain_steps_per_second / 3600}};
+                    {"expected_core_hours", found.work / speed.grain_steps_per_second / 3600}};
     std::string const begin = head.dump(2), end = tail.dump(2);
     fmt::print("{},\n  \"cases\": [", begin.substr(0, begin.rfind('\n')));
     prepare::CasePreparer preparer;
@@ -135,9 +137,12 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
                found.cases, found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
                found.largest_bytes / 1e6, found.engine_memory / 1e6);
-    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})\n",
-               found.grain_steps / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second,
-               speed.source);
+    fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})",
+               found.work / speed.grain_steps_per_second / 3600, speed.grain_steps_per_second, speed.source);
+    if (found.largest_step_cost > 1.05)
+        fmt::print("; in the largest layer a step of a grain costs {:.2g} times as much",
+                   found.largest_step_cost);
+    fmt::print("\n");
 }
 
 int run_check(CheckArguments const& options) {

@@ -62,7 +62,7 @@ struct DrivenCase {
     evaluate::EvaluatedPackings evaluated = {};  ///< measured by this process, until the case has its result
     std::set<int> in_hand = {};                  ///< packings that the executor has
     int counted = 0, done = 0;                   ///< packings of it in Progress
-    double expected = 0;                         ///< grain-steps of it in the remaining time
+    double expected = 0;                         ///< work of it in the remaining time
     int attempts = 0;                            ///< failed ones of earlier runs
     bool was_repaired = false;                   ///< its packings were found damaged once
     bool has_ended = false;
@@ -172,8 +172,7 @@ class Driver {
         double cycles = 0;
         for (auto const& [number, packing] : one.known.packings)
             cycles += static_cast<double>(packing.efficiency.size());
-        double const left =
-            one.known.planned->prepared->grain_steps(std::max(0.0, decision.expected - cycles));
+        double const left = one.known.planned->prepared->work(std::max(0.0, decision.expected - cycles));
         remaining_time_.expect(left - one.expected);
         one.expected = left;
     }
@@ -217,9 +216,8 @@ class Driver {
     /// The longest first: what starts last should not last longest.
     void submit_orders() {
         if (orders_.empty() || is_stopping_) return;
-        std::ranges::stable_sort(orders_, std::ranges::greater(), [](PackingOrder const& order) {
-            return order.planned->prepared->grain_steps(1);
-        });
+        std::ranges::stable_sort(orders_, std::ranges::greater(),
+                                 [](PackingOrder const& order) { return order.planned->prepared->work(1); });
         for (PackingOrder const& order : orders_) summary_.again += before_.contains(order.id()) ? 1 : 0;
         summary_.submitted += static_cast<int>(orders_.size());
         std::vector<PackingOrder> const orders = std::exchange(orders_, {});
@@ -233,7 +231,7 @@ class Driver {
         one.in_hand.erase(ended.id.packing);
         progress_.core_time += ended.core_time;
         if (!ended.failure) {
-            remaining_time_.done(planned.prepared->grain_steps(ended.cycles));
+            remaining_time_.done(planned.prepared->work(ended.cycles));
             take_in(one, ended);
             if (!one.has_ended) decide(one);
         } else if (!one.has_ended && may_retry(ended)) {
@@ -328,7 +326,7 @@ class Driver {
         double under_way = 0, core_time = 0;
         int cores = 0;
         for (RunningPacking const& one : progress_.engines) {
-            under_way += one.planned->prepared->grain_steps(one.cycles);
+            under_way += one.planned->prepared->work(one.cycles);
             core_time += one.elapsed * one.ranks;
             cores += one.ranks;
         }

@@ -71,7 +71,7 @@ double expected_time(PackingOrder const& order, TaskSize const& size) {
     double const share = static_cast<double>(scenario.layer.grains) / size.ranks;
     // Where nothing was measured, several ranks are not counted upon.
     double const cores = size.ranks > 1 ? std::max(1.0, size.ranks * parallel_efficiency(share)) : 1.0;
-    return order.planned->prepared->grain_steps(cycles) / (size.speed * cores);
+    return order.planned->prepared->work(cycles) / (size.speed * cores);
 }
 
 std::vector<Task> make_tasks(std::vector<PackingOrder> const& orders, TaskSize const& size) {

@@ -20,7 +20,7 @@ constexpr double least_scatter = 0.1;
 
 /// What the results say.
 struct Learned {
-    double speed = 0;             ///< grain-steps per second and core; 0 without results
+    double speed = 0;             ///< grain-steps of a small layer per second and core; 0 without results
     deck::Experience experience;  ///< what the cost of further cases is expected from
     std::vector<double> ratios;   ///< logarithms of true over expected cost
 };
@@ -31,7 +31,7 @@ Learned learn(std::vector<CaseOverview> const& cases) {
     std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
         if (!one.result || one.result->packings == 0) continue;
-        work += one.planned->prepared->grain_steps(one.result->cycles);
+        work += one.planned->prepared->work(one.result->cycles);
         time += one.result->core_time;
         cycles += one.result->cycles;
         packings += one.result->packings;

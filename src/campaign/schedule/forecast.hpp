@@ -14,7 +14,7 @@ struct Forecast {
         certificate,  ///< measured when the engine was probed
         results,      ///< of the campaign's own cases
     };
-    double speed = 0;                           ///< grain-steps per second and core
+    double speed = 0;                           ///< grain-steps of a small layer per second and core
     SpeedSource source = SpeedSource::assumed;  ///< where it was taken from
     int results = 0;                            ///< cases that the forecast rests on
     double core_time = 0;                       ///< s, of all packings that are missing

@@ -4,12 +4,12 @@
 
 namespace vibrotrough::campaign {
 
-void RemainingTime::expect(double grain_steps) {
-    expected_ += grain_steps;
+void RemainingTime::expect(double work) {
+    expected_ += work;
 }
 
-void RemainingTime::done(double grain_steps) {
-    done_ += grain_steps;
+void RemainingTime::done(double work) {
+    done_ += work;
 }
 
 double RemainingTime::elapsed() const {
