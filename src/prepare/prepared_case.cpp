@@ -106,7 +106,7 @@ double PreparedCase::work(double cycles) const {
 }
 
 double relative_step_cost(double spheres) {
-    constexpr double most = 2.7, half_way = 30000, steepness = 1.5;
+    constexpr double most = 2, half_way = 30000, steepness = 1.5;
     return 1 + most / (1 + std::pow(half_way / spheres, steepness));
 }
 

@@ -60,10 +60,10 @@ struct PreparedCase {
 };
 
 /// How much more processor time a step of a grain takes in a layer of so many spheres than in a small one,
-/// whose grains stay in the processor's caches: 1 below 3000 spheres, 3.6 above 300,000.
+/// whose grains stay in the processor's caches: 1 below 3000 spheres, 3 above 300,000.
 ///
-/// A curve through what one machine (AMD EPYC, LIGGGHTS 3.8.0, one rank) took for 3000, 10,000, 100,000 and
-/// 300,000 grains (tests/bench/README.md). Other caches give other numbers: within a factor of 1.5 or so.
+/// A curve through what LIGGGHTS 3.8.0 took for 10,000, 100,000 and 300,000 grains on one rank of an AMD EPYC
+/// (tests/bench/README.md). Between two days, and so between machines, it was off by a factor of up to 1.4.
 double relative_step_cost(double spheres);
 
 /// Prepares the cases of a campaign. What cases have in common (the integrated shape of clumps) is kept from
