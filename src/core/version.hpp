@@ -4,7 +4,7 @@
 
 namespace vibrotrough::core {
 
-/// Version of the program, e.g. "0.1.0".
+/// Version of the program, e.g. "0.2.0".
 std::string_view program_version();
 
 /// Git commit from which the program was built, 12 digits, with "-dirty" appended if the sources had
