@@ -163,7 +163,7 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
 }
 
 double expected_memory(prepare::PreparedCase const& c, int ranks) {
-    return 36e6 * ranks + 2100 * sphere_count(c);
+    return 36e6 * ranks + 2700 * sphere_count(c);
 }
 
 }  // namespace vibrotrough::deck

@@ -92,8 +92,8 @@ double expected_bytes(prepare::PreparedCase const& prepared);
 /// The same for measure.max_packings packings of measure.max_cycles cycles: it cannot be more.
 double largest_bytes(prepare::PreparedCase const& prepared);
 
-/// Number of bytes of memory of one engine on all its ranks: 36 MB for each rank and 2.1 kB for each sphere,
-/// seen with LIGGGHTS 3.8.0 and 60 to 40,000 grains.
+/// Number of bytes of memory of one engine on all its ranks: 36 MB for each rank and 2.7 kB for each sphere,
+/// the largest that LIGGGHTS 3.8.0 took at any moment with 60 to 300,000 grains (tests/bench/README.md).
 double expected_memory(prepare::PreparedCase const& prepared, int ranks = 1);
 
 /// Skin of the neighbour lists in grain diameters, which the deck uses.
