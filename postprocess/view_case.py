@@ -92,7 +92,7 @@ def chosen_quantity(view: Any, grains: Any) -> Quantity:
         return quantity
     note = f"These frames do not contain {quantity.array} (older versions wrote no spin); run the case again to see it."
     print("view_case.py:", note, file=sys.stderr)
-    show_text(view, Text(registrationName="missing", Text=note), "Any Location").Position = [0.008, 0.87]
+    show_text(view, Text(registrationName="missing", Text=note), "Any Location").Position = [0.008, 0.81]
     return QUANTITIES["velocity"]
 
 
@@ -220,7 +220,7 @@ def annotate(view: Any, grains: Any, block: Any) -> None:
         motion = PythonAnnotation(registrationName="motion of the point mass", Input=block)
         motion.ArrayAssociation = "Field Data"
         motion.Expression = "'theory: the point mass ' + motion.GetValue(0)"
-        show_text(view, motion, "Lower Left Corner")
+        show_text(view, motion, "Any Location").Position = [0.008, 0.86]  # below the caption: the colour bar needs the lower edge
 
 
 def axis_labels(low: float, high: float, unit: float) -> list[str]:
