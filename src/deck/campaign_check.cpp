@@ -62,8 +62,7 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
         double const packings = expected_packings(scenario.measure);
         total.work += packings * expected_work(prepared);
-        total.largest_step_cost =
-            std::max(total.largest_step_cost, prepared.work(1) / prepared.grain_steps(1));
+        total.largest_step_cost = std::max(total.largest_step_cost, prepared.step_cost());
         total.bytes += expected_bytes(prepared);
         total.largest_bytes += largest_bytes(prepared);
         total.engine_memory = std::max(total.engine_memory, expected_memory(prepared));

@@ -100,9 +100,12 @@ double PreparedCase::grain_steps(double cycles) const {
     return scenario.layer.grains * static_cast<double>(spheres_per_grain) * time.steps_per_cycle * cycles;
 }
 
+double PreparedCase::step_cost() const {
+    return relative_step_cost(scenario.layer.grains * static_cast<double>(spheres_per_grain));
+}
+
 double PreparedCase::work(double cycles) const {
-    return grain_steps(cycles) *
-           relative_step_cost(scenario.layer.grains * static_cast<double>(spheres_per_grain));
+    return grain_steps(cycles) * step_cost();
 }
 
 double relative_step_cost(double spheres) {

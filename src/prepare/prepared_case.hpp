@@ -54,8 +54,11 @@ struct PreparedCase {
     /// Grain-steps of a number of cycles of one packing: spheres times time steps.
     double grain_steps(double cycles) const;
 
-    /// What they cost, in grain-steps of a small layer, the unit of cost: grain_steps() times
     /// relative_step_cost() of the layer's spheres.
+    double step_cost() const;
+
+    /// What these cycles cost, in grain-steps of a small layer, the unit of cost: grain_steps() times
+    /// step_cost().
     double work(double cycles) const;
 };
 

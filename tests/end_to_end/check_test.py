@@ -113,6 +113,11 @@ class Check(EndToEndTest):
         self.assertGreater(report["expected_bytes"], 10_000_000 * 600)
         self.assertGreater(report["engine_memory_bytes"], 10e9)
         self.assertEqual(findings["memory of one engine"]["severity"], "warning")
+        (case,) = report["cases"]
+        self.assertGreater(case["relative_step_cost"], 2.9, "ten million grains fit into no cache")
+        self.assertAlmostEqual(case["expected_core_hours"] * 3600 * report["grain_steps_per_cpu_second"]
+                               / (case["expected_grain_steps"] * case["relative_step_cost"]), 1)  # fmt: skip
+        self.assertIn("in the largest layer a step of a grain costs 3 times as much", self.call("check", large).stdout)
 
     def test_a_throw_number_of_one_is_not_refused(self):
         """At 1 the point mass just does not fly: there is no flight that a contact could be too long for."""

@@ -68,7 +68,6 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     scenario::MeasurementPlan const& plan = prepared.scenario.measure;
     double const work = deck::expected_packings(plan) * deck::expected_work(prepared);
-    double const step_cost = prepared.work(1) / prepared.grain_steps(1);
     scenario::Grains const& grains = prepared.scenario.grains;
     return {{"case", number},
             {"throw_number", prepared.throw_number},
@@ -77,8 +76,8 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
             {"findings", findings},
             {"expected_packings", deck::expected_packings(plan)},
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
-            {"expected_grain_steps", work / step_cost},
-            {"relative_step_cost", step_cost},
+            {"expected_grain_steps", work / prepared.step_cost()},
+            {"relative_step_cost", prepared.step_cost()},
             {"expected_core_hours", work / speed.grain_steps_per_second / 3600}};
 }
 
