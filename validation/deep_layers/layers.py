@@ -39,6 +39,7 @@ class Layer:
         d = self.diameter
         changes: dict[str, Any] = {
             "trough.inclination": None, "trough.tan_inclination": self.tan_inclination, "trough.amplitude": f"{self.amplitude:g} mm",
+            "trough.throw_number": self.throw_number,
             "trough.tan_vibration_angle": self.tan_vibration_angle, "trough.friction": self.friction,
             "grains.diameter": f"{d:g} mm", "grains.friction": self.grain_friction, "grains.youngs_modulus": f"{modulus_mpa:g} MPa",
             "layer.length": f"{6 * d:g} mm", "layer.width": f"{5 * d:g} mm", "layer.height": f"{self.depth * d:g} mm"}
