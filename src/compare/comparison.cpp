@@ -1,5 +1,6 @@
 #include "compare/comparison.hpp"
 
+#include "prepare/softness.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
 
@@ -172,6 +173,7 @@ Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
     Row row{};
     row.id = id;
     if (std::string const open = not_covered(prepared.scenario.engine); !open.empty()) row.not_covered = open;
+    if (is_soft(prepared)) row.soft = "soft";
     row.throw_number = prepared.throw_number;
     row.machine_number = prepared.machine_number;
     row.vibration_angle_deg = scenario::in_degrees(trough.vibration_angle);

@@ -61,6 +61,7 @@ struct Row {
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
+    std::optional<std::string> soft = {};         ///< "soft" when the grains are too soft for the layer
 };
 
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.

@@ -2,10 +2,12 @@
 
 #include "deck/estimates.hpp"
 #include "deck/known_errors.hpp"
+#include "prepare/softness.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -174,14 +176,24 @@ Finding known_error(std::string item, std::string key, std::span<KnownError cons
                 never, advice);
 }
 
-/// What validation/convergence found in its layer is taken for this one: by the overlap at impact, and by the
-/// size of the box in diameters.
+/// Grains that are too soft slow a deep layer down (validation/deep_layers). An error when
+/// prepare::is_soft().
+void check_softness(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    double const wanted = c.scenario.measure.half_width;
+    std::string const advice = fmt::format(
+        "leave out grains.youngs_modulus, so that it is chosen, or write at least {:.3g} MPa: a landing "
+        "takes "
+        "{:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
+        prepare::stiff_enough(c, wanted / 2) / 1e6,
+        prepare::wave_number(c, *c.scenario.grains.youngs_modulus) * 180 / std::numbers::pi);
+    findings.push_back(most("bound of the error of eta by soft grains", "grains.youngs_modulus",
+                            c.softness_error, wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
+}
+
+/// What validation/convergence found in its layer is taken for this one, by the size of the box in diameters.
 void check_known_errors(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const diameter = s.grains.diameter, wanted = s.measure.half_width;
-    double const overlap = overlap_at_impact(c, c.time.impact_speed) / diameter;
-    findings.push_back(known_error("grains as soft", "grains.youngs_modulus", known_softness_errors(),
-                                   overlap, wanted, "stiffen the grains"));
     findings.push_back(known_error("boxes as short", "layer.length", known_length_errors(),
                                    diameter / s.layer.length, wanted, "lengthen the box"));
     if (s.trough.side_wall_friction) return;  // the width is part of the problem
@@ -257,6 +269,7 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     check_contact_time(findings, prepared);
     if (!is_block(prepared.scenario)) {
         check_box(findings, prepared);
+        check_softness(findings, prepared);
         check_known_errors(findings, prepared);
         check_sizes(findings, prepared);
     }

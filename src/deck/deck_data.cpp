@@ -82,7 +82,7 @@ void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("grains", std::to_string(s.layer.grains));
     data.set("grain_words", grain_words(s));
     data.set("density", text(s.grains.density));
-    data.set("youngs_modulus", text(s.grains.youngs_modulus));
+    data.set("youngs_modulus", text(s.grains.youngs_modulus.value()));
     data.set("poisson_ratio", text(s.grains.poisson_ratio));
     data.set("grain_friction", text(s.grains.friction));
     data.set("grain_restitution", text(s.grains.restitution));
@@ -145,10 +145,10 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("wall_model", wall_model);
     data.set("contact_options", options);
     data.set("contact_model", wall_model + " " + options);
-    data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus));
+    data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus.value()));
     data.set("poisson_ratios", repeated(types, s.grains.poisson_ratio));
     data.set("soft",
-             !block && s.grains.youngs_modulus < 5e6);  // LIGGGHTS then requires the command soft_particles
+             !block && s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
     data.set("restitutions",
              per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
     data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));
@@ -305,6 +305,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     data.set("start_efficiency", text(start));
     data.set("start_speed", rounded(start * n.velocity_scale));
     describe_inputs(data, s);
+    data.set("modulus_chosen", n.modulus_chosen);
     describe_contact(data, n);
     describe_extras(data, s.engine);
     describe_packing(data, n);

@@ -6,11 +6,8 @@
 namespace vibrotrough::deck {
 namespace {
 
-// From validation/convergence/result.csv: each value minus that of 100 MPa, 144 mm and 72 mm, half-widths
+// From validation/convergence/result.csv: each value minus that of 144 mm and 72 mm, half-widths
 // combined in squares. A test compares them with that file.
-constexpr std::array<KnownError, 3> softness{{{0.0804, -0.0387, 0.0242, "1 MPa"},
-                                              {0.0422, -0.0272, 0.0191, "5 MPa"},
-                                              {0.0243, -0.0065, 0.0171, "20 MPa"}}};
 constexpr std::array<KnownError, 3> lengths{{{1.0 / 8, 0.0273, 0.0155, "8 diameters"},
                                              {1.0 / 12, 0.0239, 0.0171, "12 diameters"},
                                              {1.0 / 24, -0.0067, 0.0181, "24 diameters"}}};
@@ -19,10 +16,6 @@ constexpr std::array<KnownError, 3> widths{{{1.0 / 5, 0.0222, 0.0134, "5 diamete
                                             {1.0 / 12, 0.0125, 0.0134, "12 diameters"}}};
 
 }  // namespace
-
-std::span<KnownError const> known_softness_errors() {
-    return softness;
-}
 
 std::span<KnownError const> known_length_errors() {
     return lengths;

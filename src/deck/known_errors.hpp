@@ -15,8 +15,6 @@ struct KnownError {
     std::string_view at;  ///< the setting in words
 };
 
-/// Soft grains, by the overlap of a grain at impact at twice the trough's speed over its diameter.
-std::span<KnownError const> known_softness_errors();
 /// Short boxes, by diameters over length.
 std::span<KnownError const> known_length_errors();
 /// Narrow boxes, by diameters over width.

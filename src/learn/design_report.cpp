@@ -222,7 +222,6 @@ restitution = 0.5                 # assumed
 diameter = "{:.4g} mm"
 diameter_spread = 0.1             # assumed
 bulk_density = "{:.6g} kg/m3"
-youngs_modulus = "5 MPa"          # soft, so that time steps are long
 poisson_ratio = 0.35
 friction = 0.5                    # assumed
 restitution = 0.5                 # assumed

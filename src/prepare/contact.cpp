@@ -40,7 +40,7 @@ ContactPair grain_on_trough(scenario::Grains const& grains, double radius) {
 }
 
 double effective_modulus(scenario::Grains const& grains) {
-    return grains.youngs_modulus / (2 * (1 - grains.poisson_ratio * grains.poisson_ratio));
+    return grains.youngs_modulus.value() / (2 * (1 - grains.poisson_ratio * grains.poisson_ratio));
 }
 
 double hooke_stiffness(scenario::Grains const& grains, ContactPair const& pair, double speed) {

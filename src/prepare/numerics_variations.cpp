@@ -45,9 +45,10 @@ double cohesion_exponent(scenario::EnginePlan const& engine) {
 }
 
 VariedSetting vary_modulus(scenario::Scenario const& s) {
-    VariedSetting varied{NumericalSetting::youngs_modulus, s.grains.youngs_modulus, 1};
+    double const given = s.grains.youngs_modulus.value();
+    VariedSetting varied{NumericalSetting::youngs_modulus, given, 1};
     for (double const factor : modulus_factors) {
-        double const modulus = factor * s.grains.youngs_modulus;
+        double const modulus = factor * given;
         if (modulus > stiffest) continue;
         scenario::Scenario stiff = s;
         stiff.grains.youngs_modulus = modulus;
@@ -55,7 +56,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
         varied.variations.push_back({modulus, std::pow(factor, contact_order), stiff});
     }
     if (varied.variations.empty())
-        varied.left_out = fmt::format("{:.3g} Pa is as stiff as the key allows", s.grains.youngs_modulus);
+        varied.left_out = fmt::format("{:.3g} Pa is as stiff as the key allows", given);
     return varied;
 }
 
@@ -100,7 +101,7 @@ std::vector<VariedSetting> vary_block(PreparedCase const& c) {
         return VariedSetting{setting, value, {}, {}, std::move(why)};
     };
     return {stiffness,
-            left_out(NumericalSetting::youngs_modulus, s.grains.youngs_modulus,
+            left_out(NumericalSetting::youngs_modulus, s.grains.youngs_modulus.value(),
                      "a block has a contact of its own instead"),
             left_out(NumericalSetting::time_step, c.time.rayleigh_fraction,
                      "it follows from the duration of the block's contact"),

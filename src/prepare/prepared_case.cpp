@@ -1,5 +1,7 @@
 #include "prepare/prepared_case.hpp"
 
+#include "prepare/softness.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -54,6 +56,18 @@ void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     }
     c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
     c.layer_height = layer_height(s);
+}
+
+/// Grains without a modulus get the lowest one that leaves most of the half-width asked for to statistics.
+/// The contact of a block has a stiffness of its own.
+void prepare_modulus(PreparedCase& c) {
+    constexpr double modulus_of_blocks = 5e6, share = 0.5;
+    bool const block = c.scenario.layer.block != scenario::Block::none;
+    std::optional<double>& modulus = c.scenario.grains.youngs_modulus;
+    c.modulus_chosen = !modulus;
+    if (!modulus)
+        modulus = block ? modulus_of_blocks : stiff_enough(c, share * c.scenario.measure.half_width);
+    c.softness_error = block ? 0 : softness_bound(c, *modulus);
 }
 
 void prepare_filling(PreparedCase& c) {
@@ -118,6 +132,7 @@ PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
     prepared.scenario = scenario;
     prepare_drive(prepared);
     prepare_grains(prepared, clumps_);
+    prepare_modulus(prepared);
     prepare_filling(prepared);
     prepare_time(prepared);
     prepare_box(prepared);

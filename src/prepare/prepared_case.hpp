@@ -38,6 +38,10 @@ struct PreparedCase {
     double layer_height;                 ///< m, at rest, as given or from the number of grains
     double largest_extent;               ///< m, largest diameter of the spheres that enclose the grains
 
+    // Stiffness. Where the campaign file gives no modulus, the scenario above holds the one that was chosen.
+    bool modulus_chosen;    ///< whether Young's modulus was chosen here
+    double softness_error;  ///< bound of the error of the efficiency that the grains' softness causes
+
     // Time.
     TimeGrid time;            ///< of the run with the moving trough
     double settle_time_step;  ///< s, while the packing settles

@@ -22,15 +22,15 @@ constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 
 double rayleigh_time(scenario::Scenario const& s, double radius) {
     double const nu = s.grains.poisson_ratio;
-    double const shear_modulus = s.grains.youngs_modulus / (2 * (1 + nu));
+    double const shear_modulus = s.grains.youngs_modulus.value() / (2 * (1 + nu));
     return std::numbers::pi * radius * std::sqrt(s.grains.density / shear_modulus) / (0.1631 * nu + 0.8766);
 }
 
 double hertz_time(scenario::Scenario const& s, double radius, double speed) {
     double const nu = s.grains.poisson_ratio;
     double const mass =
-        s.grains.density * std::numbers::pi / 6 * std::pow(2 * radius, 3) / 2;  // m* of two equal grains
-    double const modulus = s.grains.youngs_modulus / (2 * (1 - nu * nu));       // E* of two equal grains
+        s.grains.density * std::numbers::pi / 6 * std::pow(2 * radius, 3) / 2;     // m* of two equal grains
+    double const modulus = s.grains.youngs_modulus.value() / (2 * (1 - nu * nu));  // E* of two equal grains
     return 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
 }
 

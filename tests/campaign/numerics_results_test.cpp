@@ -62,7 +62,7 @@ TEST_F(Numerics, AStudyIsTheCaseWithoutFramesAndItsVariations) {
         EXPECT_EQ(one.output.frames_per_cycle, 0);
         EXPECT_EQ(one.measure.half_width, 0.005);
     }
-    EXPECT_EQ(scenarios[1].grains.youngs_modulus, 4 * scenarios[0].grains.youngs_modulus);
+    EXPECT_EQ(scenarios[1].grains.youngs_modulus, 4 * scenarios[0].grains.youngs_modulus.value());
     EXPECT_EQ(plan_study(filmed.cases.front(), {}).standard.scenario.measure.half_width,
               filmed.cases.front().scenario().measure.half_width);
 }

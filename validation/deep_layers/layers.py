@@ -6,6 +6,7 @@ from typing import Any
 
 MODULI_MPA = [2, 8, 32, 125, 500]
 DEPTHS_MM = [9, 18, 36, 60]  # 3, 6, 12 and 20 diameters
+DEEP_MM = [36, 60]           # those that are simulated with the stiffest grains, too
 THROW_NUMBERS = [1.5, 2.0, 2.4, 2.9]
 GRAINS: dict[str, dict[str, Any]] = {
     "free": {},

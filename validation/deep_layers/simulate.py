@@ -8,7 +8,7 @@ import numpy as np
 
 import vibrotrough
 from campaign_program import Row
-from layers import (DEPTHS_MM, FOUND, FOUND_MODULI_MPA, GRAINS, HELD_OUT_MODULI_MPA, LONG_BOX, MODULI_MPA, SHORT_STEP,
+from layers import (DEEP_MM, DEPTHS_MM, FOUND, FOUND_MODULI_MPA, GRAINS, HELD_OUT_MODULI_MPA, LONG_BOX, MODULI_MPA, SHORT_STEP,
                     THROW_NUMBERS, Layer, held_out)
 from validation_case import Floats, ValidationCase
 
@@ -62,9 +62,10 @@ def grid(run: ValidationCase, moduli: list[int]) -> None:
     for modulus in moduli:
         for grains, changes in GRAINS.items():
             name = f"{grains}-{modulus}MPa"
-            sweep: dict[str, list[Any]] = {"layer.height": [f"{depth} mm" for depth in DEPTHS_MM], "trough.throw_number": THROW_NUMBERS}
+            depths = DEEP_MM if modulus == MODULI_MPA[-1] else DEPTHS_MM
+            sweep: dict[str, list[Any]] = {"layer.height": [f"{depth} mm" for depth in depths], "trough.throw_number": THROW_NUMBERS}
             table = run.campaign(name, {**changes, "grains.youngs_modulus": f"{modulus} MPa"}, sweep)
-            places = [(depth // 3, gamma) for depth in DEPTHS_MM for gamma in THROW_NUMBERS]
+            places = [(depth // 3, gamma) for depth in depths for gamma in THROW_NUMBERS]
             rows += [["grid", grains, *place, modulus, *measured(run, name, row)] for place, row in zip(places, table)]
     run.write_table("grid.csv", GRID, rows)
 

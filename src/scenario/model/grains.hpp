@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,12 +48,12 @@ std::shared_ptr<ShapeFile const> read_shape(NamedFile file);
 
 /// The grains of a layer: size, shape and material.
 struct Grains {
-    double diameter;          ///< m; of a clump, of the sphere with the clump's volume; of a list, its mean
-    double diameter_spread;   ///< s, width of the size law
-    double density;           ///< kg/m^3, of the material
-    double youngs_modulus;    ///< Pa, of grain and trough
-    double poisson_ratio;     ///< of grain and trough
-    double friction;          ///< coefficient of grain on grain
+    double diameter;         ///< m; of a clump, of the sphere with the clump's volume; of a list, its mean
+    double diameter_spread;  ///< s, width of the size law
+    double density;          ///< kg/m^3, of the material
+    std::optional<double> youngs_modulus;  ///< Pa, of grain and trough; none: prepare chooses it
+    double poisson_ratio;                  ///< of grain and trough
+    double friction;                       ///< coefficient of grain on grain
     double restitution;       ///< coefficient of grain on grain, nominal value of the contact model
     double rolling_friction;  ///< coefficient of the epsd2 model
     Rotation rotation = Rotation::free;         ///< how grains may rotate

@@ -61,12 +61,14 @@ std::string sizes_toml(Grains const& g) {
 }
 
 std::string grains_toml(Grains const& g) {
+    std::string const modulus =
+        g.youngs_modulus ? fmt::format("youngs_modulus = \"{} Pa\"\n", *g.youngs_modulus) : "";
     std::string text =
         "[grains]\n" + sizes_toml(g) +
         fmt::format(
-            "density = \"{} kg/m3\"\nyoungs_modulus = \"{} Pa\"\npoisson_ratio = {}\n"
+            "density = \"{} kg/m3\"\n{}poisson_ratio = {}\n"
             "friction = {}\nrestitution = {}\nrolling_friction = {}\n",
-            g.density, g.youngs_modulus, g.poisson_ratio, g.friction, g.restitution, g.rolling_friction);
+            g.density, modulus, g.poisson_ratio, g.friction, g.restitution, g.rolling_friction);
     text += fmt::format("rotation = \"{}\"\n", name_of(g.rotation));
     if (is_clump(g)) text += fmt::format("shape = \"{}\"\n", g.shape);
     return text + "\n";

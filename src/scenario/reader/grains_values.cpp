@@ -17,7 +17,7 @@ class GrainsReader {
         Grains grains{.diameter = 0,
                       .diameter_spread = given_.number("grains.diameter_spread"),
                       .density = density(),
-                      .youngs_modulus = given_.number("grains.youngs_modulus"),
+                      .youngs_modulus = modulus(),
                       .poisson_ratio = given_.number("grains.poisson_ratio"),
                       .friction = given_.number("grains.friction"),
                       .restitution = given_.number("grains.restitution"),
@@ -40,6 +40,17 @@ class GrainsReader {
         if (Value const* bulk = given_.find("grains.bulk_density"))
             return bulk->number() / settled_solid_fraction;
         return given_.number("grains.density");
+    }
+
+    std::optional<double> modulus() const {
+        if (Value const* given = given_.find("grains.youngs_modulus")) return given->number();
+        if (given_.number("engine.cohesion") > 0) {
+            given_.fail("grains.youngs_modulus",
+                        "is missing; it cannot be chosen for cohesive grains, because the pull that "
+                        "engine.cohesion means depends on it",
+                        "write the modulus for which the cohesion was found, such as \"5 MPa\"");
+        }
+        return {};
     }
 
     void set_rotation(Grains& grains) const {

@@ -82,8 +82,10 @@ constexpr std::array keys{
         required, "\"800 kg/m3\"",
         "density of the settled layer with its voids; the grains' density is this divided by the solid "
         "fraction of a settled layer, 0.58"},
-    Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", required, "\"5 MPa\"",
-        "Young's modulus of grains and trough, lower than in reality to allow a longer time step"},
+    Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", optional, "\"50 MPa\"",
+        "Young's modulus of grains and trough; if it is left out, each case gets the lowest one that is "
+        "stiff "
+        "enough for its depth and drive, because softer grains allow a longer time step"},
     Key{"grains.poisson_ratio", number, "", 0, 0.49, "0 to 0.49", "", required, "0.35",
         "Poisson's ratio of grains and trough"},
     Key{"grains.friction", number, "", 0, 5, "0 to 5", "", required, "0.5",
