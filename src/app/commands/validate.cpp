@@ -74,9 +74,10 @@ void add_validate(CLI::App& program, int& exit_code) {
     command->add_flag("--store", options->store,
                       "Keep tables, figures and verdicts in validation/ itself and write its page again");
     command->add_flag("--page", options->page, "Print the page of stored verdicts, and run nothing");
-    command->add_flag("--claims", options->claims,
-                      "Compare the numbers in README files that come from stored tables with these tables, and "
-                      "run nothing; with --store, write the numbers");
+    command->add_flag(
+        "--claims", options->claims,
+        "Compare the numbers in README files that come from stored tables with these tables, and "
+        "run nothing; with --store, write the numbers");
     command->add_flag("--verbose", options->verbose,
                       "Show what the validation cases print instead of writing it to their logs");
     add_python(*command, options->python);
