@@ -16,7 +16,7 @@ Cell = float | str | None
 Cells = dict[str, Cell]
 MARK = re.compile(r"<!--=(?P<name>[^>]*?)-->(?P<text>.*?)<!--/-->", re.DOTALL)
 PAGES = ("README.md", "src/*/README.md", "src/README.md", "tests/*/README.md", "postprocess/README.md", "validation/*/README.md")
-KEYS = {"tables", "where", "base", "let", "value", "text", "each", "join", "frame"}
+KEYS = {"tables", "where", "base", "let", "value", "over", "text", "each", "join", "frame"}
 FUNCTIONS = {"abs": abs, "min": min, "max": max, "round": round}
 REWRITE = "'vibrotrough validate --claims --store' writes it"
 
@@ -90,7 +90,8 @@ def claim_text(claim: dict[str, Any], folder: pathlib.Path) -> str:
             each = str(claim.get("join", ", ")).join(claim["each"].format(**row) for row in chosen)
             return str(claim.get("frame", "{}")).format(each)
         values = [float(_evaluate(claim.get("value", "1"), row)) for row in chosen]
-        return str(claim["text"]).format(**(statistics(values) if values else {"count": 0}))
+        over = sum(float(_evaluate(claim.get("over", "1"), row)) for row in chosen)
+        return str(claim["text"]).format(**(statistics(values) | {"ratio": sum(values) / over} if values else {"count": 0}))
     except KeyError as error:
         raise ClaimError(f"there is no column or statistic {error}") from error
     except (ValueError, TypeError) as error:
