@@ -16,7 +16,7 @@ Cell = float | str | None
 Cells = dict[str, Cell]
 MARK = re.compile(r"<!--=(?P<name>[^>]*?)-->(?P<text>.*?)<!--/-->", re.DOTALL)
 PAGES = ("README.md", "src/*/README.md", "src/README.md", "tests/*/README.md", "postprocess/README.md", "validation/*/README.md")
-KEYS = {"tables", "where", "base", "let", "value", "over", "text", "each", "join", "frame"}
+KEYS = {"tables", "where", "base", "let", "value", "over", "text", "each", "join", "frame", "sort"}
 FUNCTIONS = {"abs": abs, "min": min, "max": max, "round": round}
 REWRITE = "'vibrotrough validate --claims --store' writes it"
 
@@ -80,9 +80,11 @@ def claim_text(claim: dict[str, Any], folder: pathlib.Path) -> str:
         if len(base) != 1:
             raise ClaimError(f"base must choose one row, not {len(base)}")
         rows = [row | {f"base_{name}": value for name, value in base[0].items()} for row in rows]
-    for row in rows:
-        row |= {name: _evaluate(expression, row) for name, expression in claim.get("let", {}).items()}
     chosen = [row for row in rows if _evaluate(claim.get("where", "True"), row)]
+    for row in chosen:
+        row |= {name: _evaluate(expression, row) for name, expression in claim.get("let", {}).items()}
+    if "sort" in claim:
+        chosen.sort(key=lambda row: _evaluate(claim["sort"], row))
     if not chosen and claim.get("text") != "{count}":
         raise ClaimError("no row of the table is chosen")
     try:
