@@ -64,9 +64,10 @@ def _evaluate(expression: str, row: Cells) -> Any:
 
 def statistics(values: list[float]) -> dict[str, float]:
     """What `text` of a claim may quote of its values; `largest` is the one of the largest size, with its sign."""
-    return {"count": len(values), "mean": sum(values) / len(values), "rms": math.sqrt(sum(value * value for value in values) / len(values)),
-            "least": min(values), "most": max(values), "largest": max(values, key=abs), "size": max(map(abs, values)),
-            "mean_size": sum(map(abs, values)) / len(values)}
+    sizes = [abs(value) for value in values]
+    return {"count": len(values), "mean": sum(values) / len(values), "rms": math.sqrt(sum(size * size for size in sizes) / len(values)),
+            "least": min(values), "most": max(values), "largest": values[sizes.index(max(sizes))], "size": max(sizes),
+            "mean_size": sum(sizes) / len(values)}
 
 
 def claim_text(claim: dict[str, Any], folder: pathlib.Path) -> str:

@@ -9,10 +9,11 @@ namespace vibrotrough::learn {
 
 /// What a model misses within a region: a row of validation/model_errors/errors.csv.
 struct ModelError {
-    theory::Range throw_number, tan_inclination;
-    theory::Range depth;  ///< of the layer, in diameters of its grains
-    int layers;           ///< that were simulated there
-    double sd;            ///< standard deviation of the error, in velocity efficiency
+    theory::Range throw_number;     ///< Gamma
+    theory::Range tan_inclination;  ///< tan(alpha), uphill positive
+    theory::Range depth;            ///< of the layer, in diameters of its grains
+    int layers;                     ///< that were simulated there
+    double sd;                      ///< standard deviation of the error, in velocity efficiency
 };
 
 /// The errors of the point mass, from simulated layers whose grains do not roll.

@@ -15,13 +15,13 @@ struct TestedLayers {
     double depth;        ///< of the layer, in diameters of its grains
 };
 
-/// Where the law has been tested: on the level with layers of four diameters, on slopes, and with shallower
-/// and deeper layers. A test compares it with validation/rolling_layer.
-inline constexpr TestedLayers tested_level{{1.25, 2.6}, 0, 4}, tested_slopes{{1.6, 2.3}, 0.08, 4},
-    tested_shallow{{1.6, 1.9}, 0, 3}, tested_deep{{1.6, 1.9}, 0, 16};
-
-/// tan(beta) and mu of these layers.
-inline constexpr Range tested_tan_vibration_angle{0.35, 0.75}, tested_friction{0.15, 0.6};
+/// On the level, layers of four diameters. A test compares these series with validation/rolling_layer.
+inline constexpr TestedLayers tested_level{{1.25, 2.6}, 0, 4};
+inline constexpr TestedLayers tested_slopes{{1.6, 2.3}, 0.08, 4};  ///< downhill and uphill
+inline constexpr TestedLayers tested_shallow{{1.6, 1.9}, 0, 3};    ///< the shallowest
+inline constexpr TestedLayers tested_deep{{1.6, 1.9}, 0, 16};      ///< the deepest
+inline constexpr Range tested_tan_vibration_angle{0.35, 0.75};     ///< of all of them
+inline constexpr Range tested_friction{0.15, 0.6};                 ///< of all of them, mu
 
 /// The throw numbers at which the law has been tested on a slope and, if it is known, at a depth: between the
 /// series of layers, in proportion to slope and depth (their convex hull). Nothing beyond the steepest,
