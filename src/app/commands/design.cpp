@@ -59,7 +59,10 @@ constexpr char const* help =
 measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
 
 2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
-distribution, and the layer is made so deep that the mass flow is reached with the stated confidence.
+distribution, and the layer is made so deep that the mass flow is reached with the stated confidence. What the point
+mass and the rolling-layer law miss is known from simulated layers (validation/model_errors); where none tells it, for
+example because the layer is deeper than any of them (--grain-diameter), the answer begins with "Not tested" and has
+no probability.
 
 3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
 every friction in the central 99.7 % of its distribution (three standard deviations on each side).
