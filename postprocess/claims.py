@@ -26,8 +26,9 @@ class ClaimError(Exception):
 
 
 def _cell(text: str) -> Cell:
+    """A number, a text, or nothing: what was not measured is empty or nan."""
     try:
-        return float(text) if text else None
+        return float(text) if text and not math.isnan(float(text)) else None
     except ValueError:
         return text
 
@@ -92,8 +93,10 @@ def claim_text(claim: dict[str, Any], folder: pathlib.Path) -> str:
         if "each" in claim:
             each = str(claim.get("join", ", ")).join(claim["each"].format(**row) for row in chosen)
             return str(claim.get("frame", "{}")).format(each)
-        values = [float(_evaluate(claim.get("value", "1"), row)) for row in chosen]
-        over = sum(float(_evaluate(claim.get("over", "1"), row)) for row in chosen)
+        used = _names(claim.get("value", "1")) | _names(claim.get("over", "1"))
+        measured = [row for row in chosen if all(row.get(name, "") is not None for name in used)]
+        values = [float(_evaluate(claim.get("value", "1"), row)) for row in measured]
+        over = sum(float(_evaluate(claim.get("over", "1"), row)) for row in measured)
         return str(claim["text"]).format(**(statistics(values) | {"ratio": sum(values) / over} if values else {"count": 0}))
     except KeyError as error:
         raise ClaimError(f"there is no column or statistic {error}") from error

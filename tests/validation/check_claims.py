@@ -103,6 +103,11 @@ class Mistakes(unittest.TestCase):
         self.put("validation/made_up/result.csv", TABLE.replace("0.80", "0.84"))
         self.assertIn("made_up.free is '0.10 to 0.20', its table says '0.10 to 0.24'", "\n".join(claims.check(self.root)))
 
+    def test_what_was_not_measured_does_not_count(self):
+        self.put("validation/made_up/result.csv", TABLE.replace("free,0.80,0.6", "free,0.80,0.6\nfree,nan,0.6\nfree,,0.1"))
+        self.assertNotIn("nan", "\n".join(claims.check(self.root)))
+        self.assertNotIn("made_up.free", "\n".join(claims.check(self.root)))
+
     def test_a_column_that_does_not_exist(self):
         self.put("validation/made_up/claims.toml", CLAIMS.replace("eta - soft_landing", "eta - hard_landing"))
         self.assertIn("there is no column 'hard_landing'; the columns are layer, eta, soft_landing", "\n".join(claims.check(self.root)))
