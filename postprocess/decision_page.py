@@ -28,6 +28,7 @@ Data = dict[str, Any]
 Page = dict[str, Any]
 
 DEGREE = "\u00b0"
+NOT_KNOWN = "not known"
 RULES = {"v = 3.81 N S, of which 70 to 80 % are used in practice": "v = 3.81 N S; 70 to 80 % of it in practice",
          "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)": "no slip: v = g n\u00b2 cot \u03b2 / (2 f)"}
 
@@ -49,7 +50,9 @@ def allowed(ends: list[float], unit: str) -> str:
 
 
 def draw_flow(data: Data) -> Any:
-    """The probability of each mass flow or more, by each model."""
+    """The probability of each mass flow or more, by each model; nothing where it is not known."""
+    if data["untested"] is not None:
+        return ""
     figure, axes = new_figure(size=(7.0, 3.3))
     plain_axes(axes)
     probability = 1 - np.array(data["quantile_shares"])
@@ -66,6 +69,10 @@ def draw_flow(data: Data) -> Any:
     axes.legend(frameon=False, loc="upper right", bbox_to_anchor=(1.0, 0.94))
     figure.tight_layout()
     return svg_of(figure, "Probability of a mass flow or more")
+
+
+def number(value: float | None) -> str:
+    return NOT_KNOWN if value is None else f"{value:.3g}"
 
 
 def design_page(data: Data) -> Page:
@@ -93,8 +100,9 @@ def design_page(data: Data) -> Page:
              f" ({data['friction_low']:.3g} to {data['friction_high']:.3g})" if data["friction_low"] < data["friction_high"] else ", taken as exact")),
     ]
     sure = f"{100 * data['confidence']:.4g} %"
-    models = [[model["model"], f"{model['median_speed_m_per_s']:.3g}", f"{model['sure_speed_m_per_s']:.3g}", f"{model['mass_flow_t_per_h']:.3g}",
-               f"{model['mass_flow_low_t_per_h']:.3g} to {model['mass_flow_high_t_per_h']:.3g}", f"{100 * model['probability']:.1f} %"]
+    models = [[model["model"], f"{model['median_speed_m_per_s']:.3g}", number(model["sure_speed_m_per_s"]), f"{model['mass_flow_t_per_h']:.3g}",
+               NOT_KNOWN if data["untested"] is not None else f"{model['mass_flow_low_t_per_h']:.3g} to {model['mass_flow_high_t_per_h']:.3g}",
+               NOT_KNOWN if data["untested"] is not None else f"{100 * model['probability']:.1f} %"]
               for model in data["models"]]
     rules = [[f"{RULES.get(rule['rule'], rule['rule'])} ({rule['source']})", f"{rule['speed_m_per_s']:.3g}" if rule["speed_m_per_s"] else "no throw",
               f"{rule['low_m_per_s']:.3g} to {rule['high_m_per_s']:.3g}" if rule["low_m_per_s"] else ""]
@@ -106,7 +114,8 @@ def design_page(data: Data) -> Page:
                        f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.4g} mm deep."],
         "facts": [{"heading": "The machine", "rows": machine}, {"heading": "What was asked", "rows": asked}],
         "svg": draw_flow(data),
-        "caption": "Probability of a mass flow or more at this layer depth; dotted: the confidence asked.",
+        "caption": "" if data["untested"] is not None else
+                   "Probability of a mass flow or more at this layer depth; dotted: the confidence asked.",
         "tables": [
             {"heading": "What each model says",
              "headings": ["", "speed, m/s", f"with {sure}, m/s", "mass flow, t/h", "95 % interval, t/h", "reaches what was asked"], "rows": models},

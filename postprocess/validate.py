@@ -10,6 +10,7 @@ import time
 import tomllib
 from typing import Any
 
+import claims
 from validation_case import FAILS, HOLDS, ROOT
 
 WRONG_INPUT, MISSING, INTERRUPTED = 2, 3, 130
@@ -141,6 +142,17 @@ def show_list(cases: list[Case]) -> None:
         print(f"{case.name:<24} {'long' if case.long else 'seconds':<8} {state:<18} {case.title}")
 
 
+def judge_claims(options: argparse.Namespace) -> bool:
+    """Compares the numbers of all pages with their tables, or writes them."""
+    root = options.cases.resolve().parent
+    if options.store:
+        for name in claims.write(root):
+            print(f"written: {name}")
+    problems = claims.check(root)
+    print("\n".join(problems) if problems else claims.summary(root))
+    return not problems
+
+
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*")
@@ -150,7 +162,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs"))
     parser.add_argument("--jobs", type=int, required=True)
     parser.add_argument("--points", type=int, default=300)
-    for flag in ("--list", "--long", "--store", "--verbose", "--page"):
+    for flag in ("--list", "--long", "--store", "--verbose", "--page", "--claims"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
 
@@ -164,10 +176,13 @@ def main() -> None:
     if options.page:
         print(page(cases), end="")
         return
+    if options.claims:
+        sys.exit(0 if judge_claims(options) else 1)
     good = [judge(case, options) for case in chosen(cases, options.names)]
     if options.store:
         (options.cases / "README.md").write_text(page(cases), encoding="utf-8")
         print(f"stored in {options.cases}")
+        claims.write(options.cases.resolve().parent)
     print(f"{sum(good)} of {len(good)} cases hold and have a negative control that fails")
     sys.exit(0 if all(good) else 1)
 

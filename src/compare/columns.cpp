@@ -106,9 +106,10 @@ std::vector<Column> efficiency_columns() {
         {.name = "efficiency_rolling_layer",
          .unit = "1",
          .value = field<&Row::efficiency_rolling_layer>,
-         .meaning = "Velocity efficiency of the rolling-layer law with its published constants, for spheres "
-                    "that may "
-                    "rotate; unknown outside the range in which the law has been tested",
+         .meaning =
+             "Velocity efficiency of the rolling-layer law with its published constants, for spheres "
+             "that may rotate; unknown outside the throw numbers, slopes, frictions and depths at which "
+             "the law has been tested",
          .format = "{:.3f}",
          .position = 95,
          .terminal =

@@ -3,12 +3,13 @@
 #include "prepare/softness.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
+#include "theory/tested_range.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -29,8 +30,9 @@ void add_theory(Row& row, prepare::PointMassInputs const& point_mass) {
 }
 
 /// The efficiency of the rolling-layer law where it has been tested, else nothing.
-std::optional<double> rolling_efficiency(theory::PointMass const& point, theory::RollingLaw const& law) {
-    if (theory::outside_tested_range(point)) return {};
+std::optional<double> rolling_efficiency(theory::PointMass const& point, theory::RollingLaw const& law,
+                                         std::optional<double> depth = {}) {
+    if (theory::outside_tested_range(point, depth)) return {};
     theory::Motion const motion = theory::solve(theory::RollingLayer{point, law}).motion;
     if (!motion.converged) return {};
     return motion.velocity_efficiency;
@@ -46,7 +48,8 @@ void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
     if (!prepared.point_mass.is_plain || !spheres || grains.rotation == scenario::Rotation::blocked) return;
     theory::RollingLaw law;
     if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
-    row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law);
+    double const depth = prepared.layer_height / grains.diameter;
+    row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law, depth);
 }
 
 /// Adds the theory at the friction of the layer as a whole. The effect of side walls is already included in
@@ -122,7 +125,8 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// The inputs that are the same along a line of the figure.
 using Line = std::tuple<double, double, double>;  // vibration angle and inclination, deg; friction
 
-std::string curve(Line const& line, double from, double to) {
+/// @param with_law  whether the law of rolling layers speaks of any case on this line
+std::string curve(Line const& line, bool with_law, double from, double to) {
     constexpr int points = 400;  // finer than a print shows
     auto const [angle, inclination, friction] = line;
     std::string text;
@@ -134,7 +138,7 @@ std::string curve(Line const& line, double from, double to) {
                                       .friction = friction};
         theory::Motion const motion = theory::solve(point);
         if (!motion.converged) continue;
-        auto const rolling = rolling_efficiency(point, {});
+        auto const rolling = with_law ? rolling_efficiency(point, {}) : std::nullopt;
         text += fmt::format("{:.6g},{},{},{},{},{}\n", gamma, angle, inclination, friction,
                             motion.velocity_efficiency, rolling ? fmt::format("{}", *rolling) : "");
     }
@@ -147,15 +151,16 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::string text =
         "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency,rolling_layer_"
         "efficiency\n";
-    std::set<Line> lines;
+    std::map<Line, bool> lines;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Row const& row : rows) {
         if (!(row.vibration_angle_deg > 0)) continue;
-        lines.insert({row.vibration_angle_deg, row.inclination_deg, row.friction});
+        bool& with_law = lines[{row.vibration_angle_deg, row.inclination_deg, row.friction}];
+        with_law = with_law || row.efficiency_rolling_layer.has_value();
         least = std::min(least, row.throw_number);
         most = std::max(most, row.throw_number);
     }
-    for (Line const& line : lines) text += curve(line, 0.9 * least, 1.1 * most);
+    for (auto const& [line, with_law] : lines) text += curve(line, with_law, 0.9 * least, 1.1 * most);
     return text;
 }
 

@@ -1,5 +1,7 @@
 #include "learn/calibration_report.hpp"
 
+#include "learn/model_errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -99,6 +101,30 @@ std::string note_of(Estimate const& e) {
     return list(ranges);
 }
 
+/// What simulated layers say of the error of the point mass where the speeds were measured; nothing when a
+/// speed has no vibration angle or no layer tells it.
+std::optional<std::string> known_misses(Calibration const& c) {
+    double least = 1, most = 0;
+    for (Misfit const& m : c.misfits) {
+        if (!m.measured.vibration_angle) return {};
+        double const alpha = m.measured.inclination.value_or(0);
+        theory::Drive const drive{m.measured.frequency, m.measured.amplitude, *m.measured.vibration_angle,
+                                  alpha};
+        auto const sd = known_error(point_mass_errors(), drive.throw_number(), std::tan(alpha), {});
+        if (!sd) return {};
+        least = std::min(least, *sd);
+        most = std::max(most, *sd);
+    }
+    return fmt::format(
+        "At these throw numbers and slopes simulated layers whose grains do not roll missed the point mass "
+        "by "
+        "{:.2g} to {:.2g} (standard deviation in velocity efficiency, validation/model_errors).{}",
+        least, most,
+        c.discrepancy && c.discrepancy->high < least ? " The model discrepancy found here is smaller, so "
+                                                       "that the intervals may be too narrow for a layer."
+                                                     : "");
+}
+
 }  // namespace
 
 std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
@@ -128,6 +154,9 @@ std::vector<std::string> verdict(Calibration const& c, ModelName const& model) {
             "The chains have not converged (an R-hat is above 1.01 or an effective sample size below 400); "
             "do not use these "
             "numbers, and narrow the ranges with --prior or free fewer quantities.");
+    }
+    if (model.whole == "the point mass") {
+        if (auto const told = known_misses(c)) sentences.push_back(*told);
     }
     return sentences;
 }

@@ -3,6 +3,7 @@
 #include "theory/design.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/limits.hpp"
+#include "theory/tested_range.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,22 +83,53 @@ KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<do
     return known;
 }
 
-DesignModel point_mass_design_model(double discrepancy) {
+double DesignModel::missed(theory::Drive const& drive, std::optional<double> depth) const {
+    if (discrepancy) return *discrepancy;
+    auto const known = known_error(errors, drive.throw_number(), std::tan(drive.inclination), depth);
+    return known.value_or(largest_error(errors));
+}
+
+std::optional<std::string> DesignModel::untested(theory::Drive const& drive, double friction,
+                                                 std::optional<double> depth) const {
+    theory::PointMass const point = point_of(drive, friction);
+    if (is_rolling) {
+        if (auto why = theory::outside_tested_range(point, depth)) return why;
+    }
+    if (errors.empty() || discrepancy || uses_calibrated_discrepancy) return {};
+    if (known_error(errors, point.throw_number, point.tan_inclination, depth)) return {};
+    return fmt::format(
+        "no simulated layer tells what {} misses at throw number {:.3g} and tan(alpha) {:.3g}{}", name,
+        point.throw_number, point.tan_inclination,
+        depth ? fmt::format(" in a layer {:.3g} diameters deep", *depth) : "");
+}
+
+DesignModel point_mass_design_model(std::optional<double> discrepancy) {
     auto const solver = std::make_shared<theory::EfficiencySolver>();
-    DesignModel model{"the point mass", discrepancy, {}, {}, {}, true, false, false, {}};
+    DesignModel model{.name = "the point mass",
+                      .discrepancy = discrepancy,
+                      .errors = point_mass_errors(),
+                      .is_point_mass = true};
     model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
         double const eta = (*solver)(point_of(d, friction)).velocity_efficiency;
         if (!std::isfinite(eta)) return {};
         return ModelEfficiency{eta, 0};
     };
-    model.narrowed = [](theory::DriveSpace const& space) { return space; };
+    // Without a discrepancy of its own it is known as far as layers were simulated.
+    model.narrowed = [discrepancy](theory::DriveSpace space) {
+        double const most = largest_throw_number(point_mass_errors());
+        if (!discrepancy) space.max_throw_number = std::min(space.max_throw_number, most);
+        return space;
+    };
     model.excess = [](theory::Drive const&) { return -1.0; };
     return model;
 }
 
-DesignModel rolling_layer_design_model(theory::RollingLaw const& law, double discrepancy) {
+DesignModel rolling_layer_design_model(theory::RollingLaw const& law, std::optional<double> discrepancy) {
     auto const solver = std::make_shared<theory::RollingLayerSolver>(law);
-    DesignModel model{"the rolling-layer law", discrepancy, {}, {}, {}, false, false, false, {}};
+    DesignModel model{.name = "the rolling-layer law",
+                      .discrepancy = discrepancy,
+                      .errors = rolling_layer_errors(),
+                      .is_rolling = true};
     model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
         double const eta = (*solver)(point_of(d, friction)).motion.velocity_efficiency;
         if (!std::isfinite(eta)) return {};
@@ -105,8 +137,7 @@ DesignModel rolling_layer_design_model(theory::RollingLaw const& law, double dis
     };
     model.is_rolling = true;
     model.narrowed = theory::within_tested_range;
-    // The largest throw number is a limit of the narrowed space; the least one is 1.25.
-    model.excess = [](theory::Drive const& d) { return 1 - d.throw_number() / 1.25; };
+    model.excess = [](theory::Drive const& d) { return theory::tested_excess(d); };
     return model;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "learn/model_errors.hpp"
 #include "theory/drive_search.hpp"
 #include "theory/rolling_layer.hpp"
 
@@ -37,28 +38,39 @@ struct ModelEfficiency {
 
 /// A model of the conveying speed, by which a machine can be designed.
 struct DesignModel {
-    std::string name;    ///< e.g. "the point mass"
-    double discrepancy;  ///< standard deviation of what it misses, in velocity efficiency, >= 0
+    std::string name;  ///< e.g. "the point mass"
+    /// Standard deviation of what it misses, in velocity efficiency, >= 0; nothing: as `errors` say.
+    std::optional<double> discrepancy;
+    std::span<ModelError const> errors = {};  ///< what simulated layers say of its error
     /// The velocity efficiency at a drive and a friction; nothing when the material has no steady speed.
-    std::function<std::optional<ModelEfficiency>(theory::Drive const&, double friction)> at;
+    std::function<std::optional<ModelEfficiency>(theory::Drive const&, double friction)> at = {};
     /// The drives of a space at which the model is known. @throws std::invalid_argument when there are none
-    std::function<theory::DriveSpace(theory::DriveSpace)> narrowed;
+    std::function<theory::DriveSpace(theory::DriveSpace)> narrowed = {};
     /// How far a drive is outside what the model knows, relatively; zero or less inside.
-    std::function<double(theory::Drive const&)> excess;
+    std::function<double(theory::Drive const&)> excess = {};
     bool is_point_mass = false;  ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
-    bool is_rolling = false;           ///< whether it is the law of rolling layers
-    std::vector<std::string> remarks;  ///< what speaks against it, in whole sentences
+    bool is_rolling = false;                ///< whether it is the law of rolling layers
+    std::vector<std::string> remarks = {};  ///< what speaks against it, in whole sentences
+
+    /// Standard deviation of what it misses at a drive; where nothing is known, the largest that is.
+    /// @param depth  of the layer, in diameters of its grains, if it is known
+    double missed(theory::Drive const& drive, std::optional<double> depth) const;
+    /// Why its error is not known at a drive, a friction and a depth, without a full stop; nothing where it
+    /// is.
+    std::optional<std::string> untested(theory::Drive const& drive, double friction,
+                                        std::optional<double> depth) const;
 };
 
-/// The point-mass theory. Without rotation simulated layers follow it within 0.1
-/// (validation/why_theory_fails), which two standard deviations of 0.05 say.
-DesignModel point_mass_design_model(double discrepancy = 0.05);
+/// The point-mass theory, for grains that do not roll. @param discrepancy  nothing: as
+/// validation/model_errors says
+DesignModel point_mass_design_model(std::optional<double> discrepancy = {});
 
-/// The law of rolling layers, where it has been tested. It missed the layers that it was not fitted to by
-/// 0.055 (root mean square, validation/rolling_layer).
-DesignModel rolling_layer_design_model(theory::RollingLaw const& law = {}, double discrepancy = 0.055);
+/// The law of rolling layers, where it has been tested. @param discrepancy  nothing: as
+/// validation/model_errors says
+DesignModel rolling_layer_design_model(theory::RollingLaw const& law = {},
+                                       std::optional<double> discrepancy = {});
 
 /// The speed of a material without slip on a level or inclined trough, as guidelines such as VDI 2333
 /// compute it: it moves with the trough while it touches it and flies for n cycles:

@@ -25,14 +25,19 @@ double power(DesignTask const& t, RiskDesign const& d) {
     return d.power_per_mass * t.bulk_density * t.width * d.depth * (t.length > 0 ? t.length : 1);
 }
 
-Json as_json(ModelForecast const& f) {
+/// A number that says how probable something is; none where that is not known.
+Json if_known(RiskDesign const& d, double value) {
+    return d.untested ? Json(nullptr) : Json(value);
+}
+
+Json as_json(RiskDesign const& d, ModelForecast const& f) {
     return {{"model", f.model},
             {"median_speed_m_per_s", f.median_speed},
-            {"sure_speed_m_per_s", f.sure_speed},
+            {"sure_speed_m_per_s", if_known(d, f.sure_speed)},
             {"mass_flow_t_per_h", tonnes_per_hour * f.median_flow},
-            {"mass_flow_low_t_per_h", tonnes_per_hour * f.low_flow},
-            {"mass_flow_high_t_per_h", tonnes_per_hour * f.high_flow},
-            {"probability", f.probability}};
+            {"mass_flow_low_t_per_h", if_known(d, tonnes_per_hour * f.low_flow)},
+            {"mass_flow_high_t_per_h", if_known(d, tonnes_per_hour * f.high_flow)},
+            {"probability", if_known(d, f.probability)}};
 }
 
 Json rules_of_thumb(RiskDesign const& d) {
@@ -73,7 +78,7 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
         d.landing_speed, t.friction.low, t.friction.high, d.mode);
     text += fmt::format("power             {:.3g} W{} given to the material (point mass)\n", power(t, d),
                         t.length > 0 ? "" : " per metre of trough");
-    if (t.length > 0 && d.sure_speed > 0)
+    if (t.length > 0 && d.sure_speed > 0 && !d.untested)
         text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
                             100 * t.confidence);
     return text;
@@ -97,6 +102,13 @@ std::string name_of(Objective objective) {
 
 std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
     double const wanted = tonnes_per_hour * t.mass_flow;
+    if (d.untested) {
+        return fmt::format(
+            "Not tested: no probability is known that this trough carries {:.4g} t/h with a layer of {:.3g} "
+            "mm, "
+            "because {}.",
+            wanted, 1e3 * d.depth, *d.untested);
+    }
     if (d.feasible)
         return fmt::format("This trough carries {:.4g} t/h with a probability of {:.4g} % or more.", wanted,
                            100 * t.confidence);
@@ -118,11 +130,12 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
     text += fmt::format("{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "", "m/s", "m/s", "t/h", "t/h",
                         fmt::format("of {:.4g} t/h", tonnes_per_hour * t.mass_flow));
     for (ModelForecast const& f : d.forecasts) {
-        text += fmt::format(
-            "{:<24} {:>9.3g} {:>9.3g} {:>10.3g} {:>17} {:>10.1f} %\n", f.model, f.median_speed, f.sure_speed,
-            tonnes_per_hour * f.median_flow,
-            fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow, tonnes_per_hour * f.high_flow),
-            100 * f.probability);
+        auto const known = [&](std::string const& words) { return d.untested ? "not known" : words; };
+        text += fmt::format("{:<24} {:>9.3g} {:>9} {:>10.3g} {:>17} {:>12}\n", f.model, f.median_speed,
+                            known(fmt::format("{:.3g}", f.sure_speed)), tonnes_per_hour * f.median_flow,
+                            known(fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow,
+                                              tonnes_per_hour * f.high_flow)),
+                            known(fmt::format("{:.1f} %", 100 * f.probability)));
     }
     double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
     text += fmt::format(
@@ -158,14 +171,15 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {t.length > 0 ? "power_w" : "power_w_per_m", power(t, d)},
               {"mass_flow_wanted_t_per_h", tonnes_per_hour * t.mass_flow},
               {"confidence", t.confidence},
-              {"probability", d.probability},
-              {"sure_speed_m_per_s", d.sure_speed},
+              {"probability", if_known(d, d.probability)},
+              {"sure_speed_m_per_s", if_known(d, d.sure_speed)},
+              {"untested", d.untested ? Json(*d.untested) : Json(nullptr)},
               {"objective", name_of(t.objective)},
               {"models", Json::array()},
               {"active_limits", d.active_limits},
               {"rules_of_thumb", rules_of_thumb(d)},
               {"warnings", d.warnings}};
-    for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(f));
+    for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(d, f));
     return json;
 }
 
@@ -187,6 +201,7 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
     json["quantile_shares"] = quantile_shares();
     for (std::size_t i = 0; i < d.forecasts.size(); ++i) {
         Json& list = json["models"][i]["mass_flow_quantiles_t_per_h"] = Json::array();
+        if (d.untested) continue;
         for (double const flow : d.forecasts[i].flow_quantiles) list.push_back(tonnes_per_hour * flow);
     }
     return json;

@@ -69,7 +69,8 @@ class PointMassModel {
         theory::PointMass const point{
             omega * omega * measured.amplitude * std::sin(beta) / (gravity * std::cos(alpha)), std::tan(beta),
             std::tan(alpha), *all[friction]};
-        auto const eta = plastic_ ? plastic_efficiency(point, measured.line) : general_efficiency(point, all);
+        auto const eta = plastic_ ? plastic_efficiency(point, measured.line)
+                                  : general_efficiency(point, all, measured.line);
         if (!eta) return {};
         double const trough_speed = omega * measured.amplitude * std::cos(beta);
         return ModelSpeed{*eta * trough_speed, 0, trough_speed};
@@ -84,16 +85,17 @@ class PointMassModel {
     }
 
     /// The same; and nothing when static friction would be below kinetic friction.
-    static std::optional<double> general_efficiency(theory::PointMass const& point, Given const& all) {
+    std::optional<double> general_efficiency(theory::PointMass const& point, Given const& all,
+                                             int line) const {
         theory::Conveyor conveyor{};
         conveyor.point = point;
         conveyor.static_friction = all[static_friction].value_or(0);
         conveyor.landing_friction = all[landing_friction];
         conveyor.restitution = all[restitution].value_or(0);
         if (all[static_friction] && conveyor.static_friction < point.friction) return {};
-        theory::Motion const motion = theory::solve(conveyor).motion;
-        if (!is_steady(motion.outcome)) return {};
-        return motion.velocity_efficiency;
+        theory::Efficiency const answer = (*solvers_)[line].solve(conveyor);
+        if (!is_steady(answer.outcome)) return {};
+        return answer.velocity_efficiency;
     }
 
     static bool is_steady(theory::Outcome outcome) {

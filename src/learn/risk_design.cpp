@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::learn {
 namespace {
@@ -25,7 +26,7 @@ void check(DesignTask const& t) {
     bool const trough = t.width > 0 && t.length >= 0 && t.mass_flow > 0 && t.depth.low > 0 &&
                         t.depth.low <= t.depth.high && (!t.landing_speed || *t.landing_speed > 0);
     bool const models = !t.models.empty() && std::ranges::all_of(t.models, [](DesignModel const& m) {
-        return m.discrepancy >= 0;
+        return !m.discrepancy || *m.discrepancy >= 0;
     });
     if (!material || !trough || !models || !(t.confidence >= 0.5 && t.confidence <= 0.999))
         throw std::invalid_argument("a number of the design is out of range");
@@ -135,15 +136,16 @@ std::vector<std::string> warnings_at(DesignTask const& task, RiskDesign const& d
             *factor >= 1 ? "The mass flow is then on the safe side, but the layer is thinner than printed."
                          : "The mass flow may then not be reached."));
     }
-    bool const rolling = std::ranges::any_of(task.models, [](DesignModel const& m) { return m.is_rolling; });
-    if (rolling) {
-        auto untested = theory::outside_tested_range({d.throw_number, std::tan(d.drive.vibration_angle),
-                                                      std::tan(d.drive.inclination), task.friction.median});
-        if (untested) {
-            untested->front() = 'T';  // "the rolling-layer law has not been tested at ..."
-            warnings.push_back(*untested + ".");
-        }
-    }
+    std::vector<std::string> depths;
+    for (DesignModel const& model : task.models)
+        if (!model.errors.empty() && !model.discrepancy && !model.uses_calibrated_discrepancy)
+            depths.push_back(fmt::format("{:g} for {}", largest_depth(model.errors), model.name));
+    if (!depths.empty() && !task.grain_diameter && !d.untested)
+        warnings.push_back(
+            fmt::format("The depth in grains is not known: the probability holds only if {:.3g} mm are no "
+                        "more diameters than "
+                        "the simulated layers had ({}). With --grain-diameter the program judges it.",
+                        1e3 * d.depth, fmt::join(depths, ", ")));
     for (DesignModel const& model : task.models)
         warnings.insert(warnings.end(), model.remarks.begin(), model.remarks.end());
     return warnings;
@@ -170,10 +172,15 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     double const per_depth = task.bulk_density * task.width;  // kg/s for each m of depth and m/s of speed
     double const depth = d.sure_speed > 0 ? task.mass_flow / (per_depth * d.sure_speed) : task.depth.high;
     d.depth = std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high);
+    std::optional<double> in_grains;
+    if (task.grain_diameter) in_grains = d.depth / *task.grain_diameter;
+    for (DesignModel const& model : task.models)
+        if (!d.untested) d.untested = model.untested(drive, task.friction.median, in_grains);
+    d.feasible = d.feasible && !d.untested;
     double const flow = per_depth * d.depth;
     d.probability = 1;
     for (std::size_t i = 0; i < task.models.size(); ++i) {
-        SpeedDistribution const speeds = search.speeds(drive, i);
+        SpeedDistribution const speeds = search.speeds(drive, i, in_grains);
         double const median = speeds.exceeded_with(0.5);
         d.forecasts.push_back({task.models[i].name,
                                median,

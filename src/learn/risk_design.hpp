@@ -18,15 +18,16 @@ enum class Objective {
 
 /// What is known and wanted of a trough. The friction is not known exactly, and no model is exact.
 struct DesignTask {
-    theory::DriveSpace space;             ///< stroke, frequency, angles and the largest K and Gamma
-    std::vector<DesignModel> models;      ///< at least one; all of them must reach the mass flow
-    KnownFriction friction;               ///< of the material on the trough
-    double bulk_density;                  ///< kg/m^3, > 0
-    double width;                         ///< m, of the trough, > 0
-    double length = 0;                    ///< m, of the trough, for power and time; 0 when it is not known
-    double mass_flow;                     ///< kg/s, that is to be reached, > 0
-    theory::Range depth{0.002, 0.1};      ///< m, of the layer
-    std::optional<double> landing_speed;  ///< m/s, largest speed of an impact on the trough
+    theory::DriveSpace space;         ///< stroke, frequency, angles and the largest K and Gamma
+    std::vector<DesignModel> models;  ///< at least one; all of them must reach the mass flow
+    KnownFriction friction;           ///< of the material on the trough
+    double bulk_density;              ///< kg/m^3, > 0
+    double width;                     ///< m, of the trough, > 0
+    double length = 0;                ///< m, of the trough, for power and time; 0 when it is not known
+    double mass_flow;                 ///< kg/s, that is to be reached, > 0
+    theory::Range depth{0.002, 0.1};  ///< m, of the layer
+    std::optional<double> grain_diameter = {};  ///< m, if it is known
+    std::optional<double> landing_speed;        ///< m/s, largest speed of an impact on the trough
     double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
     Objective objective = Objective::fastest;  ///< what to be best at
 };
@@ -53,13 +54,17 @@ struct RiskDesign {
     std::vector<ModelForecast> forecasts;  ///< one per model, in their order
     double sure_speed;                     ///< m/s, reached with the stated confidence by all models
     double probability;                    ///< that the mass flow is reached; the least of the models'
+    /// Why none of these probabilities and intervals may be relied on, without a full stop: a model's error
+    /// is not known there. They must not be shown then.
+    std::optional<std::string> untested;
     double efficiency;  ///< velocity efficiency of the point mass at the median of the friction
     std::string mode;   ///< letters of its phases
     /// m/s, largest speed of an impact of the point mass on the trough at any friction within its central
     /// 99.7 %; 0 without flight.
     double landing_speed;
     double power_per_mass;  ///< W/kg, that the trough gives to the point mass at the median of the friction
-    bool feasible;  ///< whether the mass flow can be reached within the limits at the stated confidence
+    /// Whether the mass flow can be reached within the limits at the stated confidence, which must be known.
+    bool feasible;
     std::vector<std::string> active_limits;  ///< what holds it back
     std::vector<std::string> warnings;       ///< where a model is known to be wrong, in whole sentences
 };

@@ -68,14 +68,16 @@ double RiskSearch::needed() const {
     return task_.mass_flow / (task_.bulk_density * task_.width * task_.depth.high);
 }
 
-SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t number) const {
+SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t number,
+                                     std::optional<double> depth) const {
     DesignModel const& model = task_.models[number];
+    double const usually_missed = model.missed(drive, depth);
     SpeedDistribution d;
     for (std::size_t i = 0; i < task_.friction.values.size(); ++i) {
         auto const value = model.at(drive, task_.friction.values[i]);
         double const missed = model.uses_calibrated_discrepancy && !task_.friction.discrepancies.empty()
                                   ? task_.friction.discrepancies[i]
-                                  : model.discrepancy;
+                                  : usually_missed;
         // A material that runs away has no speed that could be used.
         d.means.push_back(value ? value->efficiency * drive.trough_speed() : -1e3);
         d.sds.push_back(drive.trough_speed() * std::hypot(value ? value->sd : 0, missed));

@@ -28,7 +28,9 @@ class RiskSearch {
     /// m/s, needed for the mass flow at the largest depth.
     double needed() const;
     /// Of one of the task's models, by its place in their list.
-    SpeedDistribution speeds(theory::Drive const& drive, std::size_t model) const;
+    /// @param depth  of the layer, in diameters of its grains, if it is known
+    SpeedDistribution speeds(theory::Drive const& drive, std::size_t model,
+                             std::optional<double> depth = {}) const;
     /// m/s, reached with the task's confidence by all models; below zero when the material runs away.
     double sure_speed(theory::Drive const& drive) const;
     /// What is made as large as possible.

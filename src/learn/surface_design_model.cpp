@@ -187,7 +187,8 @@ DesignModel surface_design_model(std::shared_ptr<Surface const> surface, Campaig
             "nothing "
             "to choose; vary one of them");
     }
-    DesignModel model{"the simulated layer", discrepancy, {}, {}, {}, false, false, false, surface->doubts()};
+    DesignModel model{
+        .name = "the simulated layer", .discrepancy = discrepancy, .remarks = surface->doubts()};
     auto const drives = std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given));
     scenario::Trough const trough = drives->trough();
     check_friction(inputs, trough.friction, friction, model.remarks);

@@ -2,6 +2,7 @@
 
 #include "theory/detail/input_check.hpp"
 #include "theory/map.hpp"
+#include "theory/tested_range.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,22 +99,6 @@ Range with_friction_margin(Range inclination, double friction) {
     return {std::max(inclination.low, -steepest), std::min(inclination.high, steepest)};
 }
 
-DriveSpace within_tested_range(DriveSpace space) {
-    auto const narrowed = [](Range const& range, double low, double high, char const* name,
-                             char const* text) {
-        Range const common{std::max(range.low, low), std::min(range.high, high)};
-        detail::require_range(common.low <= common.high, name, range.low, text);
-        return common;
-    };
-    space.max_throw_number = std::min(space.max_throw_number, 2.6);
-    space.vibration_angle =
-        narrowed(space.vibration_angle, std::atan(0.25), std::atan(1.0), "vibration_angle",
-                 "in rad, tan(beta) within [0.25, 1], of the rolling-layer law");
-    space.inclination = narrowed(space.inclination, -std::atan(0.08), std::atan(0.08), "inclination",
-                                 "in rad, tan(alpha) within [-0.08, 0.08], of the rolling-layer law");
-    return space;
-}
-
 Design fastest_design(DesignLimits const& requested) {
     check(requested);
     DesignLimits limits = requested;
@@ -126,7 +111,10 @@ Design fastest_design(DesignLimits const& requested) {
     }
     PointSolver solver(limits.rolling);
     auto const speed = [&](Drive const& drive) { return design_at(limits, drive, solver).conveying_speed; };
-    auto const drive = best_drive(limits.space(), speed);
+    std::vector<DriveFunction> excesses;
+    if (limits.rolling)
+        excesses.emplace_back([&](Drive const& drive) { return tested_excess(drive, limits.gravity); });
+    auto const drive = best_drive(limits.space(), speed, excesses);
     if (!drive) throw std::invalid_argument("no machine within the limits has a steady speed");
     Design design = design_at(limits, *drive, solver);
     design.feasible = std::isfinite(design.conveying_speed) && design.conveying_speed > 0 &&

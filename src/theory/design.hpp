@@ -24,8 +24,8 @@ struct DesignLimits {
     double min_mass_flow = 0;  ///< kg/s, 0: no requirement; needs a layer
     double gravity = 9.81;     ///< m/s^2
     double bulk_density = 0, layer_height = 0, layer_width = 0;  ///< kg/m^3, m, m; 0 without a layer
-    /// The law of rolling layers; nothing: a point mass. The throw number is then kept within [1.25, 2.6] and
-    /// tan(beta) and tan(alpha) within the law's tested range.
+    /// The law of rolling layers; nothing: a point mass. The drive is then kept where the law has been tested
+    /// (outside_tested_range()).
     std::optional<RollingLaw> rolling = {};
 
     /// The drives among which the search may choose.
@@ -51,10 +51,6 @@ inline constexpr double max_friction_used = 0.95;
 /// The inclinations of a range at which |tan(alpha)| <= 0.95 mu.
 /// @throws std::invalid_argument when there are none
 Range with_friction_margin(Range inclination, double friction);
-
-/// The drives of a space at which the law of rolling layers has been tested (outside_tested_range()).
-/// @throws std::invalid_argument when there are none
-DriveSpace within_tested_range(DriveSpace space);
 
 /// Finds the machine with the highest conveying speed of the plastic point mass, or of a rolling layer,
 /// within the limits, by best_drive().

@@ -1,5 +1,7 @@
 #include "theory/map.hpp"
 
+#include "theory/tested_range.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -182,23 +184,39 @@ MapPoint PointSolver::operator()(Inputs const& inputs) {
     return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
 }
 
-std::size_t count_untested(std::vector<Inputs> const& inputs) {
-    return static_cast<std::size_t>(std::count_if(inputs.begin(), inputs.end(), [](Inputs const& one) {
-        return !one.incomplete() && outside_tested_range(one.point());
-    }));
+namespace {
+
+constexpr MapPoint withheld{std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::quiet_NaN(), 0, 0, Outcome::unsettled};
+
+Inputs at_place(Inputs inputs, Map const& map, double x, double y) {
+    inputs.set(map.x.input, x);
+    inputs.set(map.y.input, y);
+    return inputs;
 }
 
-std::size_t count_untested(Inputs const& fixed, Map const& map) {
+}  // namespace
+
+std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<MapPoint>& points) {
     std::size_t count = 0;
-    for (int j = 0; j < map.y.count; ++j) {
-        for (int i = 0; i < map.x.count; ++i) {
-            Inputs inputs = fixed;
-            inputs.set(map.x.input, map.x.value(i));
-            inputs.set(map.y.input, map.y.value(j));
-            if (outside_tested_range(inputs.point())) ++count;
-        }
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        if (!outside_tested_range(inputs[i].point())) continue;
+        points[i] = withheld;
+        ++count;
     }
     return count;
+}
+
+std::size_t withhold_untested(Inputs const& fixed, Map& map) {
+    std::vector<Inputs> places;
+    for (int j = 0; j < map.y.count; ++j)
+        for (int i = 0; i < map.x.count; ++i)
+            places.push_back(at_place(fixed, map, map.x.value(i), map.y.value(j)));
+    std::erase_if(map.boundaries, [&](BoundaryPiece const& piece) {
+        double const x = (piece.x0 + piece.x1) / 2, y = (piece.y0 + piece.y1) / 2;
+        return outside_tested_range(at_place(fixed, map, x, y).point()).has_value();
+    });
+    return withhold_untested(places, map.points);
 }
 
 Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOptions const& options) {

@@ -85,11 +85,12 @@ class PointSolver {
     std::optional<RollingLayerSolver> rolling_;
 };
 
-/// How many of the inputs are outside the range in which the rolling-layer law has been tested; incomplete
-/// ones do not count.
-std::size_t count_untested(std::vector<Inputs> const& inputs);
+/// Replaces the efficiencies at which the rolling-layer law has not been tested by NaN, and the modes by
+/// none.
+/// @return how many points these are
+std::size_t withhold_untested(std::vector<Inputs> const& inputs, std::vector<MapPoint>& points);
 
-/// The same for the points of a map.
-std::size_t count_untested(Inputs const& fixed, Map const& map);
+/// The same for the points of a map, whose boundaries outside the tested range are removed.
+std::size_t withhold_untested(Inputs const& fixed, Map& map);
 
 }  // namespace vibrotrough::theory

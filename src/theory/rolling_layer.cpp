@@ -278,19 +278,4 @@ std::vector<RollingSample> trace(RollingMotion const& motion, int count) {
     return samples;
 }
 
-std::optional<std::string> outside_tested_range(PointMass const& p) {
-    auto const outside = [](char const* name, double value, char const* range) {
-        return std::string("the rolling-layer law has not been tested at ") + name + " = " +
-               detail::number_text(value) + ", outside " + range;
-    };
-    if (!(p.throw_number >= 1.25 && p.throw_number <= 2.6))
-        return outside("throw_number", p.throw_number, "[1.25, 2.6]");
-    if (!(std::abs(p.tan_inclination) <= 0.08))
-        return outside("tan_inclination", p.tan_inclination, "[-0.08, 0.08]");
-    if (!(p.tan_vibration_angle >= 0.25 && p.tan_vibration_angle <= 1))
-        return outside("tan_vibration_angle", p.tan_vibration_angle, "[0.25, 1]");
-    if (!(p.friction >= 0.1 && p.friction <= 0.6)) return outside("friction", p.friction, "[0.1, 0.6]");
-    return std::nullopt;
-}
-
 }  // namespace vibrotrough::theory

@@ -102,9 +102,4 @@ class RollingLayerSolver {
     std::unique_ptr<Memory> memory_;
 };
 
-/// A sentence that says why the law has not been tested at this point; nothing inside its range of validity:
-/// throw numbers from 1.25 to 2.6, |tan(alpha)| up to 0.08, tan(beta) from 0.25 to 1 and mu from 0.1 to 0.6,
-/// for layers of 2 to 16 diameters (validation/rolling_layer).
-std::optional<std::string> outside_tested_range(PointMass const& point);
-
 }  // namespace vibrotrough::theory

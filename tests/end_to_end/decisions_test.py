@@ -100,10 +100,12 @@ class Engineer(EndToEndTest):
 
     def test_every_campaign_that_it_writes_passes_the_check(self):
         campaign = self.folder / "check.toml"
-        for words in (["--objective", "gentlest-landing"], ["--objective", "least-power", "--grain-diameter", "6 mm"],
-                      ["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"],
-                      ["--friction-uncertainty", "0.1", "--machine-number", "4"]):  # a deep layer
-            self.design("--friction", "0.35", *words, "--campaign", campaign)
+        for words, untested in ((["--objective", "gentlest-landing"], False),
+                                (["--objective", "least-power", "--grain-diameter", "6 mm"], True),  # deeper than any layer that was simulated
+                                (["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"], False),
+                                (["--friction-uncertainty", "0.1", "--machine-number", "4"], False)):  # a deep layer
+            design = self.design("--friction", "0.35", *words, "--campaign", campaign, wanted=1 if untested else 0)
+            self.assertEqual((design["probability"] is None, design["sentence"].startswith("Not tested")), (untested, untested))
             checked = self.call("check", campaign)
             self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
             self.assertNotIn("warning: layer", checked.stdout + checked.stderr)

@@ -53,7 +53,7 @@ double tried_probability(DesignTask const& task, double sd, RiskDesign const& d)
         double const r = std::sqrt(-2 * std::log(u));
         double const mu = std::max(0.01, task.friction.median + sd * r * std::cos(2 * pi * w));
         double const eta = theory::solve(point_of(d.drive, mu)).velocity_efficiency +
-                           task.models.front().discrepancy * r * std::sin(2 * pi * w);
+                           task.models.front().missed(d.drive, {}) * r * std::sin(2 * pi * w);
         double const flow = task.bulk_density * task.width * d.depth * eta * d.drive.trough_speed();
         reached += flow >= task.mass_flow ? 1 : 0;
     }
@@ -175,7 +175,8 @@ TEST(RiskDesign, AllModelsMustReachTheMassFlow) {
     EXPECT_GE(d.throw_number, 1.25);  // where the law was tested
     EXPECT_LE(d.throw_number, 2.6);
     for (ModelForecast const& f : d.forecasts) EXPECT_GE(f.probability, 0.95) << f.model;
-    EXPECT_TRUE(d.warnings.empty());  // the theory is not alone
+    // The theory is not alone; only the grains are not known.
+    EXPECT_THAT(d.warnings, testing::ElementsAre(testing::HasSubstr("--grain-diameter")));
 }
 
 TEST(RiskDesign, SaysWhenItCannotBeReached) {
@@ -226,8 +227,44 @@ TEST(RiskDesign, WarnsWhereTheTheoryAloneIsWrong) {
     DesignTask task = pellets();
     task.space.max_throw_number = 1.7;
     RiskDesign const d = design_with_risk(task);
-    ASSERT_EQ(d.warnings.size(), 1U);
-    EXPECT_THAT(d.warnings.front(), testing::HasSubstr("why_theory_fails"));
+    EXPECT_THAT(d.warnings, testing::ElementsAre(testing::HasSubstr("why_theory_fails"),
+                                                 testing::HasSubstr("--grain-diameter")));
+}
+
+// The same machine: with grains of which the layer is four deep a probability is given, with grains of which
+// it is twenty deep the first sentence, the table and the JSON say that none is known.
+TEST(RiskDesign, ADeeperLayerThanTestedHasNoProbability) {
+    for (DesignModel const& model : {point_mass_design_model(), rolling_layer_design_model()}) {
+        DesignTask task = pellets();
+        task.models = {model};
+        task.grain_diameter = design_with_risk(task).depth / 4;
+        RiskDesign const tested = design_with_risk(task);
+        EXPECT_FALSE(tested.untested) << *tested.untested;
+        EXPECT_THAT(design_text(task, tested), testing::StartsWith("This trough carries 12 t/h with a prob"));
+        EXPECT_TRUE(tested.warnings.empty() || model.is_point_mass);
+        task.grain_diameter = *task.grain_diameter / 5;
+        RiskDesign const deep = design_with_risk(task);
+        EXPECT_EQ(deep.depth, tested.depth);
+        EXPECT_FALSE(deep.feasible);
+        std::string const text = design_text(task, deep);
+        EXPECT_THAT(text,
+                    testing::StartsWith("Not tested: no probability is known that this trough carries"));
+        EXPECT_THAT(text, testing::HasSubstr(" not known         13         not known    not known\n"));
+        auto const json = design_json(task, deep);
+        EXPECT_TRUE(json.at("probability").is_null());
+        EXPECT_TRUE(json.at("models").at(0).at("probability").is_null());
+        EXPECT_THAT(json.at("untested").get<std::string>(), testing::HasSubstr("20"));
+    }
+}
+
+// A discrepancy that the user states replaces the table, but not the range in which the law was tested.
+TEST(RiskDesign, AStatedDiscrepancyIsTheUsersOwn) {
+    DesignTask task = pellets();
+    task.grain_diameter = 0.001;
+    task.models = {point_mass_design_model(0.05)};
+    EXPECT_FALSE(design_with_risk(task).untested);
+    task.models = {rolling_layer_design_model({}, 0.05)};
+    EXPECT_TRUE(design_with_risk(task).untested);
 }
 
 // Daesung's own example: 10 mm at 600 per minute give 22.86 m/min. Without slip a material that flies for a

@@ -33,7 +33,7 @@ def design():
         "layer_depth_mm": 38.7, "throw_number": 1.998, "machine_number": 3.82, "mode": "FN'", "velocity_efficiency_point_mass": 0.62,
         "landing_speed_m_per_s": 0.291, "friction_low": 0.21, "friction_median": 0.3, "friction_high": 0.39, "power_w": 41.2,
         "mass_flow_wanted_t_per_h": 12.0, "confidence": 0.95, "probability": 0.962, "sure_speed_m_per_s": 0.19,
-        "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
+        "untested": None, "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
         "active_limits": ["layer depth <= 40 mm", "landing speed <= 0.3 m/s"],
         "rules_of_thumb": [
             {"rule": "v = 3.81 N S, of which 70 to 80 % are used in practice", "source": "Daesung Machinery", "speed_m_per_s": 0.292,
@@ -45,6 +45,16 @@ def design():
                  "stroke_mm": [2.0, 14.0], "vibration_angle_deg": [20.0, 40.0], "inclination_deg": [0.0, 0.0], "max_machine_number": 4.0,
                  "max_throw_number": 3.29, "max_landing_speed_m_per_s": 0.3},
         "quantile_shares": list(np.arange(1, 40) / 40)}
+
+
+def deep_design():
+    """A layer that is deeper than any that was tested: no probability is known."""
+    data = design() | {"feasible": False, "sentence": "Not tested: no probability is known.", "untested": "it is too deep", "probability": None,
+                       "sure_speed_m_per_s": None}
+    for model in data["models"]:
+        model |= {"sure_speed_m_per_s": None, "mass_flow_low_t_per_h": None, "mass_flow_high_t_per_h": None, "probability": None,
+                  "mass_flow_quantiles_t_per_h": []}
+    return data
 
 
 def quantity(name, median, width, draws):
@@ -117,14 +127,15 @@ def main(scripts, work):
     work.mkdir(parents=True, exist_ok=True)
     pages = {}
     for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung"]),
+                           (deep_design(), ["Not tested: no probability is known.", "the point mass0.24not known14.4not knownnot known"]),
                            (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):
-        path = work / f"{data['kind']}.html"
+        path = work / f"{data['kind']}{'_untested' if data.get('untested') else ''}.html"
         (work / "data.json").write_text(json.dumps(data), encoding="utf-8")
         done = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output", path],
                               capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         check_words(path.read_text(encoding="utf-8"), expected)
-        pages[data["kind"]] = path
+        pages[path.stem] = path
     failed = subprocess.run([sys.executable, "-B", pathlib.Path(scripts) / "decision_page.py", work / "data.json", "--output",
                              work / "missing" / "x.html"], capture_output=True, text=True)
     assert failed.returncode == 1 and failed.stderr.count("\n") == 1 and "--page" in failed.stderr, failed.stderr

@@ -39,14 +39,23 @@ TEST(TheoryRollingLayer, IsThePointMassInItsLimit) {
     EXPECT_EQ(limit.at("mode"), point.at("mode"));
 }
 
-TEST(TheoryRollingLayer, WarnsOutsideItsRange) {
+// A throw number of 2.8 on a slope of -0.06 was once answered with 1.28 without a word.
+TEST(TheoryRollingLayer, WithholdsItsAnswerOutsideItsRange) {
     std::string const words =
-        "theory point --throw-number 3 --tan-vibration-angle 0.5 --friction 0.23 --rolling-layer";
+        "theory point --throw-number 2.8 --tan-inclination -0.06 --tan-vibration-angle 0.5 --friction 0.3 "
+        "--rolling-layer ";
     Answer const answer = run_program(words);
-    EXPECT_EQ(answer.exit_code, 0);
-    EXPECT_NE(answer.text.find("warning: the rolling-layer law has not been tested at throw_number = 3"),
+    EXPECT_EQ(answer.exit_code, 1);
+    EXPECT_NE(answer.text.find("withheld: the rolling-layer law has not been tested at throw_number = 2.8"),
               std::string::npos);
-    EXPECT_EQ(run_program("theory point " + level + "--rolling-layer").text.find("warning"),
+    auto const json = nlohmann::json::parse(run_program(words + "--json").text);
+    EXPECT_TRUE(json.at("velocity_efficiency").is_null());
+    EXPECT_EQ(json.at("outside_tested_range"), true);
+    Answer const accepted = run_program(words + "--accept-untested");
+    EXPECT_EQ(accepted.exit_code, 0);
+    EXPECT_NE(accepted.text.find("NOT TESTED           the rolling-layer law"), std::string::npos);
+    EXPECT_EQ(run_program("theory trace " + words.substr(13)).exit_code, 2);
+    EXPECT_EQ(run_program("theory point " + level + "--rolling-layer").text.find("TESTED"),
               std::string::npos);
 }
 
@@ -98,6 +107,7 @@ TEST(TheoryRollingLayer, SolvesABatchAndADesign) {
     std::stringstream answers;
     answers << std::ifstream(folder / "answers.csv").rdbuf();
     EXPECT_NE(answers.str().find("0.67363"), std::string::npos) << answers.str();
+    EXPECT_NE(answers.str().find("3,0.5,0.23,nan,nan,,0,false"), std::string::npos) << answers.str();
     std::filesystem::remove_all(folder);
     auto const design = solved("design --friction 0.3 --frequency '15 Hz' --rolling-layer");
     EXPECT_LE(design.at("throw_number").get<double>(), 2.6 * (1 + 1e-6));

@@ -27,11 +27,10 @@ struct DesignArguments {
 };
 
 int run_design(DesignArguments const& options) {
-    learn::DesignTask const task = options.task.task();
-    double const diameter =
-        options.grain_diameter
-            ? read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm")
-            : 0.003;
+    learn::DesignTask task = options.task.task();
+    if (options.grain_diameter)
+        task.grain_diameter =
+            read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm");
     learn::RiskDesign design;
     try {
         design = learn::design_with_risk(task);
@@ -39,7 +38,8 @@ int run_design(DesignArguments const& options) {
         throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
     }
     if (!options.campaign.empty()) {
-        core::write_file_atomically(options.campaign, learn::design_campaign(task, design, diameter));
+        core::write_file_atomically(
+            options.campaign, learn::design_campaign(task, design, task.grain_diameter.value_or(0.003)));
         tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(options.campaign));
     }
     if (!options.page.empty())
@@ -59,7 +59,10 @@ constexpr char const* help =
 measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
 
 2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
-distribution, and the layer is made so deep that the mass flow is reached with the stated confidence.
+distribution, and the layer is made so deep that the mass flow is reached with the stated confidence. What the point
+mass and the rolling-layer law miss is known from simulated layers (validation/model_errors); where none tells it, for
+example because the layer is deeper than any of them (--grain-diameter), the answer begins with "Not tested" and has
+no probability.
 
 3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
 every friction in the central 99.7 % of its distribution (three standard deviations on each side).
@@ -76,7 +79,8 @@ A range is "LOW to HIGH"; a single value fixes the quantity.
 
 Exit codes:
     0  the mass flow is reached
-    1  it is not: the fastest machine within the limits is printed
+    1  it is not: the fastest machine within the limits is printed; or nothing is known of a model's error there,
+       so that no probability is given
     2  the input is wrong, or no machine keeps all limits
     3  something is missing: Python with its modules, for --page
 
@@ -101,7 +105,8 @@ void add_design(CLI::App& program, int& exit_code) {
                      "Write the campaign that checks the design with grains into this file")
         ->type_name("FILE");
     command->add_option("--grain-diameter", options->grain_diameter,
-                        "Of the grains in this campaign; default: \"3 mm\"");
+                        "Of the grains: for the depth of the layer in grains, and for the campaign, whose "
+                        "default is \"3 mm\"");
     command
         ->add_option("--page", options->page,
                      "Write a page of one screen about the design into this HTML file")

@@ -19,8 +19,6 @@
 namespace vibrotrough::app {
 namespace {
 
-constexpr double usual_discrepancy = 0.05, usual_discrepancy_of_rolling = 0.055;
-
 std::map<std::string, learn::Objective> const objectives{
     {"fastest", learn::Objective::fastest},
     {"gentlest-landing", learn::Objective::gentlest_landing},
@@ -144,9 +142,10 @@ void DesignOptions::add_to(CLI::App& command) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command.add_option(
         "--model-discrepancy", discrepancy,
-        "Standard deviation of what every model misses, in velocity efficiency; default: 0.05 "
-        "for the point mass or what --posterior says, 0.055 for the rolling-layer law, and the "
-        "surface's own uncertainty alone");
+        "Standard deviation of what every model misses, in velocity efficiency; default: what simulated "
+        "layers "
+        "say at the throw number, slope and depth (validation/model_errors), for the calibrated model what "
+        "--posterior says, and for a surface its own uncertainty alone");
 }
 
 void DesignOptions::add_material(CLI::App& command) {
@@ -216,10 +215,9 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
     std::vector<learn::DesignModel> all;
     for (std::string const& name : names) {
         if (name == "point-mass")
-            all.push_back(learn::point_mass_design_model(missed.value_or(usual_discrepancy)));
+            all.push_back(learn::point_mass_design_model(missed));
         else if (name == "rolling-layer")
-            all.push_back(
-                learn::rolling_layer_design_model({}, missed.value_or(usual_discrepancy_of_rolling)));
+            all.push_back(learn::rolling_layer_design_model({}, missed));
         else
             all.push_back(read_surface(*this, known, missed.value_or(0)));
     }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 struct ValidateArguments {
     std::vector<std::string> names;
     std::string output = "runs/validation", runs = "runs", python;
-    bool list = false, long_ones = false, store = false, verbose = false, page = false;
+    bool list = false, long_ones = false, store = false, verbose = false, page = false, claims = false;
     unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
     int points = 300;
 };
@@ -37,6 +37,7 @@ std::vector<std::string> script_arguments(ValidateArguments const& options) {
     if (options.store) all.emplace_back("--store");
     if (options.verbose) all.emplace_back("--verbose");
     if (options.page) all.emplace_back("--page");
+    if (options.claims) all.emplace_back("--claims");
     return all;
 }
 
@@ -73,6 +74,10 @@ void add_validate(CLI::App& program, int& exit_code) {
     command->add_flag("--store", options->store,
                       "Keep tables, figures and verdicts in validation/ itself and write its page again");
     command->add_flag("--page", options->page, "Print the page of stored verdicts, and run nothing");
+    command->add_flag(
+        "--claims", options->claims,
+        "Compare the numbers in README files that come from stored tables with these tables, and "
+        "run nothing; with --store, write the numbers");
     command->add_flag("--verbose", options->verbose,
                       "Show what the validation cases print instead of writing it to their logs");
     add_python(*command, options->python);
@@ -82,7 +87,8 @@ error that its criteria must detect.
 
 Exit codes:
     0  every validation case passed, and the error of every negative control was detected
-    1  a validation case did not pass, or the error of a negative control was not detected
+    1  a validation case did not pass, the error of a negative control was not detected, or a page and its
+       table differ
     2  the input is wrong
     3  something is missing: Python with its modules, the engine, or disk space
   130  interrupted

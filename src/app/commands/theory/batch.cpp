@@ -38,7 +38,8 @@ void run_theory_batch(TheoryBatchArguments const& options) {
     } catch (std::invalid_argument const& error) {
         throw core::InputError(fmt::format("{}: {}; write a value within", options.input, error.what()));
     }
-    if (law) warn_if_untested(theory::count_untested(table.points), table.points.size());
+    if (law && !options.rolling.accepts_untested())
+        tell_withheld(theory::withhold_untested(table.points, answer.points), table.points.size());
     if (extension == ".csv") {
         core::write_file_atomically(output, store::theory_answers_csv(table, answer.points));
     } else {
@@ -71,7 +72,8 @@ conveying_speed_m_per_s.
 )") + mode_letters +
         R"(
 
-Write --rolling-layer behind the file, or the file's name is taken for its value.
+Write --rolling-layer behind the file, or the file's name is taken for its value. Where that law has not been tested
+the efficiency is nan, unless --accept-untested is given.
 
 Example:
   vibrotrough theory batch points.csv --output answers.csv

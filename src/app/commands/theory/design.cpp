@@ -4,6 +4,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
+#include "theory/tested_range.hpp"
 
 #include <cmath>
 #include <memory>
@@ -116,10 +117,11 @@ void run_theory_design(TheoryDesignArguments const& options) {
     for (auto const& s : theory::sensitivities_at(d, limits)) {
         json["sensitivity"][std::string(theory::name_of(s.input))] = s.derivative;
     }
-    if (limits.rolling) {
-        warn_if_untested(
-            {d.throw_number, std::tan(d.vibration_angle), std::tan(d.inclination), limits.friction});
-    }
+    theory::PointMass const point{d.throw_number, std::tan(d.vibration_angle), std::tan(d.inclination),
+                                  limits.friction};
+    if (auto const why = theory::outside_tested_range(point);
+        limits.rolling && why && !options.rolling.accepts_untested())
+        throw core::InputError(*why + "; widen the limits, or accept that with --accept-untested");
     if (options.json) {
         fmt::print("{}\n", json.dump(2));
         return;
@@ -172,8 +174,7 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
         std::string(
             R"(A range is "LOW to HIGH"; a single value fixes the quantity. Prints the drive of the fastest machine,
 its speed and mass flow, the limits that hold it back, and how the velocity efficiency eta changes with each input
-there. With --rolling-layer the search stays where that law has been tested: throw number up to 2.6, tan(beta) 0.25 to
-1, |tan(alpha)| up to 0.08.
+there. With --rolling-layer the search stays where that law has been tested.
 
 )") + mode_letters +
         R"(

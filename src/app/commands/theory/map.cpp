@@ -81,12 +81,18 @@ void run_theory_map(TheoryMapArguments const& options) {
     // Compressing the image takes as long as finding the lines.
     auto const write_image = [&](theory::Map const& points) { view::write_theory_image(image, points); };
     try {
-        map = theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law, .with_points = write_image});
+        // The image of a rolling layer is written when what was not tested has been removed from it.
+        map = law ? theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law})
+                  : theory::solve_map(fixed, x, y, {.jobs = jobs, .with_points = write_image});
     } catch (std::invalid_argument const& error) {
         throw core::InputError(
             fmt::format("the map leaves the range of the theory: {}; write other axes", error.what()));
     }
-    if (law) warn_if_untested(theory::count_untested(fixed, map), map.points.size());
+    if (law) {
+        if (!options.rolling.accepts_untested())
+            tell_withheld(theory::withhold_untested(fixed, map), map.points.size());
+        write_image(map);
+    }
     store::write_theory_map(output, map, fixed);
     view::write_theory_boundaries(lines, map);
     fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(),

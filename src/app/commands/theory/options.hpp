@@ -100,17 +100,18 @@ class RollingOption {
     /// The law with the constants that were given; nothing without the option.
     /// @throws core::InputError when a name is unknown or a value is wrong
     std::optional<theory::RollingLaw> law() const;
+    /// Whether answers where the law has not been tested are wanted, too (--accept-untested).
+    bool accepts_untested() const { return accepts_untested_; }
 
   private:
     std::string text_;
+    bool accepts_untested_ = false;
     CLI::Option* option_ = nullptr;
 };
 
-/// Warns on standard error that the law has not been tested at this point; nothing inside its range.
-void warn_if_untested(theory::PointMass const& point);
-
-/// Warns on standard error that `count` of `all` points are outside the tested range; nothing when none is.
-void warn_if_untested(std::size_t count, std::size_t all);
+/// Says on standard error that `count` of `all` points are outside the tested range and withheld; nothing
+/// when none is.
+void tell_withheld(std::size_t count, std::size_t all);
 
 /// @throws core::InputError naming the option when the inputs are not complete
 void require_complete(theory::Inputs const& inputs);

@@ -3,6 +3,7 @@
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
 #include "theory/quantities.hpp"
+#include "theory/tested_range.hpp"
 
 #include <cmath>
 #include <memory>
@@ -57,10 +58,12 @@ Json as_json(theory::Conveyor const& input, theory::ConveyorMotion const& answer
             {"friction", input.point.friction}};
 }
 
-void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer) {
+void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer,
+                std::optional<std::string> const& untested) {
     theory::Motion const& motion = answer.motion;
     fmt::print("throw number         {:.6g}\n", input.point.throw_number);
     fmt::print("machine number       {:.6g}\n", theory::machine_number(input.point));
+    if (untested) fmt::print("NOT TESTED           {}\n", *untested);
     std::string const interval =
         answer.half_width > 0 ? fmt::format(" +- {:.6f} (95 %)", answer.half_width) : "";
     std::string const speed = std::isfinite(motion.velocity_efficiency)
@@ -109,7 +112,6 @@ theory::ConveyorMotion solve_rolling(TheoryPointArguments const& options, theory
             "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
             "options out");
     }
-    warn_if_untested(input.point);
     theory::ConveyorMotion answer;
     answer.motion = theory::solve(theory::RollingLayer{input.point, law}).motion;
     return answer;
@@ -145,19 +147,42 @@ void check_machine_number(theory::Conveyor const& input) {
                     number));
 }
 
+/// The answer of a law where it has not been tested: none.
+void withhold(theory::Conveyor const& input, std::string const& why, bool json) {
+    if (json) {
+        Json const answer{{"velocity_efficiency", nullptr},
+                          {"outside_tested_range", true},
+                          {"withheld", why},
+                          {"throw_number", input.point.throw_number},
+                          {"tan_vibration_angle", input.point.tan_vibration_angle},
+                          {"tan_inclination", input.point.tan_inclination},
+                          {"friction", input.point.friction}};
+        fmt::print("{}\n", answer.dump(2));
+        return;
+    }
+    fmt::print(
+        "velocity efficiency  withheld: {} (see validation/rolling_layer); --accept-untested prints it\n",
+        why);
+}
+
 /// A motion that runs away has no speed, which a script must notice.
 int run_theory_point(TheoryPointArguments const& options) {
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
     check_machine_number(input);
     auto const machine = read_machine(options);
+    auto const untested = law ? theory::outside_tested_range(input.point) : std::nullopt;
+    if (untested && !options.rolling.accepts_untested()) {
+        withhold(input, *untested, options.json);
+        return some_cases_failed;
+    }
     theory::Detail const detail = machine ? theory::Detail::pieces : theory::Detail::motion;
     theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
                                           : options.motion.plastic() ? theory::solve_plastic(input, detail)
                                                                      : theory::solve(input);
     Json json = as_json(input, answer);
-    if (law) json["outside_tested_range"] = theory::outside_tested_range(input.point).has_value();
-    if (!options.json) print_text(input, answer);
+    if (law) json["outside_tested_range"] = untested.has_value();
+    if (!options.json) print_text(input, answer, untested);
     bool const settled = law ? answer.motion.converged : !answer.pieces.empty();
     if (machine && settled) {
         if (!options.json) fmt::print("\n");
@@ -201,7 +226,7 @@ energies and forces, with the size and bulk density of the layer the mass flow i
 
 Exit codes:
     0  the motion has a velocity efficiency
-    1  it runs away downhill and has none
+    1  it runs away downhill and has none, or the rolling-layer law has not been tested there
     2  the input is wrong
 
 Example:

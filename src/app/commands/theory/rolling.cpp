@@ -14,10 +14,6 @@ namespace {
 
 char const* const option_name = "--rolling-layer";
 char const* const example = "torque=0.5,dry_torque=0.04";
-char const* const range_text =
-    "throw number 1.25 to 2.6, tan(beta) 0.25 to 1, |tan(alpha)| up to 0.08, mu 0.1 to 0.6; see "
-    "validation/rolling_layer";
-
 void set(theory::RollingLaw& law, std::string const& part) {
     auto const equals = part.find('=');
     std::string const name = part.substr(0, equals);
@@ -46,6 +42,8 @@ void RollingOption::add_to(CLI::App& command) {
                 "spin_inertia (I, 0.10), stiffness (kappa, 14, inf: rigid landing), damping (zeta, 2.2)")
             ->expected(0, 1)
             ->type_name("[NAME=VALUE,...]");
+    command.add_flag("--accept-untested", accepts_untested_,
+                     "Also answer where the rolling-layer law has not been tested; the answer is marked");
 }
 
 std::optional<theory::RollingLaw> RollingOption::law() const {
@@ -66,18 +64,13 @@ std::optional<theory::RollingLaw> RollingOption::law() const {
     return law;
 }
 
-void warn_if_untested(theory::PointMass const& point) {
-    if (auto const why = theory::outside_tested_range(point))
-        fmt::print(stderr, "warning: {}; do not rely on the number ({})\n", *why, range_text);
-}
-
-void warn_if_untested(std::size_t count, std::size_t all) {
+void tell_withheld(std::size_t count, std::size_t all) {
     if (count == 0) return;
-    fmt::print(stderr,
-               "warning: {} of {} points are outside the range in which the rolling-layer law has been "
-               "tested; do not "
-               "rely on them ({})\n",
-               count, all, range_text);
+    fmt::print(
+        stderr,
+        "warning: {} of {} points are outside the range in which the rolling-layer law has been tested; "
+        "their answers are withheld, and --accept-untested gives them (see validation/rolling_layer)\n",
+        count, all);
 }
 
 }  // namespace vibrotrough::app

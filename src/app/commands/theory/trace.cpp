@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "theory/quantities.hpp"
+#include "theory/tested_range.hpp"
 
 #include <cmath>
 #include <memory>
@@ -49,7 +50,9 @@ Table trace_rolling(TheoryTraceArguments const& options, theory::Conveyor const&
             "--rolling-layer: the law has only a sinusoidal drive, inclination and friction; leave the other "
             "options out");
     }
-    warn_if_untested(input.point);
+    if (auto const why = theory::outside_tested_range(input.point);
+        why && !options.rolling.accepts_untested())
+        throw core::InputError(*why + "; write other inputs, or accept that with --accept-untested");
     theory::RollingMotion const motion = theory::solve(theory::RollingLayer{input.point, law});
     if (!motion.period) {
         throw core::InputError(fmt::format("the motion has no period to trace: {}; change the inputs",

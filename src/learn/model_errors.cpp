@@ -1,0 +1,91 @@
+#include "learn/model_errors.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace vibrotrough::learn {
+namespace {
+
+// validation/model_errors/errors.csv: throw number, tan(alpha), depth, layers, sd. A test compares them with
+// that file and prints the rows to be put here when they differ.
+constexpr std::array<ModelError, 12> of_point_mass{{
+    {{0.5, 1.25}, {-0.1, -0.02}, {2, 5}, 10, 0.018},
+    {{0.5, 1.25}, {-0.02, 0.02}, {2, 5}, 2, 0.026},
+    {{0.5, 1.25}, {0.02, 0.1}, {2, 5}, 10, 0.028},
+    {{1.25, 1.75}, {-0.1, -0.02}, {2, 5}, 6, 0.053},
+    {{1.25, 1.75}, {-0.02, 0.02}, {2, 5}, 9, 0.121},
+    {{1.25, 1.75}, {0.02, 0.1}, {2, 5}, 6, 0.129},
+    {{1.75, 2.1}, {-0.1, -0.02}, {2, 5}, 6, 0.170},
+    {{1.75, 2.1}, {-0.02, 0.02}, {2, 5}, 6, 0.099},
+    {{1.75, 2.1}, {0.02, 0.1}, {2, 5}, 6, 0.084},
+    {{2.1, 3.0}, {-0.1, -0.02}, {2, 5}, 6, 0.029},
+    {{2.1, 3.0}, {-0.02, 0.02}, {2, 5}, 10, 0.043},
+    {{2.1, 3.0}, {0.02, 0.1}, {2, 5}, 5, 0.063},
+}};
+constexpr std::array<ModelError, 14> of_rolling_layer{{
+    {{0.5, 1.25}, {-0.1, -0.02}, {2, 5}, 6, 0.119},
+    {{0.5, 1.25}, {-0.02, 0.02}, {2, 5}, 5, 0.167},
+    {{0.5, 1.25}, {0.02, 0.1}, {2, 5}, 8, 0.104},
+    {{1.25, 1.75}, {-0.1, -0.02}, {2, 5}, 7, 0.084},
+    {{1.25, 1.75}, {-0.02, 0.02}, {2, 5}, 21, 0.032},
+    {{1.25, 1.75}, {-0.02, 0.02}, {5, 16}, 3, 0.053},
+    {{1.25, 1.75}, {0.02, 0.1}, {2, 5}, 13, 0.053},
+    {{1.75, 2.1}, {-0.1, -0.02}, {2, 5}, 7, 0.056},
+    {{1.75, 2.1}, {-0.02, 0.02}, {2, 5}, 18, 0.037},
+    {{1.75, 2.1}, {-0.02, 0.02}, {5, 16}, 3, 0.058},
+    {{1.75, 2.1}, {0.02, 0.1}, {2, 5}, 7, 0.096},
+    {{2.1, 3.0}, {-0.1, -0.02}, {2, 5}, 7, 0.127},
+    {{2.1, 3.0}, {-0.02, 0.02}, {2, 5}, 7, 0.039},
+    {{2.1, 3.0}, {0.02, 0.1}, {2, 5}, 7, 0.105},
+}};
+
+/// Whether a value lies in a region, whose upper end belongs to the next region if there is one.
+bool contains(theory::Range const& range, double value, double end_of_all) {
+    return value >= range.low && (value < range.high || (value == range.high && value == end_of_all));
+}
+
+template <class Part>
+double most(std::span<ModelError const> errors, Part const& part) {
+    double largest = 0;
+    for (ModelError const& one : errors) largest = std::max(largest, part(one));
+    return largest;
+}
+
+}  // namespace
+
+std::span<ModelError const> point_mass_errors() {
+    return of_point_mass;
+}
+
+std::span<ModelError const> rolling_layer_errors() {
+    return of_rolling_layer;
+}
+
+std::optional<double> known_error(std::span<ModelError const> errors, double throw_number,
+                                  double tan_inclination, std::optional<double> depth) {
+    double const last_throw_number = largest_throw_number(errors);
+    double const last_slope = most(errors, [](ModelError const& one) { return one.tan_inclination.high; });
+    double const last_depth = largest_depth(errors);
+    std::optional<double> found;
+    for (ModelError const& one : errors) {
+        bool const here = contains(one.throw_number, throw_number, last_throw_number) &&
+                          contains(one.tan_inclination, tan_inclination, last_slope) &&
+                          (!depth || contains(one.depth, *depth, last_depth));
+        if (here) found = std::max(found.value_or(0), one.sd);
+    }
+    return found;
+}
+
+double largest_error(std::span<ModelError const> errors) {
+    return most(errors, [](ModelError const& one) { return one.sd; });
+}
+
+double largest_throw_number(std::span<ModelError const> errors) {
+    return most(errors, [](ModelError const& one) { return one.throw_number.high; });
+}
+
+double largest_depth(std::span<ModelError const> errors) {
+    return most(errors, [](ModelError const& one) { return one.depth.high; });
+}
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,87 @@
+#include "theory/tested_range.hpp"
+
+#include "theory/detail/input_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace vibrotrough::theory {
+namespace {
+
+constexpr double rounding = 1e-9;
+
+bool contains(Range const& range, double value) {
+    return value >= range.low - rounding && value <= range.high + rounding;
+}
+
+/// The ends are rounded for the reader.
+std::string text(Range const& range) {
+    std::array<char, 64> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "[%.4g, %.4g]", range.low, range.high);
+    return buffer.data();
+}
+
+}  // namespace
+
+std::optional<Range> tested_throw_numbers(double tan_inclination, std::optional<double> depth) {
+    double const level_depth = tested_level.depth;
+    TestedLayers const& far = depth.value_or(level_depth) < level_depth ? tested_shallow : tested_deep;
+    double const on_slope = std::abs(tan_inclination) / tested_slopes.slope;
+    double const at_depth = depth ? (*depth - level_depth) / (far.depth - level_depth) : 0;
+    if (!(on_slope + at_depth <= 1 + rounding)) return {};
+    auto const between = [&](double Range::*end) {
+        double const level = tested_level.throw_number.*end;
+        return level + on_slope * (tested_slopes.throw_number.*end - level) +
+               at_depth * (far.throw_number.*end - level);
+    };
+    return Range{between(&Range::low), between(&Range::high)};
+}
+
+std::optional<std::string> outside_tested_range(PointMass const& p, std::optional<double> depth) {
+    std::string const untested = "the rolling-layer law has not been tested at ";
+    auto const outside = [&](char const* name, double value, Range const& range) {
+        return untested + name + " = " + detail::number_text(value) + ", outside " + text(range);
+    };
+    if (!contains(tested_tan_vibration_angle, p.tan_vibration_angle))
+        return outside("tan_vibration_angle", p.tan_vibration_angle, tested_tan_vibration_angle);
+    if (!contains(tested_friction, p.friction)) return outside("friction", p.friction, tested_friction);
+    Range const slopes{-tested_slopes.slope, tested_slopes.slope};
+    if (!contains(slopes, p.tan_inclination)) return outside("tan_inclination", p.tan_inclination, slopes);
+    Range const depths{tested_shallow.depth, tested_deep.depth};
+    std::string const name = "a depth in diameters of the grains";
+    if (depth && !contains(depths, *depth)) return outside(name.c_str(), *depth, depths);
+    auto const throw_numbers = tested_throw_numbers(p.tan_inclination, depth);
+    std::string const where =
+        (p.tan_inclination != 0 ? ", tan_inclination = " + detail::number_text(p.tan_inclination) : "") +
+        (depth ? ", " + name + " = " + detail::number_text(*depth) : "");
+    if (throw_numbers && contains(*throw_numbers, p.throw_number)) return {};
+    return untested + "throw_number = " + detail::number_text(p.throw_number) + where +
+           (throw_numbers ? ", where it has been for throw numbers in " + text(*throw_numbers) : "");
+}
+
+DriveSpace within_tested_range(DriveSpace space) {
+    auto const narrowed = [](Range const& range, double low, double high, char const* name) {
+        Range const common{std::max(range.low, low), std::min(range.high, high)};
+        std::string const allowed =
+            "in rad, " + text({low, high}) + ", where the rolling-layer law has been tested";
+        detail::require_range(common.low <= common.high, name, range.low, allowed.c_str());
+        return common;
+    };
+    space.max_throw_number = std::min(space.max_throw_number, tested_level.throw_number.high);
+    space.vibration_angle = narrowed(space.vibration_angle, std::atan(tested_tan_vibration_angle.low),
+                                     std::atan(tested_tan_vibration_angle.high), "vibration_angle");
+    double const slope = std::atan(tested_slopes.slope);
+    space.inclination = narrowed(space.inclination, -slope, slope, "inclination");
+    return space;
+}
+
+double tested_excess(Drive const& drive, double gravity) {
+    double const slope = std::tan(drive.inclination), throw_number = drive.throw_number(gravity);
+    auto const tested = tested_throw_numbers(slope);
+    if (!tested) return std::abs(slope) / tested_slopes.slope - 1;
+    return std::max(1 - throw_number / tested->low, throw_number / tested->high - 1);
+}
+
+}  // namespace vibrotrough::theory
