@@ -137,9 +137,9 @@ class FabricatedPackings : public CampaignFolder {
         std::map<int, std::vector<double>> made;
         auto const series = [&](int number) -> std::vector<double> const& {
             std::vector<double>& values = made[number];
+            if (!values.empty()) return values;
             Random random(1000 * set + static_cast<unsigned>(number));
-            if (values.empty()) values = row.make(number, random);
-            return values;
+            return values = row.make(number, random);
         };
         return simulate_case(UntilPrecise{}, asked, series);
     }

@@ -110,9 +110,8 @@ int cycles_to_settle(std::vector<std::vector<double>> const& runs, double steady
 double mean_startup_cut(std::vector<std::vector<double>> const& runs) {
     int cut = 0, rounds = 0;
     for (std::size_t first = 0; first + 4 <= runs.size(); first += 4, ++rounds) {
-        std::vector<measure::PackingValues> values;
-        for (std::size_t i = first; i < first + 4; ++i)
-            values.push_back({std::span(runs[i]).first(24), measure::Start::below});
+        std::vector<std::span<double const>> values;
+        for (std::size_t i = first; i < first + 4; ++i) values.push_back(std::span(runs[i]).first(24));
         cut += measure::common_startup_length(values);
     }
     return static_cast<double>(cut) / rounds;
