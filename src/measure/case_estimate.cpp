@@ -31,8 +31,8 @@ double variance_of(std::span<double const> values) {
 std::vector<double> means_of(Runs runs, int first, int last) {
     std::vector<double> means;
     for (std::span<double const> const run : runs)
-        means.push_back(mean_of(
-            run.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first))));
+        means.push_back(
+            mean_of(run.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first))));
     return means;
 }
 
@@ -144,7 +144,7 @@ int common_startup_length(Runs runs) {
     std::vector<double> mean(runs.front().size(), 0.0);
     for (std::size_t i = 0; i < mean.size(); ++i)
         for (std::span<double const> const run : runs) mean[i] += run[i] / static_cast<double>(runs.size());
-    return std::max(startup_length(runs), startup_length(std::span<double const>(mean)));
+    return std::max(pooled_startup_length(runs), startup_length(mean));
 }
 
 CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted) {

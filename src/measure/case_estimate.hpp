@@ -36,13 +36,13 @@ struct Branch {
 
 /// The mean over the packings of a case.
 struct CaseEstimate {
-    std::optional<double> mean;        ///< none when there are no cycles, or the case is not steady
+    std::optional<double> mean;  ///< none when there are no cycles, or the case is not steady
     /// Of its confidence interval, with what is left of a start-up; none when the interval is unbounded.
     std::optional<double> half_width;
-    int packings = 0;                  ///< number of packings
-    int discarded = 0;                 ///< cycles of every packing that are left out as start-up
-    int measured = 0;                  ///< cycles of every packing that are kept
-    double correlation_time = 1;       ///< statistical inefficiency g of the cycles, pooled over the packings
+    int packings = 0;             ///< number of packings
+    int discarded = 0;            ///< cycles of every packing that are left out as start-up
+    int measured = 0;             ///< cycles of every packing that are kept
+    double correlation_time = 1;  ///< statistical inefficiency g of the cycles, pooled over the packings
     std::optional<double> deviation{};  ///< standard deviation of the mean of one packing; none if unbounded
     /// The part of `deviation` that the fluctuations within a run explain.
     double deviation_within = 0;
@@ -72,11 +72,11 @@ int common_startup_length(Runs runs);
 /// pooled over the packings (fluctuations_of()). So when S < w, the interval rests on the pooled variance of
 /// S and w, but not less than w, and their common degrees of freedom.
 ///
-/// The statistical half-width is that of Student's t at the level 1 - 0.5 (1 - confidence): packings are added
-/// until the interval is narrow enough, which favours intervals that are too narrow by chance (Chow & Robbins,
-/// Annals of Mathematical Statistics 36, 1965, 457-462), and the offsets of packings may be skewed. What is
-/// left of a common start-up is added to it, see drift_left(). tests/campaign/fabricated_packings_test.cpp
-/// and reference_test.cpp measure what this achieves.
+/// The statistical half-width is that of Student's t at the level 1 - 0.5 (1 - confidence): packings are
+/// added until the interval is narrow enough, which favours intervals that are too narrow by chance (Chow &
+/// Robbins, Annals of Mathematical Statistics 36, 1965, 457-462), and the offsets of packings may be skewed.
+/// What is left of a common start-up is added to it, see drift_left().
+/// tests/campaign/fabricated_packings_test.cpp and reference_test.cpp measure what this achieves.
 ///
 /// The case is not steady if the common start-up takes half of the cycles and the ensemble mean still changes
 /// by more than the half-width wanted; if the second half of the cycles kept differs from the first by more

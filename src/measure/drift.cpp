@@ -15,6 +15,9 @@ constexpr double tolerated_noise = 2;
 /// Of the sums of squares of two fits, in variances: three standard deviations.
 constexpr double agreement = 9;
 
+/// Of efficiencies, which are of order one.
+constexpr double rounding = 1e-12;
+
 /// A decay that was fitted to every run.
 struct Fit {
     double explained;  ///< by how much it lowers the sum of squares of the mean over all runs
@@ -23,18 +26,21 @@ struct Fit {
 
 /// @param shape  f(i) of all cycles
 /// @param first  cycle of the fit
-Fit fit(Runs runs, Eigen::ArrayXd const& shape, Eigen::Index first, Eigen::Index discarded) {
+/// @param variance  of the mean of a cycle over all runs
+Fit fit(Runs runs, Eigen::ArrayXd const& shape, Eigen::Index first, Eigen::Index discarded, double variance) {
     Eigen::Index const n = shape.size(), fitted = n - first;
     Eigen::ArrayXd const centred = shape.tail(fitted) - shape.tail(fitted).mean();
     double const norm = centred.square().sum();
     Eigen::ArrayXd amplitudes(static_cast<Eigen::Index>(runs.size()));
     for (std::size_t i = 0; i < runs.size(); ++i)
-        amplitudes[static_cast<Eigen::Index>(i)] =
-            (centred * as_array(runs[i]).tail(fitted)).sum() / norm;
+        amplitudes[static_cast<Eigen::Index>(i)] = (centred * as_array(runs[i]).tail(fitted)).sum() / norm;
     auto const count = static_cast<double>(runs.size());
     double const mean = amplitudes.mean();
-    double const error_squared = (amplitudes - mean).square().sum() / (count * (count - 1));
+    // The amplitudes of a few runs can agree by chance, but not better than independent cycles allow.
+    double const error_squared =
+        std::max((amplitudes - mean).square().sum() / (count * (count - 1)), variance / norm);
     double const certain = std::sqrt(std::max(0.0, mean * mean - tolerated_noise * error_squared));
+    if (certain < rounding) return {mean * mean * norm, 0};
     return {mean * mean * norm, certain * shape.tail(n - discarded).mean()};
 }
 
@@ -51,10 +57,12 @@ double drift_left(Runs runs, int discarded) {
 
     std::vector<Fit> exponentials;
     for (double const part : {1, 2, 4, 8})
-        exponentials.push_back(fit(runs, (-cycle * part / static_cast<double>(n)).exp(), 0, discarded));
+        exponentials.push_back(
+            fit(runs, (-cycle * part / static_cast<double>(n)).exp(), 0, discarded, variance));
     double const best = std::ranges::max(exponentials, {}, &Fit::explained).explained;
     Eigen::Index const first = std::max<Eigen::Index>(1, n / 16);
-    double left = fit(runs, 1 / (cycle.max(static_cast<double>(first)) + 0.5), first, discarded).left;
+    double left =
+        fit(runs, 1 / (cycle.max(static_cast<double>(first)) + 0.5), first, discarded, variance).left;
     for (Fit const& one : exponentials)
         if (best - one.explained <= agreement * variance) left = std::max(left, one.left);
     return left;

@@ -13,7 +13,8 @@ namespace vibrotrough::measure {
 /// cycles, and c / i to those from n/16 on, which is what layers were seen to do (throw number 1.2 of
 /// tests/measure/reference). Each leaves B = b <f> in the mean, with <f> over the cycles kept. As b is fitted
 /// to each run, the scatter of B over the runs gives its standard error s, whatever the correlation between
-/// cycles and the offsets between runs. Of B, sqrt(max(0, B^2 - 2 s^2)) counts, so that noise counts rarely.
+/// cycles and the offsets between runs, but not less than independent cycles imply. Of B, sqrt(max(0, B^2 - 2
+/// s^2)) counts, so that noise counts rarely.
 ///
 /// The largest of these is returned, over c / i and those exponentials that agree with the cycles: whose sum
 /// of squares exceeds that of the best by at most nine times the variance of a cycle's mean over the runs

@@ -67,7 +67,7 @@ std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, doubl
     return eta;
 }
 
-int startup_length(Runs runs) {
+int pooled_startup_length(Runs runs) {
     int const n = static_cast<int>(runs.front().size());
     std::vector<double> squares(runs.front().size(), 0.0);  // without the first d cycles
     for (std::span<double const> const run : runs) {
@@ -94,7 +94,7 @@ int startup_length(Runs runs) {
 }
 
 int startup_length(std::span<double const> values) {
-    return startup_length(Runs(&values, 1));
+    return pooled_startup_length(Runs(&values, 1));
 }
 
 Fluctuations fluctuations_of(Runs runs) {

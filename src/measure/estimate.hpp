@@ -54,7 +54,7 @@ using Runs = std::span<std::span<double const> const>;
 /// the d <= n/2 that minimises sum_{i >= d} (y_i - mean_d)^2 / (n - d)^2, with the sum of squares over all
 /// runs, each about its own mean. A result of n/2 means that the start-up may not be over.
 /// @param runs  at least one
-int startup_length(Runs runs);
+int pooled_startup_length(Runs runs);
 int startup_length(std::span<double const> values);  ///< of a single run
 
 /// How the cycles of runs fluctuate, each about the mean of its run.

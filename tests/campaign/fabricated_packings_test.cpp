@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -91,38 +92,49 @@ struct Limits {
     int packings = 4, max_packings = 24, max_cycles = longest;
 };
 
+/// What must hold of a row, but for three standard deviations of sampling.
+struct Bounds {
+    double least = 0.93, most = 0.98;  ///< share covered of the sets that are finished
+    /// Where that cannot be reached: share of all sets that are finished with a wrong mean.
+    std::optional<double> wrong = {};
+};
+
 struct Row {
     std::string name;
     Maker make;
+    Bounds bounds = {};
     Limits limits = {};
     double half_width = 0.02;
-    double least = 0.93, most = 0.98;  ///< share covered of those that are finished, without sampling error
 };
 
-/// The rows of the table in src/measure/README.md, where the reasons of other bounds than 0.93 and 0.98 are.
+/// The rows of the table in src/measure/README.md, which has the reasons of other bounds. The interval of a
+/// case that drifts may contain the truth always: it counts what is left of decays that are slower than the
+/// true one.
 std::vector<Row> rows() {
     using Normal = std::normal_distribution<double>;
     using Gamma = std::gamma_distribution<double>;
     Limits const four_of_40{4, 4, 40}, six_of_60{6, 6, 60};
+    Bounds const safe{0.93, 1};
+    auto const wrong = [](double share) { return Bounds{0, 1, share}; };
     return {
         {"independent cycles", correlated(0)},
         {"correlation 0.5", correlated(0.5)},
         {"correlation 0.8", correlated(0.8)},
         {"correlation 0.9", correlated(0.9)},
-        {"correlation 0.9, 40 cycles", correlated(0.9), {4, 24, 40}},
-        {"correlation 0.9, 4 x 40", correlated(0.9), four_of_40, 0.04},
-        {"normal offsets 0.02", offset_by(0.05, 0, 0.02, Normal{})},
+        {"correlation 0.9, 40 cycles", correlated(0.9), {}, {4, 24, 40}},
+        {"correlation 0.9, 4 x 40", correlated(0.9), {}, four_of_40, 0.04},
+        {"normal offsets", offset_by(0.05, 0, 0.02, Normal{})},
         {"offsets of skewness 1", offset_by(0.03, 4, 0.01, Gamma{4, 1})},
-        {"offsets of skewness 2", offset_by(0.03, 1, 0.02, Gamma{1, 1})},
-        {"start-up from both sides", starting(-0.12, 0.18, 5)},
-        {"common start-up of 8 cycles", starting(0.2, 0.2, 8)},
-        {"the same, 4 x 40", starting(0.2, 0.2, 8), four_of_40},
-        {"common start-up of 40 cycles", starting(0.1, 0.1, 40)},
-        {"the same, 6 x 60", starting(0.1, 0.1, 40), six_of_60},
-        {"common fall, over after 40", falling},
-        {"branches 0.06 apart, last 200", switching(0.06)},
-        {"branches 0.10 apart, last 200", switching(0.10)},
-        {"a branch of 15 %", rarely_faster},
+        {"offsets of skewness 2", offset_by(0.03, 1, 0.02, Gamma{1, 1}), wrong(0.1)},
+        {"start-up from both sides", starting(-0.12, 0.18, 5), safe},
+        {"common start-up of 8 cycles", starting(0.2, 0.2, 8), safe},
+        {"the same, 4 x 40", starting(0.2, 0.2, 8), safe, four_of_40},
+        {"common start-up of 40 cycles", starting(0.1, 0.1, 40), safe},
+        {"the same, 6 x 60", starting(0.1, 0.1, 40), wrong(0.09), six_of_60},
+        {"common fall, over after 40", falling, safe},
+        {"branches 0.06 apart, last 200", switching(0.06), wrong(0.13)},
+        {"branches 0.10 apart, last 200", switching(0.10), wrong(0.13)},
+        {"a branch of 15 %", rarely_faster, wrong(0.48)},
     };
 }
 
@@ -130,7 +142,7 @@ class FabricatedPackings : public CampaignFolder {
   protected:
     SimulatedEnd run(Row const& row, unsigned set) const {
         prepare::PreparedCase prepared = *planned.prepared;
-        prepared.scenario.measure = {row.limits.packings,    0.95, row.half_width, row.limits.max_cycles,
+        prepared.scenario.measure = {row.limits.packings,     0.95, row.half_width, row.limits.max_cycles,
                                      row.limits.max_packings, {}};
         PlannedCase asked = planned;
         asked.prepared = std::make_shared<prepare::PreparedCase const>(prepared);
@@ -145,10 +157,10 @@ class FabricatedPackings : public CampaignFolder {
     }
 };
 
-// How many cases end as `finished`, and how many of these intervals contain the true mean: 93 to 98 %, with
-// three standard deviations of the share among those that are there.
+// How many cases end as `finished`, and how many of these intervals contain the true mean.
 TEST_F(FabricatedPackings, FinishedIntervalsCoverTheTruth) {
     constexpr int sets = 400;
+    auto const sampling = [](double p, int count) { return 3 * std::sqrt(p * (1 - p) / count); };
     for (Row const& row : rows()) {
         int finished = 0, covered = 0;
         double packings = 0, cycles = 0;
@@ -161,12 +173,19 @@ TEST_F(FabricatedPackings, FinishedIntervalsCoverTheTruth) {
             covered += std::abs(*end.estimate.mean) <= *end.estimate.half_width ? 1 : 0;
         }
         double const share = finished > 0 ? covered / static_cast<double>(finished) : 0;
-        fmt::print("{:32} finished {:5.1f} %, covered {:5.1f} % of them; packings {:4.1f}, cycles {:4.0f}\n",
-                   row.name, 100.0 * finished / sets, 100 * share, packings, cycles);
+        double const wrong = (finished - covered) / static_cast<double>(sets);
+        fmt::print(
+            "{:30} finished {:5.1f} %, covered {:5.1f} % of them; wrong {:4.1f} % of all; packings {:4.1f}, "
+            "cycles {:4.0f}\n",
+            row.name, 100.0 * finished / sets, 100 * share, 100 * wrong, packings, cycles);
+        Bounds const& bounds = row.bounds;
+        if (bounds.wrong) {
+            EXPECT_LE(wrong, *bounds.wrong + sampling(*bounds.wrong, sets)) << row.name;
+            continue;
+        }
         if (finished == 0) continue;
-        auto const sampling = [&](double p) { return 3 * std::sqrt(p * (1 - p) / finished); };
-        EXPECT_GE(share, row.least - sampling(row.least)) << row.name;
-        EXPECT_LE(share, row.most + sampling(row.most)) << row.name;
+        EXPECT_GE(share, bounds.least - sampling(bounds.least, finished)) << row.name;
+        EXPECT_LE(share, bounds.most + sampling(bounds.most, finished)) << row.name;
     }
 }
 
