@@ -98,12 +98,13 @@ double steps_between_rebuilds(prepare::PreparedCase const& c, double speed) {
 
 int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience) {
     if (plan.max_packings == 1) return 1;
-    double const level = 1 - 0.7 * (1 - plan.confidence);  // see measure/case_estimate.hpp
+    double const level = 1 - 0.5 * (1 - plan.confidence);  // see measure/case_estimate.hpp
     int packings = plan.packings + plan.packings % 2;
     for (; packings < plan.max_packings; ++packings) {
         boost::math::students_t const distribution(packings - 1);
         double const quantile = boost::math::quantile(distribution, 0.5 + level / 2);
-        if (quantile * experience.deviation <= plan.half_width * std::sqrt(packings)) break;
+        double const share = packings < 6 ? 0.5 : 1;  // see campaign/schedule/until_precise.hpp
+        if (quantile * experience.deviation <= share * plan.half_width * std::sqrt(packings)) break;
     }
     return std::min(packings, plan.max_packings);
 }

@@ -1,5 +1,6 @@
 #include "measure/case_estimate.hpp"
 
+#include "measure/drift.hpp"
 #include "measure/statistics.hpp"
 
 #include <algorithm>
@@ -12,11 +13,9 @@ namespace vibrotrough::measure {
 namespace {
 
 /// Share of the error probability that an interval may use after packings were added until it was narrow.
-constexpr double stopping_share = 0.7;
+constexpr double stopping_share = 0.5;
 /// Level of the tests for drift and for branches: they are repeated after every round of packings.
 constexpr double test_level = 0.99;
-/// Level of the test for a drift that need not be large: its errors cost cycles only.
-constexpr double weak_test_level = 0.95;
 /// Fewest packings of a group that can be compared with the other group.
 constexpr int fewest_of_group = 2;
 
@@ -29,63 +28,12 @@ double variance_of(std::span<double const> values) {
     return (as_array(values) - mean_of(values)).square().sum() / static_cast<double>(values.size() - 1);
 }
 
-/// Sums of products of neighbours at each lag, over all packings, each about its own mean.
-class PooledCorrelation {
-  public:
-    PooledCorrelation(std::span<PackingValues const> packings, int discarded)
-        : length_(packings.front().values.size() - static_cast<std::size_t>(discarded)),
-          count_(packings.size()),
-          sums_(std::max<std::size_t>(2, length_ / 2), 0.0) {
-        for (PackingValues const& packing : packings) {
-            auto const kept = as_array(packing.values.subspan(static_cast<std::size_t>(discarded)));
-            Eigen::ArrayXd const centred = kept - kept.mean();
-            auto const n = static_cast<Eigen::Index>(length_);
-            for (Eigen::Index lag = 0; lag < static_cast<Eigen::Index>(sums_.size()) && lag < n; ++lag)
-                sums_[static_cast<std::size_t>(lag)] += (centred.head(n - lag) * centred.tail(n - lag)).sum();
-        }
-    }
-
-    /// Of a cycle about the mean of its packing.
-    double variance() const {
-        double const freedom = static_cast<double>(count_ * (length_ - 1));
-        return freedom > 0 ? sums_[0] / freedom : 0;
-    }
-
-    /// g, see statistical_inefficiency(). At most the number of cycles.
-    double inefficiency() const {
-        if (!(sums_[0] > 0) || length_ < 4) return 1;
-        double sum = 0;
-        for (std::size_t m = 0; 2 * m + 1 < sums_.size(); ++m) {
-            double const pair = (sums_[2 * m] + sums_[2 * m + 1]) / sums_[0];
-            if (pair <= 0) break;
-            sum += pair;
-        }
-        double const size = static_cast<double>(length_);
-        double const biased = sums_[1] / sums_[0];
-        double const rho = std::clamp(biased + (1 + 3 * biased) / size, 0.0, 1 - 1 / size);
-        return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size);
-    }
-
-  private:
-    std::size_t length_, count_;
-    std::vector<double> sums_;
-};
-
-std::vector<double> means_of(std::span<PackingValues const> packings, int first, int last) {
+std::vector<double> means_of(Runs runs, int first, int last) {
     std::vector<double> means;
-    for (PackingValues const& packing : packings) {
-        means.push_back(mean_of(
-            packing.values.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first))));
-    }
+    for (std::span<double const> const run : runs)
+        means.push_back(
+            mean_of(run.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first))));
     return means;
-}
-
-/// What the mean of each packing gains from cycles first ... middle to cycles middle ... last.
-std::vector<double> gains_of(std::span<PackingValues const> packings, int first, int middle, int last) {
-    std::vector<double> gains = means_of(packings, middle, last);
-    std::vector<double> const before = means_of(packings, first, middle);
-    for (std::size_t i = 0; i < gains.size(); ++i) gains[i] -= before[i];
-    return gains;
 }
 
 /// Whether the mean of a sample differs from zero.
@@ -97,8 +45,8 @@ bool is_significant(std::span<double const> differences, double level) {
 }
 
 /// Whether the start-up takes half of the cycles and the mean of all packings still changes.
-bool is_starting_up(std::span<PackingValues const> packings, int discarded, double tolerated) {
-    int const n = static_cast<int>(packings.front().values.size());
+bool is_starting_up(Runs packings, int discarded, double tolerated) {
+    int const n = static_cast<int>(packings.front().size());
     if (2 * discarded + 1 < n) return false;
     if (n < 4) return true;
     double const before = mean_of(means_of(packings, n / 4, n / 2));
@@ -106,21 +54,14 @@ bool is_starting_up(std::span<PackingValues const> packings, int discarded, doub
 }
 
 /// Whether the packings drift in the same direction.
-bool is_drifting(std::span<PackingValues const> packings, int discarded, double tolerated) {
-    int const n = static_cast<int>(packings.front().values.size());
+bool is_drifting(Runs packings, int discarded, double tolerated) {
+    int const n = static_cast<int>(packings.front().size());
     int const middle = (discarded + n) / 2;
     if (middle == discarded) return false;
-    std::vector<double> const gains = gains_of(packings, discarded, middle, n);
+    std::vector<double> gains = means_of(packings, middle, n);
+    std::vector<double> const before = means_of(packings, discarded, middle);
+    for (std::size_t i = 0; i < gains.size(); ++i) gains[i] -= before[i];
     return std::abs(mean_of(gains)) > tolerated && is_significant(gains, test_level);
-}
-
-/// See CaseEstimate::drift. The cycles that count do not depend on the start-up that is cut off: a drift
-/// makes it longer.
-double drift_of(std::span<PackingValues const> packings) {
-    int const n = static_cast<int>(packings.front().values.size());
-    if (n / 4 == n / 2) return 0;
-    std::vector<double> const gains = gains_of(packings, n / 4, n / 2, n);
-    return is_significant(gains, weak_test_level) ? mean_of(gains) : 0;
 }
 
 struct Group {
@@ -167,6 +108,20 @@ double level_after_stopping(double confidence) {
     return 1 - stopping_share * (1 - confidence);
 }
 
+/// Mean and Student's interval, without what is left of a start-up.
+void add_interval(CaseEstimate& estimate, std::vector<double> const& means, Fluctuations const& within,
+                  double level) {
+    estimate.correlation_time = within.inefficiency;
+    estimate.deviation_within = std::sqrt(within.variance * within.inefficiency / estimate.measured);
+    double const independent = estimate.packings * (estimate.measured / within.inefficiency);
+    Deviation const deviation =
+        deviation_of(means, estimate.deviation_within, std::max(1.0, independent - estimate.packings));
+    estimate.mean = mean_of(means);
+    estimate.deviation = deviation.value;
+    estimate.half_width = student_quantile(level, deviation.degrees_of_freedom) * deviation.value /
+                          std::sqrt(estimate.packings);
+}
+
 CaseEstimate estimate_single(PackingValues const& packing, Precision const& wanted) {
     PackingEstimate const one = estimate_packing(packing.values, wanted);
     CaseEstimate estimate;
@@ -185,29 +140,11 @@ CaseEstimate estimate_single(PackingValues const& packing, Precision const& want
 
 }  // namespace
 
-int common_startup_length(std::span<PackingValues const> packings) {
-    int const n = static_cast<int>(packings.front().values.size());
-    std::vector<double> squares(static_cast<std::size_t>(n), 0.0);  // without the first d cycles
-    for (PackingValues const& packing : packings) {
-        double const origin = n > 0 ? packing.values.back() : 0;  // the squares of small numbers are accurate
-        double sum = 0, square = 0;
-        for (int d = n - 1; d >= 0; --d) {
-            double const value = packing.values[static_cast<std::size_t>(d)] - origin;
-            sum += value;
-            square += value * value;
-            squares[static_cast<std::size_t>(d)] += std::max(0.0, square - sum * sum / (n - d));
-        }
-    }
-    int best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (int d = 0; 2 * d <= n && d < n; ++d) {
-        double const size = n - d;
-        double const error = squares[static_cast<std::size_t>(d)] / (size * size);
-        if (!(error < least)) continue;
-        least = error;
-        best = d;
-    }
-    return best;
+int common_startup_length(Runs runs) {
+    std::vector<double> mean(runs.front().size(), 0.0);
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        for (std::span<double const> const run : runs) mean[i] += run[i] / static_cast<double>(runs.size());
+    return std::max(pooled_startup_length(runs), startup_length(mean));
 }
 
 CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted) {
@@ -222,33 +159,27 @@ CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision co
         estimate.steadiness = Steadiness::drifting;
         return estimate;
     }
-    estimate.discarded = common_startup_length(packings);
+    std::vector<std::span<double const>> runs, kept;
+    for (PackingValues const& packing : packings) runs.push_back(packing.values);
+    estimate.discarded = common_startup_length(runs);
     estimate.measured = static_cast<int>(n) - estimate.discarded;
-    std::vector<double> const means = means_of(packings, estimate.discarded, static_cast<int>(n));
-    PooledCorrelation const correlation(packings, estimate.discarded);
-    estimate.correlation_time = correlation.inefficiency();
-    estimate.deviation_within =
-        std::sqrt(correlation.variance() * estimate.correlation_time / estimate.measured);
-    double const independent = estimate.packings * (estimate.measured / estimate.correlation_time);
-    Deviation const deviation =
-        deviation_of(means, estimate.deviation_within, std::max(1.0, independent - estimate.packings));
-    double const level = level_after_stopping(wanted.confidence);
-    estimate.mean = mean_of(means);
-    estimate.deviation = deviation.value;
-    estimate.half_width = student_quantile(level, deviation.degrees_of_freedom) * deviation.value /
-                          std::sqrt(estimate.packings);
+    for (std::span<double const> const run : runs)
+        kept.push_back(run.last(static_cast<std::size_t>(estimate.measured)));
+    std::vector<double> const means = means_of(kept, 0, estimate.measured);
+    add_interval(estimate, means, fluctuations_of(kept), level_after_stopping(wanted.confidence));
+    estimate.drift = drift_left(runs, estimate.discarded);
+    estimate.half_width = std::hypot(*estimate.half_width, estimate.drift);
 
     Group below, above;
     for (std::size_t i = 0; i < packings.size(); ++i)
         (packings[i].start == Start::below ? below : above).means.push_back(means[i]);
-    estimate.below = below.branch(level);
-    estimate.above = above.branch(level);
-    estimate.drift = drift_of(packings);
+    estimate.below = below.branch(level_after_stopping(wanted.confidence));
+    estimate.above = above.branch(level_after_stopping(wanted.confidence));
     double const tolerated = wanted.half_width;
     if (is_branching(below, above, tolerated)) {
         estimate.steadiness = Steadiness::branching;
-    } else if (is_starting_up(packings, estimate.discarded, tolerated) ||
-               is_drifting(packings, estimate.discarded, tolerated)) {
+    } else if (is_starting_up(runs, estimate.discarded, tolerated) ||
+               is_drifting(runs, estimate.discarded, tolerated)) {
         estimate.steadiness = Steadiness::drifting;
     }
     return estimate;

@@ -36,29 +36,31 @@ struct Branch {
 
 /// The mean over the packings of a case.
 struct CaseEstimate {
-    std::optional<double> mean;        ///< none when there are no cycles, or the case is not steady
-    std::optional<double> half_width;  ///< of its confidence interval; none when the interval is unbounded
-    int packings = 0;                  ///< number of packings
-    int discarded = 0;                 ///< cycles of every packing that are left out as start-up
-    int measured = 0;                  ///< cycles of every packing that are kept
-    double correlation_time = 1;       ///< statistical inefficiency g of the cycles, pooled over the packings
+    std::optional<double> mean;  ///< none when there are no cycles, or the case is not steady
+    /// Of its confidence interval, with what is left of a start-up; none when the interval is unbounded.
+    std::optional<double> half_width;
+    int packings = 0;             ///< number of packings
+    int discarded = 0;            ///< cycles of every packing that are left out as start-up
+    int measured = 0;             ///< cycles of every packing that are kept
+    double correlation_time = 1;  ///< statistical inefficiency g of the cycles, pooled over the packings
     std::optional<double> deviation{};  ///< standard deviation of the mean of one packing; none if unbounded
     /// The part of `deviation` that the fluctuations within a run explain.
     double deviation_within = 0;
     Steadiness steadiness = Steadiness::steady;  ///< whether the mean may be used
-    /// Mean over the second half of all cycles less that over the quarter before it, if it is significant at
-    /// 95 % over the packings, else 0. The mean of the case is off by about half of it, or more.
+    /// The part of `half_width` for what is probably left of a common start-up, see drift_left(). It adds to
+    /// the statistical part as the root of the sum of squares.
     double drift = 0;
     std::optional<Branch> below{};  ///< packings that started below the expected speed, if there are any
     std::optional<Branch> above{};  ///< packings that started above it, if there are any
 };
 
-/// The start-up that the packings of a case have in common: MSER (White, Simulation 69, 1997, 323-334) with
-/// the sum of squares pooled over all packings, each about its own mean. One length for all packings wastes
-/// fewer cycles than one for each, because slow fluctuations in a single run look like a start-up.
-/// @param packings  equally long
+/// The start-up that the packings of a case have in common: the longer one of MSER with the sum of squares
+/// over all packings and MSER of their mean, which shows drifts that the fluctuations of single packings hide
+/// (Hoad, Robinson & Davies, Journal of the Operational Research Society 61, 2010, 1632-1644). One length for
+/// all packings wastes fewer cycles than one for each, because slow fluctuations in a single run look like a
+/// start-up.
 /// @return a number of cycles, at most half of them
-int common_startup_length(std::span<PackingValues const> packings);
+int common_startup_length(Runs runs);
 
 /// The mean over packings with an interval that allows for both of its sources: the fluctuations within a run
 /// and the differences between packings.
@@ -67,27 +69,20 @@ int common_startup_length(std::span<PackingValues const> packings);
 /// of freedom (replication/deletion; Law, Simulation Modeling and Analysis, section 9.5.2). For few packings
 /// S can be small by chance. It cannot be smaller than the deviation w that the fluctuations within the runs
 /// imply: w^2 = s^2 g / m, with the variance s^2 and the statistical inefficiency g of the m cycles kept,
-/// pooled over the packings (Geyer's initial positive sequence, and the bias-corrected first-order
-/// autoregression of statistical_inefficiency()). So when S < w, the interval rests on the pooled variance of
+/// pooled over the packings (fluctuations_of()). So when S < w, the interval rests on the pooled variance of
 /// S and w, but not less than w, and their common degrees of freedom.
 ///
-/// The half-width is that of Student's t at the level 1 - 0.7 (1 - confidence): packings are added until the
-/// interval is narrow enough, which favours intervals that are too narrow by chance (Chow & Robbins, Annals
-/// of Mathematical Statistics 36, 1965, 457-462). tests/campaign/until_precise_test.cpp measures what this
-/// achieves.
+/// The statistical half-width is that of Student's t at the level 1 - 0.5 (1 - confidence): packings are
+/// added until the interval is narrow enough, which favours intervals that are too narrow by chance (Chow &
+/// Robbins, Annals of Mathematical Statistics 36, 1965, 457-462), and the offsets of packings may be skewed.
+/// What is left of a common start-up is added to it, see drift_left().
+/// tests/campaign/fabricated_packings_test.cpp and reference_test.cpp measure what this achieves.
 ///
 /// The case is not steady if the common start-up takes half of the cycles and the ensemble mean still changes
 /// by more than the half-width wanted; if the second half of the cycles kept differs from the first by more
 /// than that, and significantly over the packings (paired t, 99 %); or if the two groups of starts differ by
 /// more than that, and significantly (two-sample t, 99 %). The idea of starting from both sides is that of
 /// Gelman & Rubin, Statistical Science 7, 1992, 457-472.
-///
-/// A drift need not be larger than the half-width wanted to spoil an interval: half of it is missing in the
-/// mean when it ends at once, and more when it goes on. It is therefore reported on its own, from a weaker
-/// test (paired t, 95 %) whose errors cost cycles only. That runs are continued while such a test fails is
-/// the idea of Heidelberger & Welch, Operations Research 31, 1983, 1109-1144; that packings alone cannot
-/// help, because many short runs give a narrow interval about a wrong mean, is shown by Glynn & Heidelberger,
-/// ACM Transactions on Modeling and Computer Simulation 1, 1991, 3-23.
 ///
 /// A single packing is judged like estimate_packing().
 /// @param packings  at least one, equally long

@@ -67,48 +67,69 @@ std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, doubl
     return eta;
 }
 
-int startup_length(std::span<double const> values) {
-    // Sums from the end give the sums without the first d values for every d.
-    int const n = static_cast<int>(values.size());
-    double const origin = n > 0 ? values.back() : 0;  // the squares of small numbers are more accurate
-    double sum = 0, squares = 0, least = std::numeric_limits<double>::infinity();
+int pooled_startup_length(Runs runs) {
+    int const n = static_cast<int>(runs.front().size());
+    std::vector<double> squares(runs.front().size(), 0.0);  // without the first d cycles
+    for (std::span<double const> const run : runs) {
+        // Sums from the end give the sums without the first d values for every d.
+        double const origin = n > 0 ? run.back() : 0;  // the squares of small numbers are more accurate
+        double sum = 0, square = 0;
+        for (int d = n - 1; d >= 0; --d) {
+            double const value = run[static_cast<std::size_t>(d)] - origin;
+            sum += value;
+            square += value * value;
+            squares[static_cast<std::size_t>(d)] += std::max(0.0, square - sum * sum / (n - d));
+        }
+    }
     int best = 0;
-    for (int d = n - 1; d >= 0; --d) {
-        double const value = values[static_cast<std::size_t>(d)] - origin;
-        sum += value;
-        squares += value * value;
+    double least = std::numeric_limits<double>::infinity();
+    for (int d = 0; 2 * d <= n && d < n; ++d) {
         double const size = n - d;
-        double const error = std::max(0.0, squares - sum * sum / size) / (size * size);
-        if (2 * d > n || error > least) continue;
-        least = error;  // of equal errors, take the shortest start-up
+        double const error = squares[static_cast<std::size_t>(d)] / (size * size);
+        if (!(error < least)) continue;  // of equal errors, take the shortest start-up
+        least = error;
         best = d;
     }
     return best;
 }
 
-double statistical_inefficiency(std::span<double const> values) {
-    Values const y = as_array(values);
-    Eigen::Index const n = y.size();
-    if (n < 4) return 1;
-    Eigen::ArrayXd const centred = y - y.mean();
-    double const variance = centred.square().mean();
-    double const rounding = 1e-12 * y.mean();
-    if (variance <= rounding * rounding) return 1;  // values that never change, up to rounding
-    auto const correlation = [&](Eigen::Index lag) {
-        return (centred.head(n - lag) * centred.tail(n - lag)).sum() / static_cast<double>(n) / variance;
-    };
+int startup_length(std::span<double const> values) {
+    return pooled_startup_length(Runs(&values, 1));
+}
+
+Fluctuations fluctuations_of(Runs runs) {
+    auto const n = static_cast<Eigen::Index>(runs.front().size());
+    Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::max<Eigen::Index>(2, n / 2));  // at each lag
+    double rounding = 0;
+    for (std::span<double const> const run : runs) {
+        Values const y = as_array(run);
+        double const mean = n > 0 ? y.mean() : 0;
+        Eigen::ArrayXd const centred = y - mean;
+        for (Eigen::Index lag = 0; lag < std::min(sums.size(), n); ++lag)
+            sums[lag] += (centred.head(n - lag) * centred.tail(n - lag)).sum();
+        rounding += static_cast<double>(n) * std::pow(1e-12 * mean, 2);
+    }
+    double const freedom = static_cast<double>(runs.size()) * static_cast<double>(n - 1);
+    Fluctuations found{freedom > 0 ? sums[0] / freedom : 0, 1};
+    if (n < 4 || sums[0] <= rounding) return found;  // values that never change, up to rounding
+    sums /= double(sums[0]);
     // The pair sums rho_2m + rho_2m+1 of a reversible series are positive; the first one that is not is
     // noise.
     double sum = 0;
-    for (Eigen::Index m = 0; 2 * m + 1 < n / 2; ++m) {
-        double const pair = correlation(2 * m) + correlation(2 * m + 1);
+    for (Eigen::Index m = 0; 2 * m + 1 < sums.size(); ++m) {
+        double const pair = sums[2 * m] + sums[2 * m + 1];
         if (pair <= 0) break;
         sum += pair;
     }
     double const size = static_cast<double>(n);
-    double const biased = correlation(1);
-    double const rho = std::min(biased + (1 + 3 * biased) / size, 1 - 1 / size);
-    return std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size / 2);
+    double const rho = std::min(sums[1] + (1 + 3 * sums[1]) / size, 1 - 1 / size);
+    found.inefficiency = std::clamp(std::max(2 * sum - 1, (1 + rho) / (1 - rho)), 1.0, size);
+    return found;
+}
+
+double statistical_inefficiency(std::span<double const> values) {
+    double const most = std::max(1.0, static_cast<double>(values.size()) / 2);
+    return std::min(fluctuations_of(Runs(&values, 1)).inefficiency, most);
 }
 
 PackingEstimate estimate_packing(std::span<double const> values, Precision const& wanted) {

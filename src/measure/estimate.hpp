@@ -47,16 +47,30 @@ std::vector<double> velocity_efficiency(CycleSeries const& series, double amplit
 /// @param velocity_scale  omega r cos(beta), m/s, > 0
 std::vector<double> velocity_efficiency_by_mean(CycleSeries const& series, double velocity_scale);
 
-/// The length of the start-up by the marginal standard error rule MSER (White, Simulation 69, 1997, 323-334):
-/// the d <= n/2 that minimises sum_{i >= d} (y_i - mean_d)^2 / (n - d)^2. A result of n/2 means that the
-/// start-up may not be over.
-int startup_length(std::span<double const> values);
+/// Runs of equal length, one value per cycle each.
+using Runs = std::span<std::span<double const> const>;
 
-/// The statistical inefficiency g: the larger of g = 1 + 2 sum rho_k over the initial positive sequence of
-/// pair sums (Geyer, Statistical Science 7, 1992, 473-483) and that of a first-order autoregressive process,
-/// g = (1 + rho) / (1 - rho) with rho = rho_1 + (1 + 3 rho_1) / n, which corrects the bias of a short series
-/// (Kendall, Biometrika 41, 1954, 403-404). It is at least 1 and at most n / 2: an interval from two
-/// independent values is wide enough to be noticed.
+/// The length of the start-up by the marginal standard error rule MSER (White, Simulation 69, 1997, 323-334):
+/// the d <= n/2 that minimises sum_{i >= d} (y_i - mean_d)^2 / (n - d)^2, with the sum of squares over all
+/// runs, each about its own mean. A result of n/2 means that the start-up may not be over.
+/// @param runs  at least one
+int pooled_startup_length(Runs runs);
+int startup_length(std::span<double const> values);  ///< of a single run
+
+/// How the cycles of runs fluctuate, each about the mean of its run.
+struct Fluctuations {
+    double variance;      ///< of a cycle
+    double inefficiency;  ///< g, at least 1 and at most the number of cycles
+};
+
+/// Fluctuations from sums over all runs. The statistical inefficiency g is the larger of
+/// g = 1 + 2 sum rho_k over the initial positive sequence of pair sums (Geyer, Statistical Science 7, 1992,
+/// 473-483) and that of a first-order autoregressive process, g = (1 + rho) / (1 - rho) with rho = rho_1 +
+/// (1 + 3 rho_1) / n, which corrects the bias of a short series (Kendall, Biometrika 41, 1954, 403-404).
+/// @param runs  at least one
+Fluctuations fluctuations_of(Runs runs);
+
+/// g of a single run, at most n / 2: an interval from two independent values is wide enough to be noticed.
 double statistical_inefficiency(std::span<double const> values);
 
 /// The mean of the cycle values of one packing: the start-up is discarded by MSER, and the half-width of the

@@ -110,9 +110,8 @@ int cycles_to_settle(std::vector<std::vector<double>> const& runs, double steady
 double mean_startup_cut(std::vector<std::vector<double>> const& runs) {
     int cut = 0, rounds = 0;
     for (std::size_t first = 0; first + 4 <= runs.size(); first += 4, ++rounds) {
-        std::vector<measure::PackingValues> values;
-        for (std::size_t i = first; i < first + 4; ++i)
-            values.push_back({std::span(runs[i]).first(24), measure::Start::below});
+        std::vector<std::span<double const>> values;
+        for (std::size_t i = first; i < first + 4; ++i) values.push_back(std::span(runs[i]).first(24));
         cut += measure::common_startup_length(values);
     }
     return static_cast<double>(cut) / rounds;
@@ -186,9 +185,8 @@ Drawn draw_cases(Groups const& groups, PlannedCase const& planned, int cases, do
 
 // How often the final interval contains the mean of all packings over cycles 21 to 150. The packings of a
 // case are drawn without replacement, so that none counts twice. The target is 93 to 98 %. A reference of 40
-// packings shows a coverage to about 0.03 only (see the next test), hence 0.90. At 1.2 the layer slows down
-// by 0.03 between its 10th and its 100th cycle, which short packings cannot know; there the bound only holds
-// the program to not becoming worse.
+// packings shows a coverage to about 0.03 only (see the next test), hence 0.90; at throw number 1.2, where
+// the layer slows down by 0.03 between its 10th and its 100th cycle, 0.93 is held to.
 TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
     constexpr int cases = 500;
     for (double const half_width : {0.075, 0.03, 0.02}) {
@@ -199,7 +197,7 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
                 "packings {:.1f}, cycles {:.0f}\n",
                 throw_number, half_width, found.coverage(), found.with_mean, found.half_width, found.packings,
                 found.cycles);
-            EXPECT_GE(found.coverage(), throw_number == 1.2 ? 0.81 : 0.90) << throw_number;
+            EXPECT_GE(found.coverage(), throw_number == 1.2 ? 0.93 : 0.90) << throw_number;
         }
     }
 }
@@ -208,7 +206,7 @@ TEST_F(ReferenceTest, TheFinalIntervalOfRealPackingsCoversTheTruth) {
 TEST_F(ReferenceTest, TheExamplesOfTheReadme) {
     PlannedCase const one = asking(0.03);
     for (auto const& [throw_number, packings, cycles, mean, half_width] :
-         {std::tuple{2.0, 4, 24, 0.825, 0.021}, {1.2, 12, 96, 0.227, 0.022}}) {
+         {std::tuple{2.0, 6, 24, 0.822, 0.019}, {1.2, 12, 48, 0.225, 0.028}}) {
         Groups const& groups = reference.runs.at(throw_number);
         SimulatedEnd const end =
             simulate_case(UntilPrecise{}, one, [&](int number) -> std::vector<double> const& {
@@ -243,7 +241,7 @@ std::vector<double> wander(std::mt19937& random) {
 // cases, known to 0.005, because the cases of a reference resemble each other); what the references show is
 // printed, and must be right in the mean to 0.03.
 TEST_F(ReferenceTest, AReferenceOfFortyPackingsShowsACoverageToThreePercent) {
-    constexpr int references = 100, cases = 60;
+    constexpr int references = 50, cases = 60;
     std::mt19937 random(1);
     for (double const half_width : {0.03, 0.02}) {
         double shown = 0, squares = 0, truly = 0;

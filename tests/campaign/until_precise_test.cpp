@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -156,14 +157,15 @@ TEST_F(UntilPreciseTest, ContinuesPackingsThatStillDrift) {
         return [&made, limit](int number) -> std::vector<double> const& {
             std::mt19937 random(static_cast<unsigned>(number));
             std::normal_distribution<double> noise(0, 0.005);
-            for (int i = 0; made[number].size() < 200; ++i)
+            for (int i = 0; made[number].size() < 768; ++i)
                 made[number].push_back(std::min(limit, 0.01 * i) + noise(random));
             return made[number];
         };
     };
-    SimulatedEnd const ends = simulate_case(policy, one, drifting(0.4));
+    // A drift that ends after 40 cycles; decays as slow as c / i are excluded only when it is long over.
+    SimulatedEnd const ends = simulate_case(policy, asking(0.02, 4, 24, 768), drifting(0.4));
     EXPECT_EQ(ends.outcome, core::Outcome::finished);
-    EXPECT_GE(ends.cycles, 96) << "the drift ends after 40 cycles";
+    EXPECT_GE(ends.cycles, 96);
     EXPECT_NEAR(*ends.estimate.mean, 0.4, 0.01);
     made.clear();
     SimulatedEnd const never = simulate_case(policy, one, drifting(100));
@@ -171,26 +173,43 @@ TEST_F(UntilPreciseTest, ContinuesPackingsThatStillDrift) {
     EXPECT_EQ(never.cycles, 192);
 }
 
-// All packings gain 0.015 after their 12th cycle, less than the half-width wanted (0.02), and differ by -a,
-// -a, a, a. The interval of four is t(0.9825; 3) a sqrt(4/3) / 2 = 2.12 a: with a = 0.002 it leaves room for
-// half of the drift (0.0042 + 0.0075), with a = 0.007 it does not (0.0148 + 0.0075), and the packings are
-// continued, once.
-TEST_F(UntilPreciseTest, ContinuesPackingsWhoseIntervalLeavesNoRoomForTheirDrift) {
+// All packings fall by the decay 0.1 exp(-i / 12) and differ by -a, -a, a, a with a = 0.002, so that the
+// statistics of four are t(0.9875; 3) a sqrt(4/3) / 2 = 4.177 x 0.002309 / 2 = 0.0048 and less than half of
+// 0.02. Of 24 cycles, 12 are left out; 0.1 exp(-1) (1 - exp(-1)) = 0.023 is left in the mean of the others,
+// and the packings are continued.
+TEST_F(UntilPreciseTest, ContinuesPackingsInWhoseMeanAStartUpIsLeft) {
     PlannedCase const one = asking(0.02);
-    for (auto const& [apart, cycles] : {std::pair{0.002, 24}, {0.007, 48}}) {
+    std::map<int, std::vector<double>> made;
+    auto const series = [&made](int number) -> std::vector<double> const& {
+        for (int i = 0; made[number].size() < 200; ++i)
+            made[number].push_back(0.5 + 0.1 * std::exp(-i / 12.0) + (number % 4 < 2 ? -0.002 : 0.002));
+        return made[number];
+    };
+    SimulatedEnd const end = simulate_case(policy, one, series);
+    EXPECT_EQ(end.outcome, core::Outcome::finished);
+    EXPECT_GE(end.cycles, 48);
+    EXPECT_EQ(end.estimate.packings, 4);
+    EXPECT_LE(std::abs(*end.estimate.mean - 0.5), *end.estimate.half_width);
+}
+
+// Means of -a, a, -a, a, where starts make no difference: the interval of four is t(0.9875; 3) a sqrt(4/3) /
+// 2 = 2.41 a. It is trusted where it is at most half of 0.02: for a = 0.004, not for a = 0.005.
+TEST_F(UntilPreciseTest, FourPackingsAreEnoughOnlyWithHalfOfTheHalfWidth) {
+    PlannedCase const one = asking(0.02);
+    for (auto const& [apart, packings] : {std::pair{0.004, 4}, {0.005, 6}}) {
         std::map<int, std::vector<double>> made;
         auto const series = [&made, apart = apart](int number) -> std::vector<double> const& {
             for (int i = 0; made[number].size() < 200; ++i)
-                made[number].push_back((i < 12 ? 0.5 : 0.515) + (number <= 2 ? -apart : apart) +
-                                       (i % 2 == 0 ? 1e-4 : -1e-4));
+                made[number].push_back(0.5 + (number % 4 < 2 ? -apart : apart) + (i % 2 == 0 ? 1e-4 : -1e-4));
             return made[number];
         };
         SimulatedEnd const end = simulate_case(policy, one, series);
         EXPECT_EQ(end.outcome, core::Outcome::finished);
-        EXPECT_EQ(end.cycles, cycles) << apart;
-        EXPECT_EQ(end.estimate.packings, 4);
-        EXPECT_NEAR(*end.estimate.mean, 0.515, 1e-6) << "the start-up is cut off";
+        EXPECT_EQ(end.cycles, 24);
+        EXPECT_EQ(end.estimate.packings, packings) << apart;
     }
+    SimulatedEnd const limited = simulate_case(policy, asking(0.02, 4, 4), packings_of({}, 3, 0.01));
+    EXPECT_EQ(limited.outcome, core::Outcome::finished) << "where no more are allowed, four must do";
 }
 
 TEST_F(UntilPreciseTest, EndsAsNotPreciseAtTheLimits) {
@@ -248,22 +267,23 @@ struct Coverage {
     double covered = 0, width = 0, packings = 0;
 };
 
-// The 95 % interval of a case must contain the true mean, here 0, in 93 to 98 % of all cases at the moment
-// when the policy stops, with packings added until the interval is narrow enough. Of 1500 cases the fraction
-// scatters by 0.6 %, so that 1.2 % are allowed beyond. The mean width is compared with the interval that
-// known variances give for the same packings and the cycles kept, z s / sqrt(P); at most 1.4. The values are
-// scaled so that half-widths of 0.03 and 0.075 are asked for, whose first rounds have 24 and 18 cycles.
+// The width of the intervals, against those that known variances give for the same packings and the cycles
+// kept, z s / sqrt(P): at most 1.6. Student's t at 97.5 % with eight packings is already 1.45 times as wide.
+// The values are scaled so that half-widths of 0.03 and 0.075 are asked for, whose first rounds have 24 and
+// 18 cycles, and so that a packing's mean scatters by 1 / 1.6 and 1 / 0.6 of them. Over all of these cases,
+// 93 to 98 % of the intervals contain the truth; each row of 400 does so within three standard deviations.
 class FinalIntervalTest : public UntilPreciseTest, public ::testing::WithParamInterface<double> {};
 
 TEST_P(FinalIntervalTest, CoversTheTruth) {
-    constexpr int cases = 1500;
+    constexpr int cases = 400;
+    constexpr double sampling = 0.02;  // three standard deviations of 0.98
     PlannedCase const one = asking(GetParam());
-    std::vector<Process> const processes{{0, 0}, {0.5, 0}, {0.8, 0}, {0.95, 0},
-                                         {0, 1}, {0.5, 1}, {0.8, 1}, {0.5, 3}};
+    std::vector<Process> const processes{{0, 0}, {0.95, 0}, {0, 1}, {0.8, 1}, {0.5, 3}};
+    std::vector<double> shares;
     for (Process const& process : processes) {
         double const deviation =
             std::sqrt(process.variance_of_mean(24) * (1 + process.offset * process.offset));
-        for (double const relative : {1.6, 1.0, 0.6}) {
+        for (double const relative : {1.6, 0.6}) {
             double const scale = GetParam() / (relative * deviation);
             Coverage found;
             for (unsigned seed = 1; seed <= cases; ++seed) {
@@ -281,11 +301,16 @@ TEST_P(FinalIntervalTest, CoversTheTruth) {
                 "rho {:4} offset {} half-width / deviation {:3}: covered {:.3f}, width {:.2f}, packings "
                 "{:.1f}\n",
                 process.rho, process.offset, relative, found.covered, found.width, found.packings);
-            EXPECT_GE(found.covered, 0.93 - 0.012);
-            EXPECT_LE(found.covered, 0.98 + 0.012);
-            EXPECT_LE(found.width, 1.4);
+            shares.push_back(found.covered);
+            EXPECT_GE(found.covered, 0.93 - 0.038);  // three standard deviations of 0.93
+            EXPECT_LE(found.covered, 0.98 + sampling);
+            EXPECT_LE(found.width, 1.6);
         }
     }
+    double const all =
+        std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+    EXPECT_GE(all, 0.93);
+    EXPECT_LE(all, 0.98);
 }
 
 INSTANTIATE_TEST_SUITE_P(UntilPreciseTest, FinalIntervalTest, ::testing::Values(0.03, 0.075));

@@ -51,10 +51,10 @@ TEST_F(Assemble, MeasuresWhatTheCyclesSay) {
     EXPECT_NEAR(estimate.half_width, 2.0930 * 0.01 / std::sqrt(19), 1e-6);
     EXPECT_EQ(estimate.discarded, 0);
     EXPECT_EQ(estimate.verdict, measure::Verdict::precise);
-    // The case: mean of the means, and t_1 = 18.171 of their deviation 0.0707 over sqrt(2), at the level
-    // 1 - 0.7 x 0.05: t_1 = tan(pi (0.9825 - 0.5)) is exact for one degree of freedom.
+    // The case: mean of the means, and t_1 = 25.452 of their deviation 0.0707 over sqrt(2), at the level
+    // 1 - 0.5 x 0.05: t_1 = tan(pi (0.9875 - 0.5)) is exact for one degree of freedom.
     EXPECT_NEAR(record.estimate.mean.value(), 0.55, 1e-12);
-    double const quantile = std::tan(std::numbers::pi * 0.4825);
+    double const quantile = std::tan(std::numbers::pi * 0.4875);
     EXPECT_NEAR(record.estimate.half_width.value(), quantile * 0.1 / 2, 1e-9);
     EXPECT_EQ(record.estimate.packings, 2);
 }

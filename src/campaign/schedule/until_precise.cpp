@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace vibrotrough::campaign {
@@ -14,6 +15,9 @@ namespace {
 /// Packings of each kind of start with which two branches are reported.
 constexpr int packings_per_branch = 4;
 constexpr double least_growth = 1.2, most_growth = 2;
+/// Fewer packings than these end a case only with an interval that is narrower by this factor.
+constexpr int trusted_packings = 6;
+constexpr double share_for_few = 0.5;
 
 /// Velocity efficiencies at which packings start, relative to the one expected. In its first cycle a layer
 /// whose grains all have the same speed gains about 0.13, so that these are 0.12 below and 0.18 above.
@@ -107,8 +111,9 @@ class Replay {
     /// The next round; false when the case ends with this one.
     bool advance(Round& round) const {
         if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
-        if (evaluate::outcome_of(estimate_, wanted_.half_width) == core::Outcome::finished)
-            return !leaves_room_for_drift() && lengthen(round);
+        if (statistics() <= trusted_half_width(round))
+            return evaluate::outcome_of(estimate_, wanted_.half_width) != core::Outcome::finished &&
+                   lengthen(round);
         if (round.count() >= plan_.max_packings) {
             return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
         }
@@ -116,9 +121,18 @@ class Replay {
         return grow(round, packings_of_next_round(round));
     }
 
-    /// Whether the interval is narrow enough even if half of the drift that is seen is missing in the mean.
-    bool leaves_room_for_drift() const {
-        return estimate_.half_width.value_or(0) + std::abs(estimate_.drift) / 2 <= wanted_.half_width;
+    /// The half-width without what is left of a start-up.
+    double statistics() const {
+        if (!estimate_.half_width) return std::numeric_limits<double>::infinity();
+        return std::sqrt(std::max(0.0, std::pow(*estimate_.half_width, 2) - std::pow(estimate_.drift, 2)));
+    }
+
+    /// The half-width with which a case may end. A few packings agree by chance more often than their
+    /// interval says, when their offsets are skewed or they all are in one of two branches.
+    double trusted_half_width(Round const& round) const {
+        bool const are_few = round.count() > 1 && round.count() < trusted_packings;
+        bool const may_grow = round.count() < plan_.max_packings;
+        return (are_few && may_grow ? share_for_few : 1) * wanted_.half_width;
     }
 
     /// For a case that is not steady: more cycles, and at the end enough packings to report both branches.
@@ -174,7 +188,7 @@ class Replay {
         double const between = std::max(0.0, total - within);
         double const kept = estimate_.measured;
         double const longer = between + within * kept / (cycles - estimate_.discarded);
-        return *estimate_.half_width * std::sqrt(longer / total);
+        return statistics() * std::sqrt(longer / total);
     }
 
     /// Whether measure.max_core_time allows so many cycles more than those of a round. What was spent on

@@ -22,8 +22,9 @@ namespace vibrotrough::campaign {
 /// - A steady case whose interval is too wide gets as many packings as it probably needs, at least 20 % more
 ///   and at most twice as many. It gets cycles instead where they cost less: where the packings hardly differ
 ///   by more than the fluctuations within a run explain, a longer run saves the start-up of another.
-/// - Where an interval is narrow enough, but not together with half of a drift that is seen
-///   (measure::CaseEstimate::drift), all packings are continued first.
+/// - Fewer than six packings are enough only when their interval is at most half as wide as asked.
+/// - Where the interval would be narrow enough but for what is left of a start-up
+///   (measure::CaseEstimate::drift), all packings are continued to twice the number of cycles.
 /// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
 ///   measure.max_core_time do not allow another round.
 class UntilPrecise : public Policy {
