@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/help_formatter.hpp"
+#include "app/process.hpp"
 #include "app/standard_streams.hpp"
 #include "app/version_text.hpp"
 #include "core/error.hpp"
