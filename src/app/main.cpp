@@ -1,9 +1,11 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "app/help_formatter.hpp"
+#include "app/process.hpp"
 #include "app/standard_streams.hpp"
 #include "app/version_text.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/text.hpp"
 
 #include <cerrno>
@@ -147,7 +149,7 @@ int run(int argc, char** argv) {
 void flush_output() {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
     throw core::MissingError(fmt::format(
-        "cannot write the output ({}); free disk space or choose another place", std::strerror(errno)));
+        "cannot write the output ({}); free disk space or choose another place", core::reason_of(errno)));
 }
 
 }  // namespace
@@ -157,6 +159,7 @@ int main(int argc, char** argv) {
     using namespace vibrotrough;
     app::prepare_process();
     try {
+        core::require_open_files(app::least_open_files, "this program needs");
         int const exit_code = app::run(argc, argv);
         app::flush_output();
         return exit_code;
@@ -164,7 +167,8 @@ int main(int argc, char** argv) {
         app::tell("vibrotrough: {}\n", core::harmless(error.what()));
         return error.kind() == core::ErrorKind::input ? app::wrong_input : app::something_missing;
     } catch (std::system_error const& error) {
-        app::tell("vibrotrough: {}; check the disk and its permissions\n", core::harmless(error.what()));
+        app::tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n",
+                  core::harmless(error.what()));
         return app::something_missing;
     } catch (std::bad_alloc const&) {
         app::tell("vibrotrough: there is not enough memory; use a smaller campaign or another machine\n");
@@ -173,7 +177,10 @@ int main(int argc, char** argv) {
         app::tell("vibrotrough: a file or a table is too large for the memory; remove or shorten it\n");
         return app::something_missing;
     } catch (std::exception const& error) {
-        app::tell("vibrotrough: internal error: {}\n", error.what());
-        return app::internal_error;
+        // TBB has no type of its own for a thread that it cannot start.
+        bool const no_thread = std::string_view(error.what()).starts_with("pthread_create has failed");
+        app::tell("vibrotrough: {}{}\n", no_thread ? "" : "internal error: ",
+                  no_thread ? "no further thread can be started: " + core::reason_of(EAGAIN) : error.what());
+        return no_thread ? app::something_missing : app::internal_error;
     }
 }

@@ -2,9 +2,11 @@
 
 #include "app/script_folder.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include <fcntl.h>
@@ -28,14 +30,22 @@ int run_program(std::vector<std::string> words, fs::path const& folder, bool sil
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    if (silent) {
-        for (int const stream : {STDOUT_FILENO, STDERR_FILENO})
+    bool const has_output = (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) != O_RDONLY;
+    for (int const stream : {STDOUT_FILENO, STDERR_FILENO}) {
+        if (silent || (stream == STDOUT_FILENO && !has_output))
             posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
     }
+    // Standard output that was closed: the script does all of its work, and main() finds that nobody could
+    // read what it said.
+    if (!silent && !has_output) std::fputc('\n', stdout);
     std::fflush(stdout);
     pid_t child = 0;
     int const failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    if (failure == EAGAIN || failure == EMFILE) {
+        throw core::MissingError(
+            fmt::format("cannot start {} ({})", words.front(), core::reason_of(failure)));
+    }
     if (failure != 0) return 127;
     int status = 0;
     while (::waitpid(child, &status, 0) < 0) {
@@ -51,6 +61,9 @@ std::string absolute_program(std::string const& given) {
 }
 
 std::string find_python(std::string const& python, std::vector<std::string> const& modules) {
+    // NumPy would start a thread for each core, and hangs where the user may have no more.
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    core::require_processes(2, "Python needs");
     std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
     std::vector<std::string> const candidates = python.empty()
                                                     ? std::vector<std::string>{"/usr/bin/python3", "python3"}

@@ -17,9 +17,4 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     tell_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Prepares the process: standard input, output and error are open, so that no file that is opened later
-/// takes the number of one of them; and the owner may read and change what the program makes, whatever the
-/// umask says.
-void prepare_process();
-
 }  // namespace vibrotrough::app

@@ -1,6 +1,7 @@
 #include "archive/zip_file.hpp"
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/own_folder.hpp"
 #include "core/text.hpp"
 
@@ -32,6 +33,14 @@ constexpr std::size_t piece = std::size_t{1} << 16;
 [[noreturn]] void refuse_to_write(fs::path const& path, char const* reason) {
     throw core::MissingError(fmt::format("cannot write {} ({}); free disk space or choose another place",
                                          path.string(), reason == nullptr ? "unknown reason" : reason));
+}
+
+/// libarchive says no more than "Write error" where a system call has a reason.
+std::string reason_of_failure(struct ::archive* writer) {
+    int const error = archive_errno(writer);
+    if (error > 0) return core::reason_of(error);
+    char const* const reason = archive_error_string(writer);
+    return reason == nullptr ? "unknown reason" : reason;
 }
 
 [[noreturn]] void refuse_to_read(fs::path const& path, std::string const& reason) {
@@ -134,7 +143,7 @@ void ZipWriter::add(std::string const& name, std::string_view content) {
         archive_write_data(writer, content.data(), content.size()) !=
             static_cast<la_ssize_t>(content.size()) ||
         archive_write_finish_entry(writer) != ARCHIVE_OK)
-        refuse_to_write(state_->path, archive_error_string(writer));
+        refuse_to_write(state_->path, reason_of_failure(writer).c_str());
 }
 
 void ZipWriter::finish() {

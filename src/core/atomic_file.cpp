@@ -148,7 +148,7 @@ std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_
     while (true) {
         ssize_t const count = ::read(file.number(), content.data() + length, content.size() - length);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) refuse_to_read(path, std::strerror(errno));
+        if (count < 0) refuse_to_read(path, reason_of_errno());
         if (count == 0) break;
         length += static_cast<std::size_t>(count);
         if (length > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
@@ -165,7 +165,7 @@ std::string read_descriptor(int opened, fs::path const& path, int flags, std::si
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
         std::string const reason = file.is_open() || errno == ENOENT || errno == EACCES
                                        ? "no such file, or not readable"
-                                       : std::strerror(errno);
+                                       : reason_of_errno();
         throw MissingError(fmt::format("cannot open {} ({})", path.string(), reason));
     }
     if ((flags & O_NONBLOCK) != 0 && !S_ISREG(status.st_mode))

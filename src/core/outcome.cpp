@@ -54,8 +54,10 @@ constexpr std::array table{
         sensible, ""},
     OutcomeEntry{out_of_memory, "out-of-memory", "The engine or Slurm reports that memory ran out.",
                  after_cure, "ask for more run.slurm.memory, or use fewer --jobs"},
-    OutcomeEntry{disk_full, "disk-full", "The disk of the campaign's folder is full.", after_cure,
-                 "free space"},
+    OutcomeEntry{
+        disk_full, "disk-full",
+        "The disk of the campaign's folder is full, or a file reached the limit of its size (ulimit -f).",
+        after_cure, "free space, or raise the limit"},
     OutcomeEntry{time_limit, "time-limit",
                  "The packing was not finished within run.time_limit or run.slurm.time.", after_cure,
                  "allow more time"},

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/own_place.hpp"
 
 #include <algorithm>
@@ -286,7 +287,7 @@ std::string reason_of_errno() {
         return "a symbolic link is on the way, and nothing is written or removed through one; remove the "
                "link";
     if (errno == ENOTDIR) return "there is a file or a symbolic link where a folder should be";
-    return std::strerror(errno);
+    return reason_of(errno);
 }
 
 int open_beneath_stepwise(int folder, fs::path const& relative, int flags) {

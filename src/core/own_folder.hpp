@@ -82,7 +82,7 @@ void check_own_file(std::filesystem::path const& path);
 /// Whether the path itself is a symbolic link, wherever it leads.
 bool is_link(std::filesystem::path const& path);
 
-/// The reason of a failed system call in words, from errno: what a symbolic link on the way means is said.
+/// reason_of(errno) of limits.hpp, and what a symbolic link on the way means.
 std::string reason_of_errno();
 
 /// Opens `relative` below an open folder without following any symbolic link and without leaving the folder.

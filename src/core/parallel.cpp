@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,8 +29,12 @@ void for_each_index(std::size_t count, std::size_t least, std::function<IndexedW
     };
     std::size_t const cores = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> others;
-    while (others.size() + 1 < std::min(cores, count / std::max<std::size_t>(1, least)))
-        others.emplace_back(run);
+    try {
+        while (others.size() + 1 < std::min(cores, count / std::max<std::size_t>(1, least)))
+            others.emplace_back(run);
+    } catch (std::system_error const&) {
+        // The user may have no more threads: fewer do the same work.
+    }
     run();
     others.clear();  // waits for them
     if (failure) std::rethrow_exception(failure);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::core {
 
@@ -69,6 +72,38 @@ std::string harmless(std::string_view text) {
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return line;
+}
+
+std::string utf8_of_bytes(std::string_view bytes) {
+    std::string text;
+    while (!bytes.empty()) {
+        std::size_t const length = first_of(bytes).length;
+        if (length > 0) {
+            text += bytes.substr(0, length);
+        } else {
+            text += '\0';
+            text += fmt::format("{:02x}", static_cast<unsigned char>(bytes.front()));
+        }
+        bytes.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return text;
+}
+
+std::string bytes_of_utf8(std::string_view text) {
+    std::string bytes;
+    while (!text.empty()) {
+        unsigned byte = 0;
+        char const* const digits = text.data() + 1;
+        if (text.front() == '\0' && text.size() > 2 &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            bytes += static_cast<char>(byte);
+            text.remove_prefix(3);
+        } else {
+            bytes += text.front();
+            text.remove_prefix(1);
+        }
+    }
+    return bytes;
 }
 
 }  // namespace vibrotrough::core

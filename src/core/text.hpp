@@ -18,4 +18,11 @@ std::string printable(std::string_view text, std::size_t longest);
 /// '?'. The letters of all languages stay.
 std::string harmless(std::string_view text);
 
+/// Bytes, such as those of a path, as a text that is UTF-8 and can stand in a JSON file: a byte that is not
+/// UTF-8 becomes a NUL, which no path holds, and two hexadecimal digits.
+std::string utf8_of_bytes(std::string_view bytes);
+
+/// The bytes of such a text.
+std::string bytes_of_utf8(std::string_view text);
+
 }  // namespace vibrotrough::core

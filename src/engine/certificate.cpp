@@ -1,6 +1,7 @@
 #include "engine/certificate.hpp"
 
 #include "core/hash.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +51,12 @@ ProbeResult read_probe(Json const& json) {
 }
 
 Json describe(EngineIdentity const& engine) {
-    return {{"program", engine.program}, {"program_sha256", engine.program_sha256},
-            {"library", engine.library}, {"library_sha256", engine.library_sha256},
-            {"version", engine.version}, {"probes_sha256", engine.probes_sha256}};
+    return {{"program", core::utf8_of_bytes(engine.program)},
+            {"program_sha256", engine.program_sha256},
+            {"library", core::utf8_of_bytes(engine.library)},
+            {"library_sha256", engine.library_sha256},
+            {"version", engine.version},
+            {"probes_sha256", engine.probes_sha256}};
 }
 
 Json describe(Certificate const& certificate) {
@@ -104,8 +108,9 @@ std::optional<Certificate> parse_certificate(std::string_view text) {
         if (json.at("format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
         Json const& engine = json.at("engine");
         Certificate certificate{
-            {engine.at("program"), engine.at("program_sha256"), engine.at("library"),
-             engine.at("library_sha256"), engine.at("version"), engine.at("probes_sha256")},
+            {core::bytes_of_utf8(engine.at("program").get<std::string>()), engine.at("program_sha256"),
+             core::bytes_of_utf8(engine.at("library").get<std::string>()), engine.at("library_sha256"),
+             engine.at("version"), engine.at("probes_sha256")},
             json.at("program_version"),
             json.at("git_commit"),
             json.at("host"),

@@ -1,6 +1,7 @@
 #include "engine/engine.hpp"
 
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/own_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/text.hpp"
@@ -136,8 +137,8 @@ std::string ask_version(fs::path const& program) {
         child.wait();
         code = child.exit_code();
     } catch (bp::process_error const& error) {
-        throw core::MissingError(
-            fmt::format("{} cannot be started ({})", program.string(), error.code().message()));
+        throw core::MissingError(fmt::format("{} cannot be started ({})", program.string(),
+                                             core::reason_of(error.code().value())));
     }
     if (!version.empty()) return version;
     throw core::MissingError(fmt::format(
@@ -225,9 +226,18 @@ void await_end(pid_t process) {
     }
 }
 
+/// Otherwise programs that help to start the engine end with messages of their own, or wait for long.
+void require_resources() {
+    constexpr unsigned long files = 24;  // measured: 21 with one engine, two more for each further one
+    constexpr int processes = 8;         // the engine with MPI's threads, timeout, ldd and its helpers
+    core::require_open_files(files, "an engine needs");
+    core::require_processes(processes, "an engine needs");
+}
+
 }  // namespace
 
 Engine find_engine(std::optional<fs::path> const& requested) {
+    require_resources();
     fs::path const program = search_program(requested);
     return {program, ask_version(program)};
 }
@@ -289,7 +299,7 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
         lock.note_group(state_->process.id());
     } catch (bp::process_error const& error) {
         throw core::MissingError(fmt::format("cannot start {} in {} ({})", engine.program.string(),
-                                             folder.string(), error.code().message()));
+                                             folder.string(), core::reason_of(error.code().value())));
     }
 }
 

@@ -31,7 +31,7 @@ TEST(Outcome, OnlyWhatMayEndDifferentlyIsTriedAgain) {
     EXPECT_TRUE(retry_makes_sense(Outcome::engine_crashed));
     EXPECT_FALSE(retry_makes_sense(Outcome::lost_grains)) << "the same deck loses the same grains";
     EXPECT_FALSE(retry_makes_sense(Outcome::disk_full)) << "not before somebody has freed space";
-    EXPECT_EQ(retry_advice(Outcome::disk_full), "afterwards: free space");
+    EXPECT_EQ(retry_advice(Outcome::disk_full), "afterwards: free space, or raise the limit");
     EXPECT_EQ(retry_advice(Outcome::finished), "");
 }
 

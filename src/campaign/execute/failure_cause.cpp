@@ -2,12 +2,12 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/limits.hpp"
 #include "evaluate/packing.hpp"
 
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -28,15 +28,19 @@ std::optional<std::string> full_disk(fs::path const& folder) {
     int reason = file < 0 ? errno : 0;
     if (file >= 0) {
         std::vector<char> const content(256 << 10, 'x');
-        ssize_t const written = ::write(file, content.data(), content.size());
-        if (written < 0) reason = errno;
-        if (written >= 0 && written < static_cast<ssize_t>(content.size())) reason = ENOSPC;
+        // What does not fit is cut off, and the next write says why.
+        std::size_t rest = content.size();
+        while (rest > 0 && reason == 0) {
+            ssize_t const written = ::write(file, content.data(), rest);
+            if (written <= 0) reason = written < 0 ? errno : ENOSPC;
+            if (written > 0) rest -= static_cast<std::size_t>(written);
+        }
         if (reason == 0 && ::fsync(file) != 0) reason = errno;
         ::close(file);
         ::unlinkat(parent.descriptor(), parent.name(), 0);
     }
     if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return {};
-    return std::strerror(reason);
+    return core::reason_of(reason);
 }
 
 }  // namespace
@@ -62,6 +66,9 @@ PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, l
                reason && end.failure != core::Outcome::out_of_memory) {
         end.failure = core::Outcome::disk_full;
         end.message = fmt::format("{} takes no more ({})", folder.string(), *reason);
+    } else if (end.signal == SIGXFSZ) {
+        end.failure = core::Outcome::disk_full;
+        end.message = fmt::format("a file of {} cannot grow ({})", folder.string(), core::reason_of(EFBIG));
     } else if (extent.diverged) {
         end.failure = core::Outcome::diverged;
         end.message =

@@ -191,7 +191,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     refuse_foreign_folder(plan.folder, before, files);
     refuse_edited_files(plan.folder, files, before);
 
-    Json facts{{"program", engine.program.string()}, {"version", engine.version}};
+    Json facts{{"program", core::utf8_of_bytes(engine.program.string())}, {"version", engine.version}};
     if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
     if (Json const names = template_names(plan); !names.empty()) facts["templates"] = names;
     write_frozen(plan.folder, std::move(facts), files);
@@ -231,7 +231,8 @@ Plan open_plan(fs::path const& folder) {
 engine::Engine read_engine(fs::path const& folder) {
     try {
         auto const json = nlohmann::json::parse(core::read_file(folder / "engine.json", core::largest_note));
-        engine::Engine engine{json.at("program").get<std::string>(), json.at("version").get<std::string>()};
+        engine::Engine engine{core::bytes_of_utf8(json.at("program").get<std::string>()),
+                              json.at("version").get<std::string>()};
         engine.binary_sha256 = json.value("binary_sha256", std::string());  // not up to version 0.1
         return engine;
     } catch (nlohmann::json::exception const&) {
