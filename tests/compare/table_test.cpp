@@ -60,7 +60,8 @@ std::vector<std::string> const contract{"case",
                                         "efficiency_dem_numerical_error",
                                         "numerical_error_case",
                                         "larger_error",
-                                        "not_covered"};
+                                        "not_covered",
+                                        "soft"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",
@@ -192,8 +193,18 @@ TEST(Csv, OfNoCaseIsItsHeader) {
     EXPECT_EQ(fields_of(lines[0], ',').size(), contract.size());
 }
 
+TEST(Table, NamesGrainsThatAreTooSoft) {
+    auto rows = some_rows();
+    EXPECT_TRUE(rows[0].soft) << "5 MPa, four diameters deep, for an interval of 0.02";
+    EXPECT_NE(to_table(rows).find("too soft"), std::string::npos);
+    for (Row& row : rows) row.soft.reset();
+    EXPECT_EQ(to_table(rows).find("soft"), std::string::npos) << "no column where no grains are too soft";
+}
+
 TEST(Table, IsAligned) {
-    auto const lines = lines_of(to_table(some_rows()));
+    auto rows = some_rows();
+    for (Row& row : rows) row.soft.reset();
+    auto const lines = lines_of(to_table(rows));
     ASSERT_EQ(lines.size(), 2u + 4u);
     // Ids and outcomes are flush left, numbers flush right: outcomes begin in one column, and the column
     // before them ends two blanks before it.

@@ -115,11 +115,24 @@ TEST(Estimates, WorkIsThatOfCyclesAndSettling) {
 
 // Asked for 0.03: at 0.02 the errors that validation/convergence found in such a layer are warned of.
 TEST(Check, TheExampleIsFine) {
-    for (Finding const& one : check(prepared(scenario(with("half_width = 0.02", "half_width = 0.03"))))) {
+    std::string const stiff =
+        with("youngs_modulus = \"5 MPa\"\n", "", with("half_width = 0.02", "half_width = 0.03"));
+    for (Finding const& one : check(prepared(scenario(stiff)))) {
         EXPECT_EQ(one.severity, Severity::fine) << one.item << ": " << one.measured;
         EXPECT_TRUE(std::isfinite(one.measured)) << one.item;
         EXPECT_FALSE(one.advice.empty()) << one.item;
     }
+}
+
+// Bound 4 s^2, an error from twice the half-width on (src/prepare/softness.hpp): 14 diameters of 5 MPa.
+TEST(Check, SoftGrainsOfADeepLayerAreAnError) {
+    char const* const item = "bound of the error of eta by soft grains";
+    Finding const deep = finding(scenario(with("height = \"12 mm\"", "height = \"42 mm\"")), item);
+    EXPECT_EQ(deep.severity, Severity::error);
+    EXPECT_EQ(deep.key, "grains.youngs_modulus");
+    EXPECT_NE(deep.advice.find("leave out grains.youngs_modulus"), std::string::npos) << deep.advice;
+    std::string const wide = with("half_width = 0.02", "half_width = 0.05");
+    EXPECT_EQ(finding(scenario(wide), item).severity, Severity::warning) << "four diameters, for +- 0.05";
 }
 
 // A block is one body with a contact of its own: nothing of layers, and its contact is T / 300.

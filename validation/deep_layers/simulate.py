@@ -70,7 +70,7 @@ def grid(run: ValidationCase, moduli: list[int]) -> None:
     run.write_table("grid.csv", GRID, rows)
 
 
-def variations(run: ValidationCase) -> None:
+def boxes_and_steps(run: ValidationCase) -> None:
     """Boxes as long as the layer is deep, and the default time step, for the table variations.csv."""
     rows: list[list[object]] = []
     for depth, length in LONG_BOX.items():
@@ -85,7 +85,7 @@ def variations(run: ValidationCase) -> None:
     run.write_table("variations.csv", GRID, rows)
 
 
-def judges(run: ValidationCase) -> None:
+def judging_layers(run: ValidationCase) -> None:
     """The layers that judge the criterion, for the table judges.csv."""
     rows: list[list[object]] = []
     cases: list[tuple[Layer, list[int]]] = [(FOUND, FOUND_MODULI_MPA)] + [(layer, HELD_OUT_MODULI_MPA) for layer in held_out()]

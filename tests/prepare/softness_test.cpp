@@ -1,0 +1,92 @@
+#include "prepare/softness.hpp"
+
+#include "core/error.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/reader/campaign_file.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough::prepare {
+namespace {
+
+PreparedCase prepared(std::string const& text) {
+    return prepare_case(scenario::parse_campaign(text, "example.toml").cases.front());
+}
+
+std::string without_modulus(std::string const& text = example_campaign) {
+    return with("youngs_modulus = \"5 MPa\"\n", "", text);
+}
+
+// s = omega h / c, c = (E* / rho)^(1/3) (p / rho)^(1/6), p = 0.58 rho h g cos(alpha) (1 + Gamma) / 2. Worked
+// out here from the case's own numbers in another order: c^6 = (E* / rho)^2 p / rho.
+TEST(Softness, TheWaveNumberIsTheAngleOfACrossing) {
+    PreparedCase const c = prepared(example_campaign);
+    scenario::Grains const& grains = c.scenario.grains;
+    double const h = c.layer_height, nu = grains.poisson_ratio;
+    double const stiff = 5e6 / (2 * (1 - nu * nu)) / grains.density;
+    double const press = 0.58 * h * 9.81 * std::cos(c.scenario.trough.inclination) * (1 + c.throw_number) / 2;
+    double const speed = std::pow(stiff * stiff * press, 1.0 / 6);
+    double const expected = 2 * std::numbers::pi * c.scenario.trough.frequency * h / speed;
+    EXPECT_NEAR(wave_number(c, 5e6), expected, 1e-12 * expected);
+    EXPECT_NEAR(wave_number(c, 8 * 5e6), expected / 2, 1e-12 * expected) << "s goes with E^(-1/3)";
+}
+
+// The bound is at most what was asked for, and that of the next softer value of the series is not.
+TEST(Softness, TheChosenModulusIsTheLowestThatIsStiffEnough) {
+    PreparedCase const c = prepared(example_campaign);
+    for (double const error : {0.05, 0.02, 0.01, 0.004, 0.001}) {
+        double const modulus = stiff_enough(c, error);
+        EXPECT_LE(softness_bound(c, modulus), error * (1 + 1e-9));
+        EXPECT_GT(softness_bound(c, modulus / 1.55), error) << "the steps of the series are at most 1.5";
+    }
+    EXPECT_EQ(stiff_enough(c, 10), 2e6) << "softer grains were not simulated";
+}
+
+TEST(Softness, WithoutAModulusACaseGetsOne) {
+    PreparedCase const given = prepared(example_campaign), chosen = prepared(without_modulus());
+    EXPECT_FALSE(given.modulus_chosen);
+    EXPECT_TRUE(chosen.modulus_chosen);
+    double const half_width = chosen.scenario.measure.half_width;
+    EXPECT_EQ(chosen.scenario.grains.youngs_modulus, stiff_enough(given, half_width / 2));
+    EXPECT_LE(chosen.softness_error, half_width / 2);
+    EXPECT_FALSE(is_soft(chosen));
+    // The frozen case holds the number, so that it stays the same when the rule changes.
+    EXPECT_NE(to_toml(chosen.scenario).find("youngs_modulus"), std::string::npos);
+    EXPECT_EQ(to_toml(scenario::parse_campaign(without_modulus(), "x").cases.front()).find("youngs_modulus"),
+              std::string::npos);
+}
+
+// A deeper layer needs stiffer grains, whatever the modulus of its neighbour in the campaign.
+TEST(Softness, ADeepLayerGetsStifferGrains) {
+    auto const modulus = [](std::string const& height) {
+        return *prepared(with("height = \"12 mm\"", height, without_modulus()))
+                    .scenario.grains.youngs_modulus;
+    };
+    EXPECT_LT(modulus("height = \"9 mm\""), modulus("height = \"18 mm\""));
+    EXPECT_LT(modulus("height = \"18 mm\""), modulus("height = \"42 mm\""));
+}
+
+TEST(Softness, DeepLayersOfFiveMegapascalsAreSoft) {
+    EXPECT_TRUE(is_soft(prepared(with("height = \"12 mm\"", "height = \"42 mm\""))));
+    EXPECT_FALSE(is_soft(prepared(with("height = \"12 mm\"", "height = \"6 mm\""))));
+}
+
+// A block has a contact of its own, and its modulus does not matter.
+TEST(Softness, ABlockHasNone) {
+    std::string const one_size = with("diameter_spread = 0.1", "diameter_spread = 0.0", without_modulus());
+    PreparedCase const c = prepared(with("height = \"12 mm\"", "block = \"point\"", one_size));
+    EXPECT_EQ(c.softness_error, 0);
+    EXPECT_FALSE(is_soft(c));
+}
+
+// The pull of cohesive grains goes with w^3 / E^2: another modulus would be another cohesion.
+TEST(Softness, CohesiveGrainsNeedAGivenModulus) {
+    std::string const text = without_modulus() + "\n[engine]\ncohesion = \"50 kJ/m3\"\n";
+    EXPECT_THROW(scenario::parse_campaign(text, "example.toml"), core::InputError);
+}
+
+}  // namespace
+}  // namespace vibrotrough::prepare
