@@ -60,6 +60,10 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
         ++total.cases;
         for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
+        double const modulus = prepared.scenario.grains.youngs_modulus.value();
+        total.least_modulus = total.cases == 1 ? modulus : std::min(total.least_modulus, modulus);
+        total.most_modulus = std::max(total.most_modulus, modulus);
+        if (prepared.modulus_chosen) ++total.moduli_chosen;
         double const packings = expected_packings(scenario.measure);
         total.work += packings * expected_work(prepared);
         total.largest_step_cost = std::max(total.largest_step_cost, prepared.step_cost());

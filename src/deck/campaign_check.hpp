@@ -24,6 +24,9 @@ struct CampaignCheck {
     double bytes = 0;                ///< expected size of all files, bytes
     double largest_bytes = 0;        ///< if all cases go to max_packings and max_cycles, bytes
     double engine_memory = 0;        ///< of one engine of the largest case, bytes
+    double least_modulus = 0;        ///< Young's modulus of the softest grains, Pa
+    double most_modulus = 0;         ///< of the stiffest grains, Pa
+    int moduli_chosen = 0;           ///< number of cases whose modulus was not given
     double packings = 0;             ///< number of packings of all cases
     double cycles = 0;               ///< expected number of cycles of all packings
 

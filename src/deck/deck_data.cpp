@@ -148,7 +148,8 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("youngs_moduli", repeated(types, s.grains.youngs_modulus.value()));
     data.set("poisson_ratios", repeated(types, s.grains.poisson_ratio));
     data.set("soft",
-             !block && s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
+             !block &&
+                 s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
     data.set("restitutions",
              per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
     data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));

@@ -21,7 +21,7 @@ class Prepare(EndToEndTest):
         self.list = self.folder / "tasks of a round.txt"
 
     def prepare(self, campaign, *options, wanted=0):
-        words = ["prepare", campaign, "--output", self.output, "--task-list", self.list, "--liggghts", self.engine, *options]
+        words = ["prepare", campaign, "--output", self.output, "--task-list", self.list, "--liggghts", self.engine, "--accept-findings", *options]
         done = self.call(*words)
         self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
         return done

@@ -80,11 +80,12 @@ class Run(EndToEndTest):
                 period = 1 / file["case"]["frequency"]
                 np.testing.assert_allclose(series["mean_velocity"] * period, displacement, rtol=0, atol=1e-3 * amplitude_x)
             self.assertAlmostEqual(row["efficiency_dem"], np.mean(means), delta=1e-12)
-            # Two packings: Student's t with one degree of freedom at the level 1 - 0.7 x 0.05, which is a tangent, unless the
-            # fluctuations within the runs say that the two agree by chance.
-            scatter = math.tan(math.pi * 0.4825) * np.std(means, ddof=1) / math.sqrt(2)
+            # Two packings: Student's t with one degree of freedom at the level 97.5 %, which is a tangent, unless the
+            # fluctuations within the runs say that the two agree by chance. What may be left of a common start-up is added in
+            # squares (measure/drift.hpp, with tests of its own), so that this is the least that the interval can be.
+            scatter = math.tan(math.pi * 0.4875) * np.std(means, ddof=1) / math.sqrt(2)
             if np.std(means, ddof=1) > file["case"]["packing_deviation_within"]:
-                self.assertAlmostEqual(row["efficiency_dem_half_width"], scatter, delta=1e-9)
+                self.assertGreaterEqual(row["efficiency_dem_half_width"], scatter - 1e-9)
             else:
                 normal = 2.1 * file["case"]["packing_deviation_within"] / math.sqrt(2)
                 self.assertGreaterEqual(row["efficiency_dem_half_width"], normal)

@@ -18,7 +18,6 @@ SHORTER = {
     '["750 rpm", "850 rpm", "950 rpm"]': '["850 rpm"]',
     'length = "24 mm"': 'length = "15 mm"',
     'height = "12 mm"': 'height = "8 mm"',
-    'youngs_modulus = "5 MPa"': 'youngs_modulus = "1 MPa"',
     "packings = 4": "packings = 2",
     "half_width = 0.04": "half_width = 1.0",
 }

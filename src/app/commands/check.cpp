@@ -73,6 +73,8 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
             {"throw_number", prepared.throw_number},
             {"grain_density_kg_per_m3", grains.density},
             {"bulk_density_kg_per_m3", bulk_density(grains)},
+            {"youngs_modulus_pa", grains.youngs_modulus.value()},
+            {"youngs_modulus_chosen", prepared.modulus_chosen},
             {"findings", findings},
             {"expected_packings", deck::expected_packings(plan)},
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
@@ -120,6 +122,25 @@ void print_densities(scenario::Campaign const& campaign) {
                scenario::settled_solid_fraction);
 }
 
+/// The moduli of all cases, and who chose them.
+void print_moduli(deck::CampaignCheck const& found) {
+    double const least = found.least_modulus / 1e6, most = found.most_modulus / 1e6;
+    std::string const values =
+        least == most ? fmt::format("{:.3g} MPa", least) : fmt::format("{:.3g} to {:.3g} MPa", least, most);
+    if (found.moduli_chosen == 0) {
+        fmt::print("Young's modulus: {}, as given\n", values);
+        return;
+    }
+    std::string const cases = found.moduli_chosen == found.cases
+                                  ? ""
+                                  : fmt::format(" in {} of {} cases", found.moduli_chosen, found.cases);
+    fmt::print(
+        "Young's modulus: {}, chosen{}: the lowest with which soft grains change the efficiency by less than "
+        "half "
+        "of measure.half_width (validation/deep_layers)\n",
+        values, cases);
+}
+
 void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& found, Speed const& speed) {
     fmt::print("{:<8} {:<56} {:>10}   {}\n", "", "item (the worst of all cases)", "number", "limit");
     for (deck::CheckedItem const& item : found.items) {
@@ -132,6 +153,7 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
     print_densities(campaign);
+    print_moduli(found);
     fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
                found.cases, found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
@@ -172,7 +194,9 @@ overlaps at rest and at impact, the duration of contacts against that of flights
 the disk space and the memory of the engine. Prints a table with the worst case of each item, what to change, and the expected cost in
 core-hours: of as many packings as the interval that measure.half_width asks for will probably need. 'vibrotrough plan'
 uses the same rule, learns from the cases that have a result, and prints a range. The density of the grains and the
-bulk density of the layer are printed both, whichever the campaign file gives.
+bulk density of the layer are printed both, whichever the campaign file gives. So is Young's modulus: where the file
+leaves it out, each case gets the lowest one that is stiff enough for the depth and the drive of its layer. A given one
+that is too low for them is an error.
 
 'vibrotrough run' checks too: it shows warnings, and it refuses a campaign with errors unless --accept-findings is
 given.

@@ -87,8 +87,8 @@ error that its criteria must detect.
 
 Exit codes:
     0  every validation case passed, and the error of every negative control was detected
-    1  a validation case did not pass, the error of a negative control was not detected, or a page and its
-       table differ
+    1  a validation case did not pass, the error of a negative control was not detected, or a page
+       differs from its table
     2  the input is wrong
     3  something is missing: Python with its modules, the engine, or disk space
   130  interrupted
