@@ -7,6 +7,7 @@
 #include "core/shell.hpp"
 
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -79,6 +80,7 @@ int run_learn(LearnArguments const& options) {
     for (campaign::PlannedCase const& planned : ready.plan.cases)
         wanted.emplace(planned.id, learner.first_half_width(planned.scenario()));
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
+    double spent = -1;
     while (true) {
         if (!simulate(options.shared, ready, wanted)) return interrupted;
         learn::LearnStatus const status = learner.look();
@@ -86,8 +88,11 @@ int run_learn(LearnArguments const& options) {
         CampaignLog(ready.plan.folder).info("learn: " + line);
         fmt::print("{}\n", line);
         std::fflush(stdout);
-        auto const steps =
-            learn::Learner::has_reached(status, goal) ? std::vector<learn::LearnStep>{} : learner.choose();
+        // Cases that have all the packings that they may have cannot be refined: the same step would follow.
+        bool const is_stuck = status.core_time == std::exchange(spent, status.core_time);
+        auto const steps = is_stuck || learn::Learner::has_reached(status, goal)
+                               ? std::vector<learn::LearnStep>{}
+                               : learner.choose();
         if (steps.empty()) return conclude(status, goal, core::shell_word(ready.plan.folder));
         take_steps(steps, ready.plan, wanted);
     }
