@@ -18,6 +18,10 @@ constexpr double unknown_scatter = 0.55;
 /// The machine is never known better than this.
 constexpr double least_scatter = 0.1;
 
+/// Cycles of a case over those of its first round, in the mean of throw numbers 0.8 to 3 for +- 0.075
+/// (src/measure/README.md). It counts as one case, because the first results may be easy ones.
+constexpr double usual_rounds = 1.7;
+
 /// What the results say.
 struct Learned {
     double speed = 0;             ///< grain-steps of a small layer per second and core; 0 without results
@@ -27,7 +31,7 @@ struct Learned {
 
 Learned learn(std::vector<CaseOverview> const& cases) {
     Learned learned;
-    double work = 0, time = 0, cycles = 0, packings = 0;
+    double work = 0, time = 0, cycles = 0, packings = 0, usual = 0;
     std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
         if (!one.result || one.result->packings == 0) continue;
@@ -35,11 +39,13 @@ Learned learn(std::vector<CaseOverview> const& cases) {
         time += one.result->core_time;
         cycles += one.result->cycles;
         packings += one.result->packings;
+        usual = usual_rounds * deck::first_round_cycles(one.planned->scenario());
         if (one.result->deviation) deviations.push_back(*one.result->deviation);
     }
     if (packings == 0 || time <= 0 || work <= 0) return learned;
     learned.speed = work / time;
-    learned.experience.cycles = cycles / packings;
+    double const known = static_cast<double>(deviations.size());
+    learned.experience.cycles = (known * cycles / packings + usual) / (known + 1);
     if (!deviations.empty()) {
         auto const middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
         std::ranges::nth_element(deviations, middle);

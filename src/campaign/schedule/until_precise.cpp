@@ -113,7 +113,7 @@ class Replay {
         if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
         if (statistics() <= trusted_half_width(round))
             return evaluate::outcome_of(estimate_, wanted_.half_width) != core::Outcome::finished &&
-                   lengthen(round);
+                   (lengthen(round) || grow(round, packings_of_next_round(round)));
         if (round.count() >= plan_.max_packings) {
             return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
         }
