@@ -79,8 +79,8 @@ A range is "LOW to HIGH"; a single value fixes the quantity.
 
 Exit codes:
     0  the mass flow is reached
-    1  it is not: the fastest machine within the limits is printed; or the error of the model is not known
-       there, so that no probability is given
+    1  it is not: the fastest machine within the limits is printed; or the error of the model is
+       not known there, so that no probability is given
     2  the input is wrong, or no machine keeps all limits
     3  something is missing: Python with its modules, for --page
 
