@@ -42,16 +42,20 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
     return true;
 }
 
-void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
+bool take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
                 std::map<std::string, double>& wanted) {
+    bool is_new = false;
     for (learn::LearnStep const& step : steps) {
         if (!step.added) {
+            is_new = is_new || step.half_width < wanted[step.case_id];
             wanted[step.case_id] = step.half_width;
         } else if (campaign::PlannedCase const* const added = campaign::add_case(plan, *step.added)) {
             wanted[added->id] = step.half_width;
+            is_new = true;
         }
     }
     learn::write_wanted_half_widths(plan.folder, wanted);
+    return is_new;
 }
 
 }  // namespace vibrotrough::app

@@ -22,7 +22,8 @@ int usual_batch(int jobs, campaign::Plan const& plan);
 bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::string, double>& wanted);
 
 /// Adds the cases of a batch to the plan, and remembers what is wanted of them and of those that go on.
-void take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
+/// @return whether anything is new; otherwise the next round would simulate nothing
+bool take_steps(std::vector<learn::LearnStep> const& steps, campaign::Plan& plan,
                 std::map<std::string, double>& wanted);
 
 }  // namespace vibrotrough::app

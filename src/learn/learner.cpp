@@ -127,6 +127,7 @@ DomainCertainty Learner::certainty(Surface const& surface) const {
 
 LearnStatus Learner::look() {
     points_ = campaign_points(plan_, maker_);
+    wanted_ = read_wanted_half_widths(plan_.folder);
     core_times_.clear();
     for (campaign::PlannedCase const& planned : plan_.cases) {
         auto const summary = campaign::find_summary(planned);
@@ -177,6 +178,9 @@ std::vector<LearnStep> Learner::choose() const {
         double const wanted = narrowing * point.half_width;
         auto const& measure = planned->scenario().measure;
         if (wanted < measure.half_width || measure.max_packings < 2) continue;
+        // A case that did not become as precise as asked has all the packings and cycles that it may have.
+        auto const asked = wanted_.find(point.case_id);
+        if (asked != wanted_.end() && point.half_width > asked->second) continue;
         // Two means of these half-widths combine to one of the half-width wanted.
         double const equivalent =
             1 / std::sqrt(1 / (wanted * wanted) - 1 / (point.half_width * point.half_width));

@@ -59,7 +59,8 @@ void write_wanted_half_widths(std::filesystem::path const& folder,
 ///
 /// The domain is represented by 200 points of a Sobol sequence at which the theory has a mean speed. Each of
 /// them is a candidate for a new case, and each case that is not as precise as its campaign file asks is a
-/// candidate for an interval 0.7 times as wide. The candidate is chosen that lowers the mean variance over
+/// candidate for an interval 0.7 times as wide, unless it was asked for less than it reached and so has all
+/// the packings that it may have. The candidate is chosen that lowers the mean variance over
 /// the domain and the variance at the worst place, each relative to what it is, most per forecast
 /// core-second; then the next one, as if the first were known (its mean does not matter for the variance),
 /// until the batch is full. (Active learning after D.A. Cohn, Neural Networks 9 (1996) 1071-1083, with
@@ -101,6 +102,7 @@ class Learner {
     CampaignTheory theory_;
     std::vector<DomainPoint> domain_;
     std::map<std::string, double> core_times_;  ///< s, of the cases with a result, by id
+    std::map<std::string, double> wanted_;      ///< half-widths that were asked of cases, by id
     std::optional<Surface> surface_;
 };
 

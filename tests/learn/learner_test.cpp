@@ -148,6 +148,21 @@ TEST_F(LearnedCampaign, MorePackingsOfAnOldCase) {
         std::ranges::any_of(steps, [&](LearnStep const& s) { return s.case_id == plan.cases[0].id; }));
 }
 
+// A case that did not become as precise as it was asked for cannot go on: the same step would be chosen for
+// ever.
+TEST_F(LearnedCampaign, ACaseThatHasAllItsPackingsDoesNotGoOn) {
+    simulate_all(0.02);
+    simulate(plan.cases[0], 0.5);
+    fs::create_directories(plan.folder);
+    write_wanted_half_widths(plan.folder, {{plan.cases[0].id, 0.4}});
+    Learner learner(plan, *maker, {0.02, 1e6, 10});
+    learner.look();
+    auto const steps = learner.choose();
+    EXPECT_FALSE(steps.empty());
+    EXPECT_TRUE(
+        std::ranges::none_of(steps, [&](LearnStep const& s) { return s.case_id == plan.cases[0].id; }));
+}
+
 TEST_F(LearnedCampaign, TheBudgetLimitsIt) {
     simulate_all(0.05);
     Learner learner(plan, *maker, {0.01, 0.5, 4});  // ten cases have cost 0.16 core-seconds each

@@ -49,7 +49,7 @@ class Layer:
         return changes
 
 
-# The layer by which the error was found (14 diameters), with its own three moduli.
+# The layer by which the error was found (14 diameters), with its own moduli, of which the last stands for stiff grains.
 FOUND = Layer("found", 2, 4.5, 14, 2.38, 0.59, 0.043, 0.51, 0.3, 0.2)
 FOUND_MODULI_MPA = [5, 20, 80, 320]
 

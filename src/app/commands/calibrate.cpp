@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -80,7 +79,6 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
     scenario::CaseMaker const maker(running.campaign_file);
     learn::LearnGoal const goal{useful_half_width(speeds), budget, usual_batch(running.jobs, ready.plan)};
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
-    double spent = -1;
     while (true) {
         if (!simulate(running, ready, wanted)) return interrupted;
         OnSurface const found = calibrate_on(ready.plan, maker, options, speeds);
@@ -95,11 +93,8 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
                 status.cases, status.certainty.at_worst.half_width, goal.half_width, status.core_time / 3600,
                 budget / 3600);
         bool const is_precise = status.certainty.at_worst.half_width <= goal.half_width;
-        // Cases that have all the packings that they may have cannot be refined: the same step would follow.
-        bool const is_stuck = status.core_time == std::exchange(spent, status.core_time);
-        auto const steps = is_precise || is_stuck ? std::vector<learn::LearnStep>{} : learner.choose();
-        if (steps.empty()) return print(options, found);
-        take_steps(steps, ready.plan, wanted);
+        auto const steps = is_precise ? std::vector<learn::LearnStep>{} : learner.choose();
+        if (steps.empty() || !take_steps(steps, ready.plan, wanted)) return print(options, found);
     }
 }
 

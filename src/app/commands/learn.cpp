@@ -7,7 +7,6 @@
 #include "core/shell.hpp"
 
 #include <memory>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -53,13 +52,14 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std
         fmt::print("the surface is known to +- {:g} everywhere in the domain\n", goal.half_width);
     } else if (status.certainty.at_worst.half_width > goal.half_width) {
         fmt::print(
-            "not reached: the largest half-width is {:.4f} instead of {:g}, and the budget allows no further "
-            "step; raise --budget\n",
+            "not reached: the largest half-width is {:.4f} instead of {:g}, and no further step is "
+            "possible; raise --budget, or what a case may have (measure.max_packings, measure.max_cycles)\n",
             status.certainty.at_worst.half_width, goal.half_width);
     } else if (status.quality.points < status.least_points) {
         fmt::print(
             "not reached: the half-widths are as asked, but they rest on {} points where {} are needed to "
-            "trust them, and the budget allows no further step; raise --budget\n",
+            "trust them, and no further step is possible; raise --budget, or what a case may have "
+            "(measure.max_packings, measure.max_cycles)\n",
             status.quality.points, status.least_points);
     } else {
         fmt::print("not reached: the half-widths are as asked, but they cannot be trusted\n");
@@ -80,7 +80,6 @@ int run_learn(LearnArguments const& options) {
     for (campaign::PlannedCase const& planned : ready.plan.cases)
         wanted.emplace(planned.id, learner.first_half_width(planned.scenario()));
     learn::write_wanted_half_widths(ready.plan.folder, wanted);
-    double spent = -1;
     while (true) {
         if (!simulate(options.shared, ready, wanted)) return interrupted;
         learn::LearnStatus const status = learner.look();
@@ -88,13 +87,10 @@ int run_learn(LearnArguments const& options) {
         CampaignLog(ready.plan.folder).info("learn: " + line);
         fmt::print("{}\n", line);
         std::fflush(stdout);
-        // Cases that have all the packings that they may have cannot be refined: the same step would follow.
-        bool const is_stuck = status.core_time == std::exchange(spent, status.core_time);
-        auto const steps = is_stuck || learn::Learner::has_reached(status, goal)
-                               ? std::vector<learn::LearnStep>{}
-                               : learner.choose();
-        if (steps.empty()) return conclude(status, goal, core::shell_word(ready.plan.folder));
-        take_steps(steps, ready.plan, wanted);
+        auto const steps =
+            learn::Learner::has_reached(status, goal) ? std::vector<learn::LearnStep>{} : learner.choose();
+        if (steps.empty() || !take_steps(steps, ready.plan, wanted))
+            return conclude(status, goal, core::shell_word(ready.plan.folder));
     }
 }
 

@@ -31,7 +31,7 @@ struct Learned {
 
 Learned learn(std::vector<CaseOverview> const& cases) {
     Learned learned;
-    double work = 0, time = 0, cycles = 0, packings = 0, usual = 0;
+    double work = 0, time = 0, cycles = 0, packings = 0, usual = 0, known = 0;
     std::vector<double> deviations;
     for (CaseOverview const& one : cases) {
         if (!one.result || one.result->packings == 0) continue;
@@ -39,13 +39,13 @@ Learned learn(std::vector<CaseOverview> const& cases) {
         time += one.result->core_time;
         cycles += one.result->cycles;
         packings += one.result->packings;
-        usual = usual_rounds * deck::first_round_cycles(one.planned->scenario());
+        usual += usual_rounds * deck::first_round_cycles(one.planned->scenario());
+        ++known;
         if (one.result->deviation) deviations.push_back(*one.result->deviation);
     }
     if (packings == 0 || time <= 0 || work <= 0) return learned;
     learned.speed = work / time;
-    double const known = static_cast<double>(deviations.size());
-    learned.experience.cycles = (known * cycles / packings + usual) / (known + 1);
+    learned.experience.cycles = (known * cycles / packings + usual / known) / (known + 1);
     if (!deviations.empty()) {
         auto const middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
         std::ranges::nth_element(deviations, middle);

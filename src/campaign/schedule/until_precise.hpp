@@ -24,7 +24,8 @@ namespace vibrotrough::campaign {
 ///   by more than the fluctuations within a run explain, a longer run saves the start-up of another.
 /// - Fewer than six packings are enough only when their interval is at most half as wide as asked.
 /// - Where the interval would be narrow enough but for what is left of a start-up
-///   (measure::CaseEstimate::drift), all packings are continued to twice the number of cycles.
+///   (measure::CaseEstimate::drift), all packings are continued to twice the number of cycles. At
+///   measure.max_cycles packings are added instead: together they know the start-up better.
 /// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
 ///   measure.max_core_time do not allow another round.
 class UntilPrecise : public Policy {
