@@ -10,7 +10,7 @@ import unittest
 from trough_program import PROGRAM, EndToEndTest, engines_in, processes_in, wait_until
 
 # More packings than are simulated before a test stops the run.
-ENDLESS = {"measure.packings": 2000, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
+ENDLESS = {"measure.packings": 1000, "measure.max_cycles": 100000, "output.checkpoint_cycles": 5}
 FAILING = "exit 1"
 CRASHING = "kill -SEGV $$"
 
