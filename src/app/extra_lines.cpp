@@ -1,6 +1,7 @@
 #include "app/extra_lines.hpp"
 
 #include "app/standard_streams.hpp"
+#include "campaign/state/foreign_commands.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
@@ -15,15 +16,6 @@
 
 namespace vibrotrough::app {
 namespace {
-
-/// All lines in one, as a message shows them.
-std::string in_one_line(scenario::ExtraLines const& extra) {
-    std::string text = extra.after_contact + extra.before_first_cycle + extra.at_cycle_end;
-    text.pop_back();
-    for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at))
-        text.replace(at, 1, " ; ");
-    return text;
-}
 
 namespace fs = std::filesystem;
 
@@ -76,21 +68,8 @@ void add_allow_extra(CLI::App& command, bool& allowed) {
 }
 
 void check_extra_lines(std::string const& file, std::vector<scenario::Scenario> const& cases, bool allowed) {
-    if (allowed) return;
-    for (scenario::Scenario const& one : cases) {
-        if (one.engine.templates) {
-            throw core::InputError(
-                fmt::format("{}: the decks would be made from {} templates beside it, which can hold any "
-                            "commands; if they are "
-                            "what you want, call the command again with --allow-extra",
-                            file, one.engine.templates->files.size()));
-        }
-        if (!one.engine.extra) continue;
-        throw core::InputError(
-            fmt::format("{}: the engine would run these lines of {}: {}; if they are what you want, call the "
-                        "command again with --allow-extra",
-                        file, one.engine.extra->file.name, in_one_line(*one.engine.extra)));
-    }
+    for (scenario::Scenario const& one : cases)
+        campaign::check_foreign_commands(file, one, {allowed});
 }
 
 void tell_not_covered(std::vector<scenario::Scenario> const& cases) {

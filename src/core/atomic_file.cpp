@@ -113,16 +113,59 @@ void remove_remains(ParentFolder const& parent) {
     ::closedir(stream);
 }
 
+/// Gives a file the mode and the owner of the one that it is about to replace, so that a private file stays
+/// private. An owner that this user may not give away remains another, and then the mode lets nobody else in
+/// who could not read the file before.
+void take_owner_and_mode(Descriptor const& file, ParentFolder const& parent) {
+    struct stat before {};
+    if (::fstatat(parent.descriptor(), parent.name(), &before, AT_SYMLINK_NOFOLLOW) != 0 ||
+        !S_ISREG(before.st_mode))
+        return;
+    struct stat now {};
+    if (::fstat(file.number(), &now) != 0) return;
+    mode_t mode = before.st_mode & 0777U;
+    bool const has_other_owner = before.st_uid != now.st_uid || before.st_gid != now.st_gid;
+    if (has_other_owner && ::fchown(file.number(), before.st_uid, before.st_gid) != 0) mode &= ~070U;
+    ::fchmod(file.number(), mode);
+}
+
 bool write_whole(ParentFolder const& parent, std::string const& name, std::string_view content, Sync sync) {
     Descriptor file(open_new(parent.descriptor(), name));
-    return file.is_open() && file.write(content) && (sync == Sync::no || file.sync()) && file.close();
+    if (!file.is_open()) return false;
+    take_owner_and_mode(file, parent);
+    return file.write(content) && (sync == Sync::no || file.sync()) && file.close();
+}
+
+[[noreturn]] void refuse_to_write(fs::path const& path, std::string const& reason, char const* cure) {
+    throw MissingError(fmt::format("cannot write {} ({}); {}", path.string(), reason, cure));
+}
+
+/// Writes into a pipe or a device, which must not be replaced by a file. A pipe waits for its reader.
+/// @return whether `path` is one
+bool write_into_special_file(fs::path const& path, std::string_view content) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0) return false;
+    if (S_ISLNK(status.st_mode)) {
+        bool const leads_to_file = ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
+        if (leads_to_file || S_ISDIR(status.st_mode)) return false;
+        refuse_to_write(path, "it is a link to a device or a pipe", "name the device or the pipe itself");
+    }
+    if (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return false;
+    if (S_ISSOCK(status.st_mode) || S_ISBLK(status.st_mode))
+        refuse_to_write(path, "it is a socket or a disk", "choose another name");
+    Descriptor const file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC));
+    if (!file.is_open() || !file.write(content))
+        refuse_to_write(path, reason_of_errno(), "choose another name");
+    return true;
 }
 
 void write_and_rename(fs::path const& path, std::string_view content, Sync sync) {
+    bool const is_own = lies_in_own_folder(path);
+    if (!is_own && write_into_special_file(path, content)) return;
     ParentFolder const parent(path);
     std::string const temporary = temporary_name(path.filename().string());
     int const folder = parent.descriptor();
-    if (parent.is_open() && lies_in_own_folder(path)) remove_remains(parent);
+    if (parent.is_open() && is_own) remove_remains(parent);
     bool const written = parent.is_open() && write_whole(parent, temporary, content, sync) &&
                          ::renameat(folder, temporary.c_str(), folder, parent.name()) == 0;
     if (written) {
@@ -132,8 +175,7 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
     }
     std::string const reason = reason_of_errno();
     if (parent.is_open()) ::unlinkat(folder, temporary.c_str(), 0);
-    throw MissingError(
-        fmt::format("cannot write {} ({}); free disk space or choose another folder", path.string(), reason));
+    refuse_to_write(path, reason, "free disk space or choose another folder");
 }
 
 [[noreturn]] void refuse_to_read(fs::path const& path, std::string const& reason) {

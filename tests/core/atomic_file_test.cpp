@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace vibrotrough {
@@ -53,6 +54,34 @@ TEST_F(AtomicFile, FailsOnPathsThatCannotBeUsed) {
     EXPECT_THROW(core::read_file(folder), core::MissingError);
     core::write_file_atomically(folder / "file", "");
     EXPECT_THROW(core::make_folder(folder / "file" / "below"), core::MissingError);
+}
+
+TEST_F(AtomicFile, HandsOnTheModeOfTheFileThatItReplaces) {
+    for (mode_t const mode : {0600, 0640, 0755, 0444}) {
+        core::write_file_atomically(folder / "a", "one");
+        ASSERT_EQ(::chmod((folder / "a").c_str(), mode), 0);
+        core::write_file_atomically(folder / "a", "two");
+        struct stat status {};
+        ASSERT_EQ(::stat((folder / "a").c_str(), &status), 0);
+        EXPECT_EQ(status.st_mode & 07777U, mode);
+        EXPECT_EQ(core::read_file(folder / "a"), "two");
+        fs::remove(folder / "a");
+    }
+}
+
+TEST_F(AtomicFile, WritesIntoAPipeAndRefusesALinkToIt) {
+    fs::path const pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    int const reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    core::write_file_atomically(pipe, "content");
+    char bytes[16];
+    EXPECT_EQ(::read(reader, bytes, sizeof bytes), 7);
+    ::close(reader);
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    fs::create_symlink(pipe, folder / "link");
+    EXPECT_THROW(core::write_file_atomically(folder / "link", ""), core::MissingError);
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
 }
 
 // A temporary file belongs to whoever holds its lock. The number in its name may be that of a living process

@@ -74,6 +74,80 @@ class Security(EndToEndTest):
         self.assertIn(done.returncode, (0, 1), done.stderr)  # one packing is not precise
         self.assertNotEqual(proofs(), [])
 
+    def test_no_command_of_an_added_case_reaches_the_engine_unasked(self):
+        campaign = self.write_campaign(ONE)
+        plain = campaign.read_text()
+        domain = self.folder / "domain.toml"
+        domain.write_text(f'{plain}[domain]\n"trough.throw_number" = {{ from = 1, to = 3 }}\n')
+        for folder, command in (("", ("run", campaign, "--accept-findings")), ("", ("prepare", campaign, "--task-list", self.folder / "tasks", "--accept-findings")),
+                                ("", ("learn", domain, "--half-width", "0.05", "--budget", "1 core-hours", "--accept-findings")),
+                                ("convergence", ("convergence", campaign)), ("friction-test", ("friction-test", campaign))):
+            for line, shown in (('extra = "x.liggghts"', "shell touch"), ('templates = ["contact.mustache"]', "1 templates beside it")):
+                shutil.rmtree(self.output, ignore_errors=True)
+                added = self.output / folder / "added" / "0001"
+                added.mkdir(parents=True)
+                (added / "scenario.toml").write_text(plain.replace("throw_number = 2.0", "throw_number = 2.1") + f"[engine]\n{line}\n")
+                (added / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
+                (added / "contact.mustache").write_text("shell touch executed\n")
+                done = self.call(*command, "--output", self.output, "--liggghts", self.engine)
+                with self.subTest(command=command[0], line=line):
+                    self.assert_refused(done, 2, shown, "--allow-extra")
+                    self.assertEqual(list(self.folder.glob("**/executed")), [])
+        self.assertEqual(self.take_starts(), [])
+
+    def test_no_task_runs_commands_of_a_campaign_unasked(self):
+        campaign, tasks = self.write_campaign(ONE), self.folder / "tasks"
+        (self.folder / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
+        campaign.write_text(campaign.read_text() + '[engine]\nextra = "x.liggghts"\n')
+        prepare = ["prepare", campaign, "--output", self.output, "--task-list", tasks, "--liggghts", self.engine, "--accept-findings"]
+        prepared = self.call(*prepare, "--allow-extra")
+        self.assertEqual(prepared.returncode, 0, prepared.stderr)
+        self.assertIn("--index $i --allow-extra\n", prepared.stdout)
+        work = ["work", self.output, "--task-list", tasks, "--index", 0]
+        self.assert_refused(self.call(*work), 2, "shell touch", "--allow-extra")
+        self.assertEqual(list(self.folder.glob("**/executed")), [])
+        self.assertEqual(self.call(*work, "--allow-extra").returncode, 0)
+        self.assertNotEqual(list(self.folder.glob("**/executed")), [])
+
+    def test_devices_and_pipes_are_written_into(self):
+        trace = ["theory", "trace", "--throw-number", 2, "--vibration-angle", "30 deg", "--friction", 0.4, "--output"]
+        expected = self.call(*trace[:-1]).stdout
+        pipe = self.folder / "pipe.csv"
+        os.mkfifo(pipe)
+        reader = subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, reader)
+        self.assertEqual(self.call(*trace, pipe).returncode, 0)
+        self.assertEqual(reader.communicate(timeout=PATIENCE)[0], expected)
+        self.assertTrue(stat.S_ISFIFO(pipe.stat().st_mode))
+        link = self.folder / "link.csv"
+        for target in ("/dev/null", pipe):
+            link.symlink_to(target)
+            self.assert_refused(self.call(*trace, link), 3, "link to a device or a pipe")
+            self.assertTrue(link.is_symlink())
+            link.unlink()
+        null = self.folder / "null.csv"
+        try:
+            os.mknod(null, stat.S_IFCHR | 0o666, os.makedev(1, 3))
+        except PermissionError:
+            self.skipTest("only root may make a device")
+        for command in (trace, ["probe-engine", "--output"]):
+            done = self.call(*command, null)
+            if done.returncode == 3 and "Permission denied" in done.stderr:
+                self.skipTest("this file system has no devices")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(stat.S_ISCHR(null.stat().st_mode), command)
+
+    def test_a_private_file_stays_private(self):
+        page = self.folder / "trace.csv"
+        for mode in (0o600, 0o640, 0o444):
+            page.write_text("")
+            page.chmod(mode)
+            done = self.call("theory", "trace", "--throw-number", 2, "--vibration-angle", "30 deg", "--friction", 0.4, "--output", page)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(stat.S_IMODE(page.stat().st_mode), mode)
+            self.assertGreater(page.stat().st_size, 1000)
+            page.chmod(0o600)
+
     def test_no_python_module_of_a_folder_is_loaded(self):
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)

@@ -221,6 +221,19 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
     }
 }
 
+// toml++ and the destructor of its tables go down into dotted keys by recursion.
+TEST(CampaignFile, DeepNestingIsRefusedWithItsLine) {
+    std::string dotted = "a";
+    for (int i = 0; i < 4990; ++i) dotted += ".a";
+    std::string tables = "# a comment, 1.2.3, \"\n[campaign]\n";
+    for (int i = 0; i < 50; ++i) tables += dotted + " = {";
+    std::string const brackets(500, '[');
+    for (std::string const& text : {tables, "\n\n" + dotted + " = 1", "\n\nname = " + brackets}) {
+        EXPECT_EQ(error_of(text), "c.toml:3:1: TOML: keys are nested too deeply; write key = value lines under "
+                                  "[section] headings");
+    }
+}
+
 TEST(CampaignFile, AMistypedPathIsWrongInput) {
     EXPECT_THROW(scenario::read_campaign("no-such-file.toml"), core::InputError);
     EXPECT_THROW(scenario::read_campaign("/"), core::InputError);

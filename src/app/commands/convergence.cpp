@@ -166,7 +166,7 @@ int run_convergence(ConvergenceArguments const& options) {
         ProgressPrinter printer;
         summary = campaign::run_campaign(
             plan, folder / "study.toml", *campaign::make_policy(), campaign::executor_kind("local"),
-            {folder, engine, {}, options.jobs, {}}, campaign::Until::done, printer);
+            {folder, engine, {}, options.jobs, {}, {options.allow_extra}}, campaign::Until::done, printer);
     }
     campaign::write_campaign_file(plan);
     auto const budgets = campaign::measure_numerics(plan, studies);

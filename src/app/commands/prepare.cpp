@@ -28,10 +28,12 @@ struct PrepareArguments {
     int minutes = 0;
 };
 
-void explain(std::size_t tasks, fs::path const& list, fs::path const& folder, fs::path const& program) {
-    fmt::print("run each task, for i from 0 to {}, with:\n  {} work {} --task-list {} --index $i\n",
-               tasks - 1, core::shell_word(program), core::shell_word(fs::absolute(folder)),
-               core::shell_word(fs::absolute(list)));
+void explain(std::size_t tasks, fs::path const& list, fs::path const& folder,
+             campaign::ExecutorInputs const& inputs) {
+    fmt::print("run each task, for i from 0 to {}, with:\n  {} work {} --task-list {} --index $i{}\n",
+               tasks - 1, core::shell_word(inputs.program), core::shell_word(fs::absolute(folder)),
+               core::shell_word(fs::absolute(list)),
+               inputs.foreign_commands.any() ? " --allow-extra" : "");
     fmt::print(
         "when they have ended, call the same 'vibrotrough prepare' again: it lists what is still missing\n");
 }
@@ -69,7 +71,7 @@ int run_prepare(PrepareArguments const& options) {
     fmt::print("\n");
     auto const tasks = campaign::read_task_list(list);
     if (tasks && !tasks->empty()) {
-        explain(tasks->size(), list, ready.plan.folder, ready.inputs.program);
+        explain(tasks->size(), list, ready.plan.folder, ready.inputs);
     } else if (summary.references.empty()) {
         fmt::print("nothing is missing; see the results with: vibrotrough compare {}\n",
                    core::shell_word(ready.plan.folder));

@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/extra_lines.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/execute/packing_worker.hpp"
 #include "campaign/execute/task_list.hpp"
@@ -23,10 +24,12 @@ struct WorkArguments {
     std::string task_list;
     int index = 0;
     double time_limit = 0;
+    bool allow_extra = false;
     campaign::WorkLimits limits;
 };
 
 int run_work(WorkArguments& options) {
+    options.limits.foreign_commands = {options.allow_extra};
     if (options.time_limit > 0) options.limits.time_limit = options.time_limit;
     // The campaign's folder names the program that is started; whoever looks at the output shall see which.
     tell("engine: {}\n", core::harmless(campaign::read_engine(options.folder).program.string()));
@@ -69,6 +72,7 @@ void add_work(CLI::App& program, int& exit_code) {
     command
         ->add_option("--time-limit", options->time_limit, "Longest wall-clock time of a packing in seconds")
         ->check(CLI::Range(1.0, 3e7));
+    add_allow_extra(*command, options->allow_extra);
     command->footer(
         R"(The job script that 'vibrotrough run' writes for Slurm calls this command; for other schedulers
 'vibrotrough prepare' writes the list. Any number of these processes may work on one campaign at the same time: each

@@ -361,6 +361,8 @@ class Driver {
 Summary run_campaign(Plan& plan, fs::path const& campaign_file, Policy const& policy,
                      ExecutorKind const& kind, ExecutorInputs const& inputs, Until until,
                      Observer& observer) {
+    for (PlannedCase const& planned : plan.cases)  // added ones may come from elsewhere
+        check_foreign_commands(plan.folder.string(), planned.scenario(), inputs.foreign_commands);
     core::make_folder(plan.folder);
     core::OwnFolder const own(plan.folder);
     FolderLock const lock(plan.folder);

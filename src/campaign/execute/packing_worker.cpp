@@ -140,6 +140,8 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
     engine::Engine engine = same_engine(campaign_folder);
     engine.ranks = limits.ranks;
     PlannedCase const planned = open_case(campaign_folder, id.case_id, engine.version);
+    check_foreign_commands((planned.folder / "scenario.toml").string(), planned.scenario(),
+                           limits.foreign_commands);
     auto const lock = lock_packing(planned, id.packing);
     if (!lock) {
         return {WorkResult::busy,

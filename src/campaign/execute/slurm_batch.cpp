@@ -57,6 +57,7 @@ std::string setup_lines(std::vector<std::string> const& lines) {
 /// run.slurm.setup, which the user has allowed.
 std::string job_script(std::string const& number, JobScript const& job) {
     std::string options = fmt::format("--ranks {} --retries {}", job.ranks, job.retries);
+    if (job.allow_extra) options += " --allow-extra";
     if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
     return fmt::format(
         "{3}\n"

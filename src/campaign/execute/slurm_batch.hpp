@@ -35,6 +35,7 @@ struct JobScript {
     int ranks;                         ///< MPI ranks of the engine
     std::optional<double> time_limit;  ///< s, for the packing
     int retries;                       ///< of a packing, after a failure that may not happen again
+    bool allow_extra;                  ///< the engine may run the commands of the campaign's files
     std::vector<std::string> setup;    ///< lines of bash that run first
 };
 

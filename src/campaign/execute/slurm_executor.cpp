@@ -124,7 +124,7 @@ class SlurmExecutor : public Executor {
     std::optional<long> submit_array(std::vector<Task> const& tasks) {
         scenario::RunSettings const& settings = inputs_.settings;
         JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries,
-                               settings.slurm.setup};
+                               inputs_.foreign_commands.any(), settings.slurm.setup};
         Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
         std::string const below = "slurm/" + batch.folder.filename().string();
         slurm::Array const array{

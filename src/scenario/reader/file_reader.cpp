@@ -27,24 +27,55 @@ std::vector<std::pair<toml::key const*, toml::node const*>> in_file_order(toml::
     return entries;
 }
 
-/// toml++ limits the depth of brackets but not of dotted keys: a key with a million dots would make a million
-/// nested tables and overflow the stack. This limits the number of dots between other punctuation.
-bool is_nested_too_deeply(std::string_view text) {
-    constexpr int most_dots = 5000;
-    int dots = 0;
-    for (char const c : text) {
-        if (std::string_view("=,[]{}").find(c) != std::string_view::npos) dots = 0;
-        if (c == '.' && ++dots > most_dots) return true;
+/// The position behind a string of TOML that begins at `at`; an unfinished one on a single line ends there.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+    char const quote = text[at];
+    std::string const three(3, quote);
+    bool const is_long = text.substr(at, 3) == three;
+    for (std::size_t i = at + (is_long ? 3 : 1); i < text.size(); ++i) {
+        if (text[i] == '\\' && quote == '"') {
+            ++i;
+        } else if (is_long) {
+            if (text.substr(i, 3) == three) return i + 3;
+        } else if (text[i] == quote || text[i] == '\n') {
+            return i + 1;
+        }
     }
-    return false;
+    return text.size();
+}
+
+/// The line of the first key or bracket that is nested too deeply, or 0. toml++ limits the depth of brackets
+/// but not of dotted keys: a key with a million dots, or fifty nested tables whose keys have 5000 dots each,
+/// would overflow the stack.
+unsigned line_nested_too_deeply(std::string_view text) {
+    constexpr int deepest = 32;  // campaign files need 3
+    unsigned line = 1;
+    int brackets = 0, dots = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        char const c = text[i];
+        if (c == '"' || c == '\'') {
+            std::size_t const end = end_of_string(text, i);
+            line += static_cast<unsigned>(std::ranges::count(text.substr(i, end - i), '\n'));
+            i = end - 1;
+            continue;
+        }
+        if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+        if (text[i] == '\n') ++line;
+        if (std::string_view("=,[]{}\n").find(text[i]) != std::string_view::npos) dots = 0;
+        if (c == '[' || c == '{') ++brackets;
+        if (c == ']' || c == '}') --brackets;
+        if (c == '.') ++dots;
+        if (dots > deepest || brackets > deepest) return line;
+    }
+    return 0;
 }
 
 /// Reads a campaign file.
 class CampaignFileReader {
   public:
     CampaignFileReader(std::string_view text, std::string const& file) : file_(file) {
-        if (is_nested_too_deeply(text)) {
-            throw_at({file_, {}}, "TOML", "keys are nested too deeply",
+        if (unsigned const line = line_nested_too_deeply(text); line > 0) {
+            throw_at({file_, {line, 1}}, "TOML", "keys are nested too deeply",
                      "write key = value lines under [section] headings");
         }
         try {
