@@ -22,6 +22,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 
+import vibrotrough  # noqa: E402
+
 WORDS = {
     "throw_number": "throw number $\\Gamma$",
     "machine_number": "machine number $K$",
@@ -39,6 +41,7 @@ LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directl
 class TheoryMap:
     def __init__(self, path: pathlib.Path) -> None:
         with h5py.File(path) as file:
+            vibrotrough.require_own_values(file)
             if file.attrs["format"] != "vibrotrough theory map":
                 raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
             self.x, self.y = file["x"][:], file["y"][:]

@@ -27,6 +27,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+import vibrotrough
 from figure_inputs import Input, panels, split_inputs, swept_inputs
 from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
                           points, save)  # fmt: skip
@@ -52,9 +53,10 @@ def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str
 
     try:
         with h5py.File(path) as file:
+            vibrotrough.require_own_values(file)
             file.visititems(keep)
             return columns, units, dict(file.attrs)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise Problem(f"cannot read {path} ({error}); give a campaign's folder") from error
 
 

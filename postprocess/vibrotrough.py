@@ -71,6 +71,18 @@ def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
         yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, units, description)
 
 
+def require_own_values(file: h5py.File) -> None:
+    """HDF5 can fetch values from other files of this machine: refuses links to them, external storage and virtual datasets."""
+
+    def is_foreign(name: bytes, info: Any) -> bool | None:
+        item = file[name] if info.type == h5py.h5l.TYPE_HARD else None
+        foreign = item is None or (isinstance(item, h5py.Dataset) and (item.is_virtual or item.external is not None))
+        return foreign or None
+
+    if file.id.links.visit(is_foreign, info=True):
+        raise ValueError(f"{file.filename} takes data from other files; it was not written by vibrotrough")
+
+
 class File:
     """All datasets of a file and fields of its tables by their path, e.g. file["case/throw_number"], and its root
     attributes in `attributes`.
@@ -80,6 +92,7 @@ class File:
         self.path = pathlib.Path(path)
         self._arrays: dict[str, Array] = {}
         with h5py.File(self.path) as file:
+            require_own_values(file)
             self.attributes: dict[str, Any] = dict(file.attrs)
             found = self.attributes.get("format")
             if found not in wanted_formats:

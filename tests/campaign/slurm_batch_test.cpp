@@ -25,8 +25,8 @@ class BatchTest : public testing::Test {
 };
 
 TEST_F(BatchTest, ComesBackAsWritten) {
-    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, {}});
-    write_batch(folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, {}});
+    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
+    write_batch(folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, false, {}});
     auto read = read_batches(folder);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].tasks, tasks);
@@ -58,7 +58,7 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
     fs::path const program = odd / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\nprintf '%s\\n' \"$@\" > arguments\nexit 5\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, {}});
+    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, false, {}});
     std::string const command = fmt::format(
         "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());

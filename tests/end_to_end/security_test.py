@@ -1,5 +1,6 @@
 """The sentences of .github/SECURITY.md, each as a test of the name that the page gives."""
 
+import hashlib
 import json
 import os
 import re
@@ -7,11 +8,17 @@ import shutil
 import signal
 import stat
 import subprocess
+import sys
 import time
 import unittest
 from pathlib import Path
 
+import h5py
+
 from trough_program import PATIENCE, PROGRAM, EndToEndTest, count_cycles, engines_in, pause, processes_in, wait_until
+
+sys.path.insert(0, str(Path(__file__).parent.parent.parent / "postprocess"))
+import vibrotrough  # noqa: E402
 
 PAGE = Path(__file__).parent.parent.parent / ".github" / "SECURITY.md"
 ONE = {"measure.packings": 1, "measure.max_cycles": 24}
@@ -147,6 +154,47 @@ class Security(EndToEndTest):
             self.assertEqual(stat.S_IMODE(page.stat().st_mode), mode)
             self.assertGreater(page.stat().st_size, 1000)
             page.chmod(0o600)
+
+    def test_numbers_of_other_files_are_not_believed(self):
+        """The checksum of a result covers its own bytes; HDF5 fetches external and virtual data and what links lead to from other files."""
+        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        (result,) = self.results()
+        foreign, table = self.folder / "foreign.h5", "series/1"
+        whole, before = result.read_bytes(), self.table()
+        own = whole[: whole.rindex(b"\nvibrotrough sha256 ")]
+        for kind in ("external storage", "external link", "soft link", "virtual dataset"):
+            result.write_bytes(own)
+            with h5py.File(result, "a") as file:
+                values, attributes = file[table][:], dict(file[table].attrs)
+                del file[table]
+                with h5py.File(foreign, "w") as other:
+                    other["values"] = values
+                    other["values"].attrs.update(attributes)
+                    place = other["values"].id.get_offset()
+                if kind == "external storage":
+                    file.create_dataset(table, values.shape, values.dtype, external=[(str(foreign), place, values.nbytes)])
+                elif kind == "external link":
+                    file[table] = h5py.ExternalLink(str(foreign), "/values")
+                elif kind == "soft link":
+                    file["moved"] = values
+                    file[table] = h5py.SoftLink("/moved")
+                else:
+                    layout = h5py.VirtualLayout(values.shape, values.dtype)
+                    layout[:] = h5py.VirtualSource(str(foreign), "values", values.shape)
+                    file.create_virtual_dataset(table, layout)
+                if kind != "external link":
+                    file[table].attrs.update(attributes)
+            changed = result.read_bytes()
+            result.write_bytes(changed + f"\nvibrotrough sha256 {hashlib.sha256(changed).hexdigest()}\n".encode())
+            (result.parent / "summary").unlink(missing_ok=True)
+            with self.subTest(kind):
+                (row,) = self.table()
+                self.assertEqual((row["outcome"], row["efficiency_dem"]), ("interrupted", None), "like any damaged result, it is made again")
+                with self.assertRaisesRegex(ValueError, "takes data from other files"):
+                    vibrotrough.open_result(result)
+        result.write_bytes(whole)
+        (result.parent / "summary").unlink(missing_ok=True)
+        self.assertEqual(self.table(), before)
 
     def test_no_python_module_of_a_folder_is_loaded(self):
         campaign = self.write_campaign(ONE)
