@@ -114,9 +114,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
     campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs,
                                     fs::read_symlink("/proc/self/exe")};
-    inputs.foreign_commands = {options.allow_extra, options.templates.empty()
-                                                       ? nullptr
-                                                       : campaign.cases.front().engine.templates};
+    inputs.foreign_commands = {options.allow_extra,
+                               options.templates.empty() ? nullptr : campaign.cases.front().engine.templates};
     return {std::move(campaign), std::move(plan), &kind, inputs, is_interrupted};
 }
 

@@ -68,8 +68,7 @@ void add_allow_extra(CLI::App& command, bool& allowed) {
 }
 
 void check_extra_lines(std::string const& file, std::vector<scenario::Scenario> const& cases, bool allowed) {
-    for (scenario::Scenario const& one : cases)
-        campaign::check_foreign_commands(file, one, {allowed});
+    for (scenario::Scenario const& one : cases) campaign::check_foreign_commands(file, one, {allowed});
 }
 
 void tell_not_covered(std::vector<scenario::Scenario> const& cases) {

@@ -42,7 +42,8 @@ TextFile read_text_file(std::filesystem::path const& path);
 /// Writes a temporary file in the folder of `path`, syncs it to disk and renames it to `path`. No reader ever
 /// sees a half-written `path`. Neither of the two is written through a symbolic link: one that has its name
 /// is replaced. A file that is replaced hands on its owner and its mode. Outside of an OwnFolder, a pipe or a
-/// character device is written into, and a link to one is refused. Below an OwnFolder, temporary files of `path` that a killed process left are removed.
+/// character device is written into, and a link to one is refused. Below an OwnFolder, temporary files of
+/// `path` that a killed process left are removed.
 /// @throws MissingError when the file cannot be written
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 

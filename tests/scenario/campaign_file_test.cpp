@@ -229,8 +229,9 @@ TEST(CampaignFile, DeepNestingIsRefusedWithItsLine) {
     for (int i = 0; i < 50; ++i) tables += dotted + " = {";
     std::string const brackets(500, '[');
     for (std::string const& text : {tables, "\n\n" + dotted + " = 1", "\n\nname = " + brackets}) {
-        EXPECT_EQ(error_of(text), "c.toml:3:1: TOML: keys are nested too deeply; write key = value lines under "
-                                  "[section] headings");
+        EXPECT_EQ(error_of(text),
+                  "c.toml:3:1: TOML: keys are nested too deeply; write key = value lines under "
+                  "[section] headings");
     }
 }
 

@@ -90,7 +90,8 @@ int run_friction_test(FrictionTestArguments const& options) {
         ProgressPrinter printer;
         summary = campaign::run_campaign(
             plan, test_file, *campaign::make_policy(), campaign::executor_kind("local"),
-            {test_folder, engine, campaign.run, options.jobs, {}, {options.allow_extra}}, campaign::Until::done, printer);
+            {test_folder, engine, campaign.run, options.jobs, {}, {options.allow_extra}},
+            campaign::Until::done, printer);
     }
     campaign::write_campaign_file(plan);
     auto const tests = campaign::measure_friction(plan);

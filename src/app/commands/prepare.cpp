@@ -32,8 +32,7 @@ void explain(std::size_t tasks, fs::path const& list, fs::path const& folder,
              campaign::ExecutorInputs const& inputs) {
     fmt::print("run each task, for i from 0 to {}, with:\n  {} work {} --task-list {} --index $i{}\n",
                tasks - 1, core::shell_word(inputs.program), core::shell_word(fs::absolute(folder)),
-               core::shell_word(fs::absolute(list)),
-               inputs.foreign_commands.any() ? " --allow-extra" : "");
+               core::shell_word(fs::absolute(list)), inputs.foreign_commands.any() ? " --allow-extra" : "");
     fmt::print(
         "when they have ended, call the same 'vibrotrough prepare' again: it lists what is still missing\n");
 }

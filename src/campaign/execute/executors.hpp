@@ -22,7 +22,7 @@ struct ExecutorInputs {
     int cores = 1;                          ///< of this machine that may be used
     std::filesystem::path
         program;  ///< the program whose `work` command runs a packing, as compute nodes see it
-    ForeignCommands foreign_commands = {};  ///< which of them the engine may run
+    ForeignCommands foreign_commands = {};     ///< which of them the engine may run
     std::optional<double> task_duration = {};  ///< s, that a task of a cluster should take; none: one packing
     double speed = 0;  ///< grain-steps per second of one core, expected; needed for task_duration
     std::filesystem::path task_list = {};  ///< the file that the executor "task-list" writes

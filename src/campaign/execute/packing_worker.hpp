@@ -24,10 +24,10 @@ struct WorkResult {
 
 /// Limits of the work on a packing.
 struct WorkLimits {
-    int ranks = 1;                     ///< MPI ranks of the engine
-    int retries = 0;                   ///< after a failure that may not happen again
+    int ranks = 1;                          ///< MPI ranks of the engine
+    int retries = 0;                        ///< after a failure that may not happen again
     ForeignCommands foreign_commands = {};  ///< which of them the engine may run
-    std::optional<double> time_limit;  ///< s of wall clock, all attempts together
+    std::optional<double> time_limit;       ///< s of wall clock, all attempts together
 };
 
 /// Runs one packing of one case in its own event loop, and writes the case's result when its policy calls the

@@ -123,8 +123,8 @@ class SlurmExecutor : public Executor {
     /// @return none when Slurm has no room for so many tasks now
     std::optional<long> submit_array(std::vector<Task> const& tasks) {
         scenario::RunSettings const& settings = inputs_.settings;
-        JobScript const script{inputs_.program, settings.ranks.value_or(1), time_limit(), settings.retries,
-                               inputs_.foreign_commands.any(), settings.slurm.setup};
+        JobScript const script{inputs_.program,  settings.ranks.value_or(1),     time_limit(),
+                               settings.retries, inputs_.foreign_commands.any(), settings.slurm.setup};
         Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
         std::string const below = "slurm/" + batch.folder.filename().string();
         slurm::Array const array{

@@ -19,7 +19,8 @@ std::string in_one_line(scenario::ExtraLines const& extra) {
 }
 
 bool are_equal(scenario::DeckTemplates const& some, scenario::DeckTemplates const* others) {
-    return others != nullptr && std::ranges::equal(some.files, others->files, [](auto const& a, auto const& b) {
+    return others != nullptr &&
+           std::ranges::equal(some.files, others->files, [](auto const& a, auto const& b) {
                return a.name == b.name && a.content == b.content;
            });
 }
