@@ -41,7 +41,10 @@ LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directl
 class TheoryMap:
     def __init__(self, path: pathlib.Path) -> None:
         with h5py.File(path) as file:
-            vibrotrough.require_own_values(file)
+            try:
+                vibrotrough.require_own_values(file)
+            except ValueError as error:
+                raise SystemExit(str(error)) from error
             if file.attrs["format"] != "vibrotrough theory map":
                 raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
             self.x, self.y = file["x"][:], file["y"][:]

@@ -146,9 +146,12 @@ bool write_into_special_file(fs::path const& path, std::string_view content) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) return false;
     if (S_ISLNK(status.st_mode)) {
+        std::error_code ignored;
+        // /dev/stdout is such a link, wherever the stream leads.
+        bool const is_stream = fs::read_symlink(path, ignored).native().starts_with("/proc/");
         bool const leads_to_file = ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-        if (leads_to_file || S_ISDIR(status.st_mode)) return false;
-        refuse_to_write(path, "it is a link to a device or a pipe", "name the device or the pipe itself");
+        if (!is_stream && (leads_to_file || S_ISDIR(status.st_mode))) return false;
+        refuse_to_write(path, "it is a link to a device, a pipe or an open file", "name what it leads to");
     }
     if (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return false;
     if (S_ISSOCK(status.st_mode) || S_ISBLK(status.st_mode))

@@ -93,9 +93,9 @@ class ForeignFiles(EndToEndTest):
         self.assertEqual(reader.communicate(timeout=PATIENCE)[0], expected)
         self.assertTrue(stat.S_ISFIFO(pipe.stat().st_mode))
         link = self.folder / "link.csv"
-        for target in ("/dev/null", pipe):
+        for target in ("/dev/null", pipe, "/proc/self/fd/1"):
             link.symlink_to(target)
-            self.assert_refused(self.call(*trace, link), 3, "link to a device or a pipe")
+            self.assert_refused(self.call(*trace, link), 3, "link to a device, a pipe or an open file")
             self.assertTrue(link.is_symlink())
             link.unlink()
         null = self.folder / "null.csv"

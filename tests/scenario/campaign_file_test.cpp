@@ -228,7 +228,9 @@ TEST(CampaignFile, DeepNestingIsRefusedWithItsLine) {
     std::string tables = "# a comment, 1.2.3, \"\n[campaign]\n";
     for (int i = 0; i < 50; ++i) tables += dotted + " = {";
     std::string const brackets(500, '[');
-    for (std::string const& text : {tables, "\n\n" + dotted + " = 1", "\n\nname = " + brackets}) {
+    for (std::string const& text : {tables, "\n\n" + dotted + " = 1", "\n\nname = " + brackets,
+                                    // A string whose own end is a quote hides nothing.
+                                    "\n\nx = [\"\"\"a\"\"\"\", {" + dotted + " = 1}]"}) {
         EXPECT_EQ(error_of(text),
                   "c.toml:3:1: TOML: keys are nested too deeply; write key = value lines under "
                   "[section] headings");

@@ -36,7 +36,10 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
         if (text[i] == '\\' && quote == '"') {
             ++i;
         } else if (is_long) {
-            if (text.substr(i, 3) == three) return i + 3;
+            if (text.substr(i, 3) != three) continue;
+            // The string may itself end with one or two quotes.
+            std::size_t const end = text.substr(i).find_first_not_of(quote);
+            return std::min(i + std::min<std::size_t>(end, 5), text.size());
         } else if (text[i] == quote || text[i] == '\n') {
             return i + 1;
         }
