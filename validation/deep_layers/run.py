@@ -187,16 +187,18 @@ def exponents(rows: list[Row]) -> list[float]:
 def draw(run: ValidationCase, on: list[Error], by: list[Error]) -> None:
     figure, axes = plt.subplots(figsize=(7, 4.2), layout="constrained")
     for colour, gamma in zip(COLOURS, sorted({one.throw_number for one in on})):
-        mine = [one for one in on if one.throw_number == gamma]
-        axes.errorbar([wave_number(one.of) for one in mine], [one.error for one in mine], [one.half_width for one in mine], fmt="o", ms=4,
-                      color=colour, capsize=2, lw=0.8, label=f"grid, throw number {gamma:g}")
+        for grains, marker in (("free", "o"), ("rolling", "^")):
+            mine = [one for one in on if one.throw_number == gamma and one.layer.startswith(grains)]
+            axes.errorbar([wave_number(one.of) for one in mine], [one.error for one in mine], [one.half_width for one in mine], fmt=marker, ms=4,
+                          color=colour, capsize=2, lw=0.8, label=f"{grains}, throw number {gamma:g}")
     axes.errorbar([wave_number(one.of) for one in by], [one.error for one in by], [one.half_width for one in by], fmt="s", ms=5, mfc="none",
                   color="black", capsize=2, lw=0.8, label="layers that judge")
     s = np.linspace(0, 0.72, 100)
     axes.plot(s, -BOUND * s**2, "k--", lw=0.8, label="bound, 4 s²")
+    axes.plot(s, BOUND * s**2, "k--", lw=0.8)
     axes.plot(s, -MIDDLE * s**2, "k:", lw=0.8, label="middle, s²")
-    axes.set(ylim=(-0.45, 0.22), xlabel="wave number s = ω h / c", ylabel="η less η of stiff grains")
-    axes.legend(fontsize=7)
+    axes.set(ylim=(-0.47, 0.5), xlabel="wave number s = ω h / c", ylabel="η less η of stiff grains")
+    axes.legend(fontsize=6, ncols=2, loc="upper right")
     figure.savefig(run.figure("softness.png"), dpi=120)
 
 
