@@ -12,6 +12,7 @@ sys.path.insert(1, str(FOLDER.parent / "engine_impact"))
 
 import numpy as np  # noqa: E402
 
+import deep  # noqa: E402
 import figure_style  # noqa: E402
 import lammps  # noqa: E402
 import law  # noqa: E402
@@ -35,7 +36,7 @@ def measure(run: ValidationCase) -> None:
     cycles = lammps.START + 3 if run.quick else lammps.CYCLES
     tasks = [(rotation, gamma, packing) for rotation in rotations for gamma in numbers for packing in range(1, packings + 1)]
     with concurrent.futures.ThreadPoolExecutor(run.jobs) as pool:
-        futures = {task: pool.submit(lammps.efficiencies, run.runs / f"{task[0]}-{task[1]:g}-{task[2]}", task[1], task[0],
+        futures = {task: pool.submit(lammps.efficiencies, lammps.SHALLOW, run.runs / f"{task[0]}-{task[1]:g}-{task[2]}", task[1], task[0],
                                      1000 + 17 * index, cycles) for index, task in enumerate(tasks)}
         for done, _ in enumerate(concurrent.futures.as_completed(futures.values()), 1):
             print(f"\r{done} of {len(tasks)} runs", end="", flush=True)
@@ -60,7 +61,7 @@ def liggghts(rotation: str) -> dict[float, Row]:
 def judge(run: ValidationCase, rows: list[Row]) -> None:
     for row in run.table("impacts.csv"):
         down, along = float(row["down"]), float(row["along"])
-        up, tangential, _ = (float(values[0]) for values in law.impact(0.5, lammps.FLOOR_FRICTION, down, along, shortening=0))
+        up, tangential, _ = (float(values[0]) for values in law.impact(0.5, lammps.SHALLOW.floor_friction, down, along, shortening=0))
         where = f"impact with {down:g} m/s down and {along:g} m/s along"
         because = "the step of both integrations; a wall of another modulus is off by 0.01 and more"
         run.check(f"{where}: speed upwards, m/s", float(row["up_after"]), up, 5e-4, because=because)
@@ -93,7 +94,7 @@ def findings(run: ValidationCase, rows: list[Row]) -> None:
 def draw(run: ValidationCase, rows: list[Row]) -> None:
     figure, axes = figure_style.new_figure(layout="constrained")
     numbers = np.linspace(1.3, 3.1, 181)
-    eta = run.efficiencies(["throw_number", "tan_vibration_angle", "friction"], [(gamma, lammps.TAN_BETA, lammps.FLOOR_FRICTION) for gamma in numbers])
+    eta = run.efficiencies(["throw_number", "tan_vibration_angle", "friction"], [(gamma, lammps.SHALLOW.tan_beta, lammps.SHALLOW.floor_friction) for gamma in numbers])
     axes.plot(numbers, eta, color=figure_style.GREY, lw=1.2, label="point-mass theory")
     for i, rotation in enumerate(ROTATIONS):
         ours, theirs = [row for row in rows if row["rotation"] == rotation], liggghts(rotation)
@@ -111,11 +112,15 @@ def draw(run: ValidationCase, rows: list[Row]) -> None:
 def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
+        deep.measure(run)
         measure(run)
     rows = run.table("result.csv")
     judge(run, rows)
+    if not run.quick:
+        deep.judge(run)
     if not run.control and not run.quick:
         findings(run, rows)
+        deep.findings(run)
         draw(run, rows)
     run.finish()
 
