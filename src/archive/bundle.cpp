@@ -3,6 +3,7 @@
 #include "archive/bundle_files.hpp"
 #include "archive/crate.hpp"
 #include "archive/zip_file.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "compare/table.hpp"
@@ -84,13 +85,30 @@ void refuse_unfinished_work(campaign::Plan const& plan, campaign::Activity const
         plan.folder.string()));
 }
 
+[[noreturn]] void throw_damaged(fs::path const& result) {
+    throw core::InputError(fmt::format(
+        "{} is damaged; delete it and run the campaign again, which makes it anew", result.string()));
+}
+
 void refuse_damaged_results(std::vector<campaign::CaseOverview> const& cases) {
     for (campaign::CaseOverview const& one : cases) {
         std::error_code missing;
         if (one.result || !fs::exists(fs::symlink_status(one.planned->result_file(), missing))) continue;
-        throw core::InputError(fmt::format("{} is damaged; run the campaign again, which replaces it",
-                                           one.planned->result_file().string()));
+        throw_damaged(one.planned->result_file());
     }
+}
+
+/// A bundle is published, and nobody counts its cases: that some have no result is for the person to say.
+void refuse_to_leave_out(std::vector<campaign::CaseOverview> const& cases) {
+    auto const has_no_result = [](campaign::CaseOverview const& one) { return !one.result; };
+    auto const left_out = std::ranges::count_if(cases, has_no_result);
+    if (left_out == 0) return;
+    campaign::CaseOverview const& first = *std::ranges::find_if(cases, has_no_result);
+    throw core::InputError(
+        fmt::format("{} of {} cases {} no result ({}{}: {}); simulate them with 'vibrotrough run', or "
+                    "archive the others with --partial",
+                    left_out, cases.size(), left_out == 1 ? "has" : "have",
+                    left_out == 1 ? "" : "the first is ", first.planned->id, first.label()));
 }
 
 void refuse_to_replace(fs::path const& output) {
@@ -172,12 +190,18 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     refuse_to_replace(output);
     Making making;
     std::mutex mutex;
-    auto const note = [&](std::size_t, campaign::CaseOverview const&, store::CaseRecord const* record) {
+    std::vector<fs::path> rotten;
+    auto const note = [&](std::size_t, campaign::CaseOverview const& one, store::CaseRecord const* record) {
+        if (record == nullptr) return;
+        bool const is_sound = campaign::is_summary_of_result(*one.planned, *record);
         std::lock_guard const lock(mutex);
-        if (record != nullptr) making.add(record->provenance);
+        making.add(record->provenance);
+        if (!is_sound) rotten.push_back(one.planned->result_file());
     };
     compare::ComparedCases const compared = compare::compared_cases(plan, activity, note);
     refuse_damaged_results(compared.cases);
+    if (!rotten.empty()) throw_damaged(std::ranges::min(rotten));
+    if (!words.partial) refuse_to_leave_out(compared.cases);
 
     Bundle bundle(output);
     bundle.add(facts_file, archive_facts(plan, compared.cases, making));

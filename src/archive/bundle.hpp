@@ -19,6 +19,7 @@ constexpr char const* checksums_file = "SHA256SUMS";
 struct BundleWords {
     std::vector<std::string> authors;  ///< names of persons
     std::string license;               ///< address of a licence's text; empty: none is named
+    bool partial = false;              ///< whether cases without a result may be left out
 };
 
 /// What went into a bundle.
@@ -36,8 +37,9 @@ struct BundleReport {
 /// metadata by RO-Crate 1.1. The same campaign makes the same bytes.
 /// @param activity  what the executors know of the campaign
 /// @param output    the file; a bundle of this name is replaced, and no other file
-/// @throws core::InputError when packings are still simulated, when a result is damaged, or when there is
-/// another file of this name
+/// @throws core::InputError when packings are still simulated, when a result is damaged (each is
+/// read whole), when a case has no result and `words` do not allow it, or when there is another file of this
+/// name
 /// @throws core::MissingError when a file cannot be read (it may be a symbolic link) or the disk refuses
 BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& activity,
                           std::filesystem::path const& output, BundleWords const& words);

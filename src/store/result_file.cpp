@@ -256,7 +256,8 @@ Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases)
     });
 }
 
-/// The bytes of campaign.h5.
+}  // namespace
+
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
                            std::map<std::string, CaseNumerics> const& numerics,
                            scenario::SweptKeys const& swept) {
@@ -284,8 +285,6 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     return file.bytes();
 }
-
-}  // namespace
 
 void write_result(std::filesystem::path const& path, CaseRecord const& record) {
     core::write_file_atomically(path, result_bytes(record));

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,15 @@ struct CaseNumerics {
     std::string case_id;  ///< of the case at which it was measured: the case itself, or its nearest
 };
 
-/// Writes campaign.h5 atomically: one dataset per column, with one value for each case in the order given.
+/// The bytes of campaign.h5: one dataset per column, with one value for each case in the order given. The
+/// same cases make the same bytes, so that a file holds these cases exactly if its bytes are these.
 /// @param swept     keys that differ between the cases, each of which becomes a dataset swept/KEY
 /// @param numerics  by case id; cases without one have an unknown numerical error
+std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
+                           std::map<std::string, CaseNumerics> const& numerics = {},
+                           scenario::SweptKeys const& swept = {});
+
+/// Writes campaign.h5 atomically, with campaign_bytes().
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
                     std::vector<CaseRecord> const& cases,

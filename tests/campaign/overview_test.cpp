@@ -124,8 +124,6 @@ TEST_F(Overview, CampaignFileSaysInWhatItIsOutdated) {
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date) << "nothing that it could lack";
     fs::create_directories(planned.folder);
     store::write_result(planned.result_file(), store::sample_record(planned.id));
-    auto const result_written = fs::last_write_time(planned.result_file());
-    fs::last_write_time(file, result_written + std::chrono::seconds(1));
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::damaged);
     fs::remove(file);
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::missing);
@@ -135,8 +133,27 @@ TEST_F(Overview, CampaignFileSaysInWhatItIsOutdated) {
     plan.swept = {scenario::find_key("grains.friction")};
     EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_keys);
     EXPECT_TRUE(is_campaign_file_outdated(plan));
-    fs::last_write_time(planned.result_file(), fs::last_write_time(file) + std::chrono::seconds(1));
-    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::older) << "which matters more";
+}
+
+// cp -p, rsync -a and tar keep a result's time, which is then older than campaign.h5; a clock that was wrong
+// makes it younger for good.
+TEST_F(Overview, CampaignFileIsComparedByWhatItHoldsAndNotByTimes) {
+    fs::path const file = folder / "campaign.h5";
+    write_campaign_file(plan);
+    fs::create_directories(planned.folder);
+    store::write_result(planned.result_file(), store::sample_record(planned.id));
+    fs::last_write_time(planned.result_file(), fs::last_write_time(file) - std::chrono::hours(24));
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_results);
+    EXPECT_TRUE(is_campaign_file_outdated(plan));
+    write_campaign_file(plan);
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
+    fs::last_write_time(planned.result_file(), fs::last_write_time(file) + std::chrono::hours(24 * 365));
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::up_to_date);
+    store::CaseRecord other = store::sample_record(planned.id);
+    *other.estimate.mean += 0.01;
+    store::write_result(planned.result_file(), other);
+    fs::last_write_time(planned.result_file(), fs::last_write_time(file) - std::chrono::hours(24));
+    EXPECT_EQ(campaign_file_state(plan), CampaignFileState::of_other_results);
 }
 
 }  // namespace

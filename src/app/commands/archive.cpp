@@ -40,12 +40,12 @@ std::string fault_of(campaign::CampaignFileState state) {
             return "which is not there";
         case damaged:
             return "which is damaged";
-        case older:
-            return "which is older than a result or a numerical error";
+        case of_other_results:
+            return "which does not hold the results and numerical errors that are there";
         case of_other_keys:
             return "which was written when other keys were swept";
         case of_other_version:
-            return "which holds all results but was written by another version of the program";
+            return "which another version of the program wrote";
         case up_to_date:
             break;
     }
@@ -94,6 +94,8 @@ void add_archive(CLI::App& program, int& exit_code) {
         ->add_option("--license", options->words.license,
                      "Address of the licence under which others may use the data")
         ->type_name("URL");
+    command->add_flag("--partial", options->words.partial,
+                      "Archive the cases that have a result although others have none");
     command->footer(
         R"(The bundle holds the frozen campaign file with the files that it names, the decks of every case, its results
 with all cycles, the engine's certificate, the table of 'vibrotrough compare' as CSV, JSON and text, campaign.h5, figures and
@@ -106,8 +108,8 @@ A bundle names the machines on which it was simulated and the path of the engine
 
 Exit codes:
     0  all well
-    2  the input is wrong: the campaign is still running, a result is damaged, or the output is
-       another file
+    2  the input is wrong: the campaign is still running, a result is damaged, a case has no result
+       (without --partial), or the output is another file
     3  a file cannot be read (a symbolic link is not followed), or there is no disk space
 
 Example:

@@ -3,6 +3,7 @@
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/numerics_results.hpp"
 #include "campaign/state/result_summary.hpp"
+#include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
@@ -96,6 +97,19 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
     return overview;
 }
 
+/// The summaries of all results that are there, in the order of the plan.
+/// @param keep  whether those that had to be read from the results are written beside them
+std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = false) {
+    std::vector<store::CaseRecord> records;
+    for (PlannedCase const& planned : plan.cases) {
+        auto found = find_summary(planned);
+        if (!found) continue;
+        if (keep && found->is_from_result) write_summary(planned, found->record);
+        records.push_back(std::move(found->record));
+    }
+    return records;
+}
+
 }  // namespace
 
 std::string_view CaseOverview::label() const {
@@ -140,18 +154,10 @@ std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, Ove
 CampaignFileState campaign_file_state(Plan const& plan) {
     std::error_code none;
     fs::path const file = plan.folder / "campaign.h5";
-    fs::file_time_type const written = fs::last_write_time(file, none);
-    if (none) return CampaignFileState::missing;
-    fs::file_time_type const studied = fs::last_write_time(numerics_file(plan.folder), none);
-    if (!none && studied > written) return CampaignFileState::older;
-    bool has_result = false;
-    for (PlannedCase const& planned : plan.cases) {
-        fs::file_time_type const finished = fs::last_write_time(planned.result_file(), none);
-        if (none) continue;
-        if (finished > written) return CampaignFileState::older;
-        has_result = true;
-    }
-    if (!has_result) return CampaignFileState::up_to_date;
+    if (!fs::exists(file, none)) return CampaignFileState::missing;
+    // Times say nothing of what a file holds: a result that was copied keeps its old one.
+    auto const records = result_summaries(plan);
+    if (records.empty()) return CampaignFileState::up_to_date;
     switch (store::fit_of_campaign(file, plan.swept)) {
         case store::CampaignFit::damaged:
             return CampaignFileState::damaged;
@@ -162,7 +168,9 @@ CampaignFileState campaign_file_state(Plan const& plan) {
         case store::CampaignFit::fits:
             break;
     }
-    return CampaignFileState::up_to_date;
+    bool const holds_them = core::read_file(file) ==
+                            store::campaign_bytes(plan.name, records, read_case_numerics(plan), plan.swept);
+    return holds_them ? CampaignFileState::up_to_date : CampaignFileState::of_other_results;
 }
 
 bool is_campaign_file_outdated(Plan const& plan) {
@@ -175,15 +183,8 @@ bool is_campaign_file_outdated(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
-    std::vector<store::CaseRecord> records;
-    for (PlannedCase const& planned : plan.cases) {
-        auto found = find_summary(planned);
-        if (!found) continue;
-        if (found->is_from_result) write_summary(planned, found->record);
-        records.push_back(std::move(found->record));
-    }
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, records, read_case_numerics(plan),
-                          plan.swept);
+    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true),
+                          read_case_numerics(plan), plan.swept);
 }
 
 }  // namespace vibrotrough::campaign

@@ -80,12 +80,13 @@ enum class CampaignFileState {
     up_to_date,        ///< it holds what there is
     missing,           ///< there is none
     damaged,           ///< it cannot be read
-    older,             ///< a result or a numerical error is newer
+    of_other_results,  ///< it lacks a result or a numerical error, or holds other ones
     of_other_keys,     ///< written when other keys were swept
-    of_other_version,  ///< it holds all results, but another version of the program wrote it
+    of_other_version,  ///< another version of the program wrote it
 };
 
-/// What keeps campaign.h5 from being up to date. That a result is newer comes before who wrote the file.
+/// What keeps campaign.h5 from being up to date. Compares what it holds with the results, whatever their
+/// times say.
 CampaignFileState campaign_file_state(Plan const& plan);
 
 /// Whether campaign.h5 should be written: it is not up to date, and there is a result.

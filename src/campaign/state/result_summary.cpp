@@ -68,6 +68,11 @@ std::optional<FoundSummary> find_summary(PlannedCase const& planned) {
     return FoundSummary{store::unpack_summary(store::pack_summary(*whole), planned.scenario()), true};
 }
 
+bool is_summary_of_result(PlannedCase const& planned, store::CaseRecord const& summary) {
+    auto const whole = read_whole_result(planned);
+    return whole && store::pack_summary(*whole) == store::pack_summary(summary);
+}
+
 void write_summary(PlannedCase const& planned, store::CaseRecord const& record) {
     auto const stamp = stamp_of(planned.result_file());
     if (!stamp) return;

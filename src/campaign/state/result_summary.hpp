@@ -21,6 +21,10 @@ struct FoundSummary {
 /// The case's summary if its result is there and whole. Writes nothing.
 std::optional<FoundSummary> find_summary(PlannedCase const& planned);
 
+/// Whether the case's result.h5 can be read whole now, with all its checksums, and is the one that `summary`
+/// summarises. find_summary() believes the file's size and time; who publishes a result asks this.
+bool is_summary_of_result(PlannedCase const& planned, store::CaseRecord const& summary);
+
 /// Writes the summary of the result that is in the case's folder. A disk that refuses is ignored: the next
 /// reader takes the result itself.
 void write_summary(PlannedCase const& planned, store::CaseRecord const& record);
