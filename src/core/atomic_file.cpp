@@ -255,4 +255,10 @@ void replace_file(fs::path const& path, std::string_view content) {
     write_and_rename(path, content, Sync::no);
 }
 
+void remove_remains_of(fs::path const& path) {
+    if (!lies_in_own_folder(path)) return;
+    ParentFolder const parent(path);
+    if (parent.is_open()) remove_remains(parent);
+}
+
 }  // namespace vibrotrough::core

@@ -53,4 +53,8 @@ void write_file_atomically(std::filesystem::path const& path, std::string_view c
 /// @throws MissingError when the file cannot be written
 void replace_file(std::filesystem::path const& path, std::string_view content);
 
+/// Removes the temporary files of `path` that a killed process left below an OwnFolder, as the next write of
+/// `path` would. Those that another process still writes stay. For files that may never be written again.
+void remove_remains_of(std::filesystem::path const& path);
+
 }  // namespace vibrotrough::core

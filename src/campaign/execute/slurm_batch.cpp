@@ -227,6 +227,14 @@ std::vector<Batch> read_batches(fs::path const& campaign_folder) {
     return batches;
 }
 
+void remove_remains_of_batches(fs::path const& campaign_folder) {
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(campaign_folder / "slurm", missing)) {
+        for (char const* const file : {"batch.json", "tasks.txt", "job.sh"})
+            core::remove_remains_of(entry.path() / file);
+    }
+}
+
 Batch write_batch(fs::path const& campaign_folder, std::vector<Task> const& tasks, JobScript const& script) {
     int number = 1;
     while (fs::exists(campaign_folder / "slurm" / fmt::format("{:04}", number))) ++number;

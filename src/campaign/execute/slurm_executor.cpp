@@ -26,6 +26,7 @@ class SlurmExecutor : public Executor {
     explicit SlurmExecutor(ExecutorInputs const& inputs) : inputs_(inputs) {}
 
     std::vector<PackingActivity> given_before() override {
+        remove_remains_of_batches(inputs_.campaign_folder);
         std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
         remember_lost_tasks(batches);
         return survey_tasks(batches);
