@@ -146,7 +146,9 @@ class ValidationCase:
         fresh = self.long or not self.about.get("long", False)
         path = (self.output if fresh else self.folder) / name
         if not fresh:  # the verdict names what made the numbers, not who judged them
-            self.made_by = path.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+            maker = path.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+            if maker not in self.made_by:
+                self.made_by = f"{self.made_by}; further tables: {maker}" if self.made_by else maker
         return read_table(path)
 
     def write_table(self, name: str, header: Sequence[str], rows: Iterable[Iterable[object]]) -> None:

@@ -107,6 +107,15 @@ TEST_F(AtomicFile, RemovesWhatAKilledProcessLeftOfAFile) {
     core::write_file_atomically(folder / "a", "whole");
     EXPECT_FALSE(fs::exists(folder / "a.part-living-1"));
     EXPECT_EQ(core::read_file(folder / "a"), "whole");
+    core::remove_remains_of(folder / "b");
+    EXPECT_FALSE(fs::exists(folder / "b.part-elsewhere-1")) << "without writing b, which is not there";
+    EXPECT_FALSE(fs::exists(folder / "b"));
+}
+
+TEST_F(AtomicFile, LeavesRemainsOutsideOfAnOwnFolder) {
+    std::ofstream(folder / "a.part-elsewhere-1") << "half";
+    core::remove_remains_of(folder / "a");
+    EXPECT_TRUE(fs::exists(folder / "a.part-elsewhere-1"));
 }
 
 }  // namespace

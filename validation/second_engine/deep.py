@@ -9,8 +9,6 @@ import lammps
 from campaign_program import Row
 from validation_case import ValidationCase, read_table
 
-PACKINGS = 4
-STUDENT = 3.182  # two-sided 95 %, three degrees of freedom
 SOFT, STIFF = 5, 80  # MPa
 STEPS = {SOFT: 3200, STIFF: 9600}  # per cycle: 23 and 31 % of the Rayleigh time
 # Variants of LAMMPS. The rolling spring has one stiffness for all contacts there, so it is varied, too.
@@ -30,7 +28,7 @@ def measure(run: ValidationCase) -> None:
     for modulus, row in zip(moduli, table):
         rows.append(["LIGGGHTS", "free", modulus, f"{float(row['efficiency_dem']):.4f}", f"{float(row['efficiency_dem_half_width']):.4f}",
                      row["packings"]])
-    packings, cycles = (1, lammps.START + 3) if run.quick else (PACKINGS, lammps.CYCLES)
+    packings, cycles = (1, lammps.START + 3) if run.quick else (lammps.PACKINGS, lammps.CYCLES)
     names = list(LAYERS)[:1] if run.quick else list(LAYERS)
     tasks = [(name, modulus, packing) for name in names for modulus in moduli for packing in range(1, packings + 1)]
     means: dict[tuple[str, int, int], float] = {}
@@ -48,8 +46,7 @@ def measure(run: ValidationCase) -> None:
     for name in names:
         for modulus in moduli:
             values = [means[name, modulus, packing] for packing in range(1, packings + 1)]
-            half = STUDENT * statistics.stdev(values) / math.sqrt(packings) if packings > 1 else math.nan
-            rows.append(["LAMMPS", name, modulus, f"{statistics.mean(values):.4f}", f"{half:.4f}", packings])
+            rows.append(["LAMMPS", name, modulus, f"{statistics.mean(values):.4f}", f"{lammps.half_width(values):.4f}", packings])
     run.write_table("deep.csv", COLUMNS, rows)
 
 

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pathlib
+import statistics
 import subprocess
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 GRAVITY = 9.81
 POISSON, DENSITY, RESTITUTION = 0.35, 1400.0, 0.5
 SETTLING, CYCLES, START = 7, 72, 24  # drive periods at rest; driven cycles; of these left out as start-up
+PACKINGS, STUDENT = 4, 3.182  # Student's t, two-sided 95 %, three degrees of freedom
 
 
 @dataclasses.dataclass(frozen=True)
@@ -182,6 +184,11 @@ thermo {steps}
 thermo_modify lost error
 run {(SETTLING + cycles) * steps}
 """
+
+
+def half_width(means: list[float]) -> float:
+    """Half-width of the 95 % interval of the mean over PACKINGS packings; NaN for one packing."""
+    return STUDENT * statistics.stdev(means) / math.sqrt(PACKINGS) if len(means) == PACKINGS else math.nan
 
 
 def run(folder: pathlib.Path, name: str, text: str) -> str:

@@ -21,8 +21,6 @@ from validation_case import ValidationCase, read_table  # noqa: E402
 
 ROTATIONS = ["free", "blocked"]
 NUMBERS = [1.5, 1.7, 2.0, 2.25, 2.5, 3.0]
-PACKINGS = 4
-STUDENT = 3.182  # two-sided 95 %, three degrees of freedom
 COLUMNS = ["rotation", "throw_number", "efficiency", "half_width", "packings", "cycles"]
 IMPACTS = [(0.5, 0.0), (0.5, 0.2), (0.2, 0.4)]  # speeds towards and along the floor, m/s
 FIRST_LAYER = "4 deep, "
@@ -32,7 +30,7 @@ def measure(run: ValidationCase) -> None:
     print(subprocess.run(["lmp", "-h"], capture_output=True, text=True, check=True).stdout.strip().splitlines()[0])
     rows = [[down, along, *map("{:.6g}".format, lammps.impact(run.runs / "impacts", down, along))] for down, along in IMPACTS]
     run.write_table("impacts.csv", ["down", "along", "up_after", "along_after", "spin_after"], rows)
-    rotations, numbers, packings = (ROTATIONS[:1], NUMBERS[2:3], 1) if run.quick else (ROTATIONS, NUMBERS, PACKINGS)
+    rotations, numbers, packings = (ROTATIONS[:1], NUMBERS[2:3], 1) if run.quick else (ROTATIONS, NUMBERS, lammps.PACKINGS)
     cycles = lammps.START + 3 if run.quick else lammps.CYCLES
     tasks = [(rotation, gamma, packing) for rotation in rotations for gamma in numbers for packing in range(1, packings + 1)]
     with concurrent.futures.ThreadPoolExecutor(run.jobs) as pool:
@@ -46,8 +44,7 @@ def measure(run: ValidationCase) -> None:
     for rotation in rotations:
         for gamma in numbers:
             values = [means[rotation, gamma, packing] for packing in range(1, packings + 1)]
-            half = STUDENT * statistics.stdev(values) / math.sqrt(packings) if packings > 1 else math.nan
-            rows.append([rotation, gamma, f"{statistics.mean(values):.4f}", f"{half:.4f}", " ".join(f"{value:.4f}" for value in values),
+            rows.append([rotation, gamma, f"{statistics.mean(values):.4f}", f"{lammps.half_width(values):.4f}", " ".join(f"{value:.4f}" for value in values),
                          cycles - lammps.START])
     run.write_table("result.csv", COLUMNS, rows)
 
