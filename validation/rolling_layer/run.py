@@ -20,7 +20,7 @@ import vibrotrough  # noqa: E402
 from campaign_program import Row  # noqa: E402
 from validation_case import Floats, ValidationCase, read_table  # noqa: E402
 
-COLUMNS = ["group", "throw_number", "efficiency", "half_width", "packings", "outcome"]
+COLUMNS = ["group", "throw_number", "efficiency", "half_width", "packings", "outcome", "modulus_MPa"]
 PHASES: dict[str, list[Any]] = {"grains.rotation": ["free", "blocked"], "trough.throw_number": [1.7, 2.0]}
 FEW_PACKINGS = {"measure.half_width": 0.2, "measure.packings": 2, "measure.max_packings": 2}
 ALSO_SHOWN = 1.9
@@ -37,14 +37,30 @@ def measure(run: ValidationCase) -> None:
     for (rotation, _), row in zip(itertools.product(*PHASES.values()), table):
         curves += phase_rows(run, "phases", row, rotation)
     for group, (changes, numbers) in held_out.HELD_OUT.items():
-        name = held_out.campaign_name(group)
-        for row in run.campaign(name, changes, {"trough.throw_number": numbers[:1] if run.quick else numbers}):
-            gamma = round(float(row["throw_number"]), 6)
-            rows.append([group, gamma, row["efficiency_dem"], row["efficiency_dem_half_width"], row["packings"], row["outcome"]])
-            if gamma == ALSO_SHOWN and group in ("throw number", held_out.BLOCKED):
+        name, stiff = held_out.campaign_name(group), held_out.STIFF_LAYERS.get(group, [])
+        soft = [gamma for gamma in (numbers[:1] if run.quick else numbers) if gamma not in stiff]
+        for row in run.campaign(name, changes, {"trough.throw_number": soft}) if soft else []:
+            rows.append(measured(run, name, group, row))
+            if rows[-1][1] == ALSO_SHOWN and group in ("throw number", held_out.BLOCKED):
                 curves += phase_rows(run, name, row, "blocked" if group == held_out.BLOCKED else "free")
+        rows += [] if run.quick else measure_stiff(run, group)
         run.write_table("held_out.csv", COLUMNS, rows)  # after each group: what there is can be judged
         run.write_table("phases.csv", draw.PHASE_COLUMNS, curves)
+
+
+def measure_stiff(run: ValidationCase, group: str) -> list[list[object]]:
+    """The layers of a group that need stiffer grains than base.toml has."""
+    name, numbers = held_out.campaign_name(group) + "-stiff", held_out.STIFF_LAYERS.get(group, [])
+    changes = {**held_out.HELD_OUT[group][0], **held_out.STIFF}
+    return [measured(run, name, group, row) for row in run.campaign(name, changes, {"trough.throw_number": numbers})] if numbers else []
+
+
+def measured(run: ValidationCase, campaign: str, group: str, row: Row) -> list[object]:
+    """COLUMNS of one case."""
+    result = vibrotrough.open_result(run.runs / campaign / "cases" / row["case"] / "result.h5")
+    modulus = float(result["case/grain_youngs_modulus"]) / 1e6
+    return [group, round(float(row["throw_number"]), 6), row["efficiency_dem"], row["efficiency_dem_half_width"], row["packings"], row["outcome"],
+            f"{modulus:g}"]
 
 
 def measure_contacts(run: ValidationCase) -> None:
