@@ -12,6 +12,7 @@ from numpy.typing import NDArray  # noqa: E402
 from campaign_program import Row  # noqa: E402
 import figure_style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
+import vibrotrough  # noqa: E402
 
 Floats = NDArray[np.float64]
 Bands = dict[str, list[Floats]]  # by the slope's name, for each revolution speeds over FRICTIONS
@@ -23,7 +24,7 @@ BAND = (0.2, 0.8)  # friction of gravel and sand on steel, 0.3 to 0.6, and as mu
 FRICTIONS = np.round(np.arange(0.02, 1.201, 0.01), 3)
 SLOPES = {"uphill": 2.0, "level": 0.0, "downhill": -2.0}
 LAYER_FRICTIONS = [0.3, 0.45, 0.6]
-LAYER_COLUMNS = ["revolutions", "friction", "speed_m_per_s", "speed_half_width", "theory_m_per_s", "cycles", "outcome"]
+LAYER_COLUMNS = ["revolutions", "friction", "speed_m_per_s", "speed_half_width", "theory_m_per_s", "cycles", "outcome", "modulus_MPa"]
 COLUMNS = ["machine_number", "vibration_angle_deg", "inclination_deg", "friction"]
 
 
@@ -66,9 +67,11 @@ def simulate(run: ValidationCase, rows: list[Row]) -> None:
     lines = []
     for answer in run.campaign("layers", {}, {"trough.friction": LAYER_FRICTIONS, "trough.frequency": frequencies}):
         frequency, eta = float(answer["frequency_hz"]), float(answer["efficiency_dem"])
+        result = vibrotrough.open_result(run.runs / "layers" / "cases" / answer["case"] / "result.h5")
+        modulus = float(result["case/grain_youngs_modulus"]) / 1e6
         unit = 2 * math.pi * frequency * float(answer["amplitude_m"]) * math.cos(math.radians(float(answer["vibration_angle_deg"])))
         lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_dem_half_width']) * unit:.5f}",
-                      f"{float(answer['efficiency_theory']) * unit:.5f}", answer["cycles_measured"], answer["outcome"]])
+                      f"{float(answer['efficiency_theory']) * unit:.5f}", answer["cycles_measured"], answer["outcome"], f"{modulus:g}"])
     run.write_table("result.csv", LAYER_COLUMNS, lines)
 
 

@@ -13,7 +13,7 @@ import vibrotrough  # noqa: E402
 from campaign_program import Row  # noqa: E402
 
 COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficiency", "half_width", "efficiency_theory", "mode_theory",
-           "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome"]
+           "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome", "modulus_MPa"]
 NAMES = {"efficiency": "efficiency_dem", "half_width": "efficiency_dem_half_width"}
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 
@@ -21,17 +21,29 @@ GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 def measure(run: ValidationCase) -> None:
     rows = []
     for rung, (changes, numbers) in ladder.RUNGS.items():
-        table = run.campaign(ladder.campaign_name(rung), changes, {"trough.throw_number": numbers[:1] if run.quick else numbers})
-        for row in table:
-            row["packing_efficiencies"] = packing_efficiencies(run.runs / ladder.campaign_name(rung), row["case"])
-        rows += [[rung] + [row[NAMES.get(name, name)] for name in COLUMNS[1:]] for row in table]
+        stiff = ladder.STIFF_LAYERS.get(rung, [])
+        soft = [gamma for gamma in (numbers[:1] if run.quick else numbers) if gamma not in stiff]
+        rows += measured(run, rung, ladder.campaign_name(rung), changes, soft)
+        rows += [] if run.quick else measure_stiff(run, rung)
         run.write_table("result.csv", COLUMNS, rows)  # after each rung: what there is can be judged
 
 
-def packing_efficiencies(folder: pathlib.Path, case: str) -> str:
-    """Means of the packings, which show how much they differ."""
-    path = folder / "cases" / case / "result.h5"
-    return " ".join(f"{value:.4f}" for value in vibrotrough.open_result(path)["packings/efficiency"]) if path.exists() else ""
+def measure_stiff(run: ValidationCase, rung: str) -> list[list[object]]:
+    """The layers of a rung that need stiffer grains than base.toml has."""
+    changes = {**ladder.RUNGS[rung][0], **ladder.STIFF}
+    return measured(run, rung, ladder.campaign_name(rung) + "-stiff", changes, ladder.STIFF_LAYERS.get(rung, []))
+
+
+def measured(run: ValidationCase, rung: str, campaign: str, changes: ladder.Changes, numbers: list[float]) -> list[list[object]]:
+    """COLUMNS of a rung at some throw numbers."""
+    rows: list[list[object]] = []
+    for row in run.campaign(campaign, changes, {"trough.throw_number": numbers}) if numbers else []:
+        path = run.runs / campaign / "cases" / row["case"] / "result.h5"
+        result = vibrotrough.open_result(path) if path.exists() else None  # it may have failed
+        row["packing_efficiencies"] = " ".join(f"{value:.4f}" for value in result["packings/efficiency"]) if result else ""
+        row["modulus_MPa"] = f"{float(result['case/grain_youngs_modulus']) / 1e6:g}" if result else ""
+        rows.append([rung] + [row[NAMES.get(name, name)] for name in COLUMNS[1:]])
+    return rows
 
 
 class Rungs:
