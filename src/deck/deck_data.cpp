@@ -150,6 +150,7 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("soft",
              !block &&
                  s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
+    data.set("hard", !block && s.grains.youngs_modulus.value() > 1e9);  // or the command hard_particles
     data.set("restitutions",
              per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
     data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));

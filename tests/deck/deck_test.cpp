@@ -203,6 +203,13 @@ TEST(Deck, SoftGrainsNeedAnExtraCommand) {
     EXPECT_LT(soft.find("soft_particles  yes"), soft.find("create_box"));
 }
 
+// LIGGGHTS refuses more than 1 GPa without it, which stiff_enough() chooses for deep layers.
+TEST(Deck, HardGrainsNeedAnExtraCommand) {
+    EXPECT_EQ(decks(scenario(with("5 MPa", "1000 MPa"))).find("hard_particles"), std::string::npos);
+    std::string const hard = decks(scenario(with("5 MPa", "1500 MPa")));
+    EXPECT_LT(hard.find("hard_particles  yes"), hard.find("create_box"));
+}
+
 TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
     scenario::Scenario s = scenario();
     s.output.frames_per_cycle = 10;
