@@ -11,15 +11,19 @@ import numpy as np
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
+import extrapolation  # noqa: E402
+import pairs  # noqa: E402
+import studies  # noqa: E402
 from campaign_program import Row, campaign_text  # noqa: E402
 from criterion import CANDIDATES, CONTROL, inputs, judges, on_grid, power_law, wave_number  # noqa: E402
 from figure_style import COLOURS, plt  # noqa: E402
 from layers import MODULI_MPA  # noqa: E402
 from simulate import boxes_and_steps, grid, judging_layers  # noqa: E402
-from validation_case import ValidationCase  # noqa: E402
+from validation_case import ValidationCase, read_table  # noqa: E402
 
 # |error| <= BOUND s^2, and MIDDLE s^2 for the layer in the middle: src/prepare/softness.cpp.
 BOUND, MIDDLE = 4.0, 1.0
+ERRORS = ["study", "layer", "throw_number", "modulus_MPa", "wave_number", "error", "half_width"]
 STIFF_MPA = {3: 125, 6: 125, 12: 500, 20: 500}  # what stands for stiff grains on the grid, by depth
 
 
@@ -157,10 +161,14 @@ def judge_variations(run: ValidationCase, rows: list[Row]) -> None:
     place = ("grains", "depth", "throw_number", "modulus_MPa")
     base = {tuple(row[key] for key in place): row for row in rows}
     changes: dict[str, list[tuple[float, float]]] = {"long box": [], "short step": []}
+    table: list[list[object]] = []
     for row in run.table("variations.csv"):
         of = base[tuple(row[key] for key in place)]
         width = math.hypot(float(row["half_width"]), float(of["half_width"]))
         changes[row["study"]].append((float(row["efficiency"]) - float(of["efficiency"]), width))
+        table.append([row["study"], *(row[key] for key in place), *(f"{value:.4f}" for value in changes[row["study"]][-1])])
+    if not run.control:
+        follows(run, "changes.csv", ["study", *place, "change", "half_width"], table)
 
     def told(study: str) -> str:
         return ", ".join(f"{change:+.3f} ± {width:.3f}" for change, width in changes[study])
@@ -169,6 +177,31 @@ def judge_variations(run: ValidationCase, rows: list[Row]) -> None:
                 all(abs(change) < 0.04 for change, _ in changes["long box"]), told("long box"))
     run.finding("9: the default time step changes it by less than 0.02 or the interval",
                 all(abs(change) < max(0.02, width) for change, width in changes["short step"]), told("short step"))
+
+
+def cheaper(run: ValidationCase, rows: list[Row], judging: list[Row]) -> None:
+    """Whether stiff grains can be had for less: by paired fillings, by extrapolation, by a correction."""
+    paired = pairs.results(run.table("pairs.csv"))
+    pairs.judge(run, paired)
+    answers = extrapolation.judge(run, extrapolation.of_grid(rows), extrapolation.of_judges(judging))
+    if not run.control:
+        follows(run, "paired.csv", pairs.RESULTS, paired)
+        follows(run, "extrapolated.csv", extrapolation.RESULTS, answers)
+
+
+def error_rows(on: list[Error], by: list[Error]) -> list[list[object]]:
+    """ERRORS of the grid and of the layers that judge."""
+    return [[study, one.layer, f"{one.throw_number:g}", f"{one.of['modulus'] / 1e6:g}", f"{wave_number(one.of):.4f}", f"{one.error:+.4f}",
+             f"{one.half_width:.4f}"] for study, errors in (("grid", on), ("judges", by)) for one in errors]
+
+
+def follows(run: ValidationCase, name: str, header: list[str], rows: list[list[object]]) -> None:
+    """Writes a table that follows from others; the stored one must be the same."""
+    if run.output.resolve() != FOLDER:
+        stored = [list(row.values()) for row in read_table(FOLDER / name)]
+        differ = sum(old != list(map(str, new)) for old, new in zip(stored, rows)) + abs(len(stored) - len(rows))
+        run.between(f"rows of {name} that differ from those that follow from the other tables now", differ, 0, 0)
+    run.write_table(name, header, rows)
 
 
 def exponents(rows: list[Row]) -> list[float]:
@@ -208,13 +241,18 @@ def main() -> None:
         grid(run, MODULI_MPA)
         judging_layers(run)
         boxes_and_steps(run)
-    rows = run.table("grid.csv")
-    on, by = grid_errors(rows), judging_errors(run.table("judges.csv"))
+        pairs.measure(run)
+    rows, judging = run.table("grid.csv"), run.table("judges.csv")
+    on, by = grid_errors(rows), judging_errors(judging)
     judge_bound(run, on, by)
     judge_curves(run, on, by)
     judge_predictions(run, rows, on, by)
     judge_wave_number(run, on)
     judge_variations(run, rows)
+    cheaper(run, rows, judging)
+    if not run.control:
+        follows(run, "errors.csv", ERRORS, error_rows(on, by))
+        follows(run, "studies.csv", studies.COLUMNS, studies.table(run))
     draw(run, on, by)
     run.finish()
 
