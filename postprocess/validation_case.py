@@ -157,6 +157,17 @@ class ValidationCase:
             file.write(f"# {self.provenance()}\n")
             csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
+    def follows(self, name: str, header: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+        """Writes a table that follows from other tables; a criterion fails unless the stored one is the same. Not in a negative control."""
+        if self.control:
+            return
+        if self.output.resolve() != self.folder:
+            path = self.folder / name
+            stored = [list(row.values()) for row in read_table(path)] if path.exists() else []
+            differ = sum(old != list(map(str, new)) for old, new in zip(stored, rows)) + abs(len(stored) - len(rows))
+            self.between(f"rows of {name} that differ from those that follow from the other tables now", differ, 0, 0, "--store writes it again")
+        self.write_table(name, header, rows)
+
     def figure(self, name: str) -> pathlib.Path:
         """Where to save a figure. The negative control has an output folder of its own."""
         return self.output / name

@@ -20,6 +20,8 @@ RULE = {"fine": "stiff enough", "warning": "bound above half of the half-width",
 COLUMNS = ["study", "group", "throw_number", "tan_vibration_angle", "half_width", "modulus_MPa", "wave_number", "middle", "bound", "rule",
            "chosen_MPa", "stored_MPa"]
 
+SUMMARY = ["study", "half_widths", "layers", "wave_number_from", "wave_number_to", "bound_from", "bound_to", "enough", "warned", "soft", "soft_again"]
+
 
 class Group(NamedTuple):
     """Layers of a study that one campaign describes: base.toml with changes, and the lists that it varies."""
@@ -134,3 +136,16 @@ def table(run: ValidationCase) -> list[list[object]]:
     """A row for each layer."""
     stored = stored_moduli()
     return [row for group in groups() for row in rows_of(run, group, stored)]
+
+
+def summary(rows: list[list[object]]) -> list[list[object]]:
+    """SUMMARY of each study; `soft_again`: soft layers whose stored value is one of stiffer grains."""
+    found: list[list[object]] = []
+    for study in dict.fromkeys(row[0] for row in rows):
+        mine = [dict(zip(COLUMNS, map(str, row))) for row in rows if row[0] == study]
+        rules = [row["rule"] for row in mine]
+        numbers, bounds = ([row[name] for row in mine] for name in ("wave_number", "bound"))
+        again = sum(row["rule"] == RULE["error"] and row["stored_MPa"] != row["modulus_MPa"] for row in mine)
+        found.append([study, " and ".join(dict.fromkeys(row["half_width"] for row in mine)), len(mine), min(numbers), max(numbers), min(bounds), max(bounds),
+                      *(rules.count(rule) for rule in RULE.values()), again])
+    return found

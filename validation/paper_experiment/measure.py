@@ -20,6 +20,7 @@ from vibrotrough import File, open_result
 FOLDER = pathlib.Path(__file__).resolve().parent
 GRID_COLUMNS = ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width", "gradient", "overlap", "packings",
                 "cycles", "mode", "outcome", "modulus_MPa"]
+PLACE = 4   # columns that say which layer it is
 START = 20  # cycles of start-up that the profiles across and along leave out
 
 
@@ -45,7 +46,7 @@ def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.P
 def measure(run: ValidationCase) -> None:
     rows, again = rows_of(run, ["free_1.25_to_2", "free", "blocked", "cube"]), {place(row): row for row in rows_of(run, AGAIN)}
     run.write_table("result.csv", GRID_COLUMNS, [again.get(place(row), row) for row in rows])
-    run.write_table("soft.csv", GRID_COLUMNS, [row for row in rows if place(row) in again])
+    run.write_table("soft.csv", [*GRID_COLUMNS[:PLACE], *("soft_" + name for name in GRID_COLUMNS[PLACE:])], [row for row in rows if place(row) in again])
     run.write_table("noise.csv", GRID_COLUMNS, rows_of(run, ["noise"]))
     walls(run)
     surface(run)
@@ -60,7 +61,7 @@ def rows_of(run: ValidationCase, names: list[str]) -> list[list[str]]:
 
 def place(row: list[str]) -> tuple[str, ...]:
     """Grains, slope, angle and throw number, by which a layer that was simulated again is known."""
-    return tuple(row[:4])
+    return tuple(row[:PLACE])
 
 
 def described(row: Row, result: File | None) -> list[str]:

@@ -84,6 +84,7 @@ def score_tables(run: ValidationCase) -> None:
     for name, (points, efficiency) in tables.sets(blocked=run.control).items():
         score[name] = {law: tables.rms(tables.solve(run, points, constants) - efficiency) for law, constants in THEORIES.items()}
     print("rms of eta:", {name: {law: round(value, 3) for law, value in row.items()} for name, row in score.items()})
+    run.follows("scores.csv", ["law", *score], [[law, *(f"{row[law]:.3f}" for row in score.values())] for law in (POINT_MASS, "soft landing", "A0")])
     for name, most in (("level (fit)", 0.03), ("paper, 1.5-2", 0.075), ("krakow", 0.06)):
         run.between(f"rms of A0's efficiency, {name}", score[name]["A0"], 0, most, "the first fit had 0.023, 0.061 and 0.041; packings scatter by 0.02")
         run.between(f"rms of A0 over that of the point mass, {name}", score[name]["A0"] / score[name][POINT_MASS], 0, 0.5, "the better theory, by a factor of two")

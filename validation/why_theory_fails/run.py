@@ -42,7 +42,7 @@ def measured(run: ValidationCase, rung: str, campaign: str, changes: ladder.Chan
         result = vibrotrough.open_result(path) if path.exists() else None  # it may have failed
         row["packing_efficiencies"] = " ".join(f"{value:.4f}" for value in result["packings/efficiency"]) if result else ""
         row["modulus_MPa"] = f"{float(result['case/grain_youngs_modulus']) / 1e6:g}" if result else ""
-        rows.append([rung] + [row[NAMES.get(name, name)] for name in COLUMNS[1:]])
+        rows.append([rung, *(row[NAMES.get(name, name)] for name in COLUMNS[1:])])
     return rows
 
 
