@@ -110,6 +110,9 @@ def refit(run: ValidationCase) -> None:
     left_out = [best(total - squares[:, :, k]) for k in range(len(points))]
     print(f"fit: c = {c:.2f} ({torques[where[:, 0]].min():.2f} to {torques[where[:, 0]].max():.2f}), mu_i = {m:.2f} ({dry[where[:, 1]].min():.2f} to "
           f"{dry[where[:, 1]].max():.2f}), rms {math.sqrt(total.min() / 6):.3f}; without one case: {[f'{a:.2f}, {b:.2f}' for a, b in left_out]}")
+    run.follows("fit.csv", ["c", "c_low", "c_high", "mu_i", "mu_i_low", "mu_i_high", "rms", "c_left_out"],
+                [[f"{c:.2f}", f"{torques[where[:, 0]].min():.2f}", f"{torques[where[:, 0]].max():.2f}", f"{m:.2f}", f"{dry[where[:, 1]].min():.2f}",
+                  f"{dry[where[:, 1]].max():.2f}", f"{math.sqrt(total.min() / 6):.3f}", f"{max(abs(a - c) for a, _ in left_out):.2f}"]])
     published = float(np.sum((tables.solve(run, points, {}) - efficiency) ** 2))
     run.between("sum of squares of the published constants over that of the best fit to the level cases", published / total.min(), 0, most / total.min(),
                 "the 95 % region of the two constants (F distribution)")
