@@ -10,7 +10,7 @@ from validation_case import Floats, ValidationCase
 
 SOFT_MPA, STIFF_MPA = 8, 125
 THROW_NUMBER = 2.4
-PACKINGS = 24  # of each modulus; packing n of both is poured from the same seeds and starts with the same efficiency
+PACKINGS = 12  # of each modulus; packing n of both is poured from the same seeds and starts with the same efficiency
 COLUMNS = ["modulus_MPa", "packing", "seed", "start_efficiency", "efficiency"]
 RESULTS = ["packings", "pairs", "correlation", "correlation_low", "correlation_high", "sd_soft", "sd_stiff", "sd_difference",
            "packings_ratio", "packings_ratio_low", "packings_ratio_high"]
