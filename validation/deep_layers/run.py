@@ -180,7 +180,9 @@ def judge_variations(run: ValidationCase, rows: list[Row]) -> None:
 
 def cheaper(run: ValidationCase, rows: list[Row], judging: list[Row]) -> None:
     """Whether stiff grains can be had for less: by paired fillings, by extrapolation, by a correction."""
-    paired = pairs.results(run.table("pairs.csv"))
+    both = pairs.pairs()
+    run.follows("pairs.csv", pairs.COLUMNS, both)
+    paired = pairs.results(both)
     pairs.judge(run, paired)
     answers = extrapolation.judge(run, extrapolation.of_grid(rows), extrapolation.of_judges(judging))
     run.follows("paired.csv", pairs.RESULTS, paired)
@@ -230,7 +232,6 @@ def main() -> None:
         grid(run, MODULI_MPA)
         judging_layers(run)
         boxes_and_steps(run)
-        pairs.measure(run)
     rows, judging = run.table("grid.csv"), run.table("judges.csv")
     on, by = grid_errors(rows), judging_errors(judging)
     judge_bound(run, on, by)
