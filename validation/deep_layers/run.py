@@ -180,7 +180,7 @@ def judge_variations(run: ValidationCase, rows: list[Row]) -> None:
 
 def cheaper(run: ValidationCase, rows: list[Row], judging: list[Row]) -> None:
     """Whether stiff grains can be had for less: by paired fillings, by extrapolation, by a correction."""
-    both = pairs.pairs()
+    both = pairs.pairs(run)
     run.follows("pairs.csv", pairs.COLUMNS, both)
     paired = pairs.results(both)
     pairs.judge(run, paired)
@@ -232,6 +232,7 @@ def main() -> None:
         grid(run, MODULI_MPA)
         judging_layers(run)
         boxes_and_steps(run)
+        pairs.measure(run)
     rows, judging = run.table("grid.csv"), run.table("judges.csv")
     on, by = grid_errors(rows), judging_errors(judging)
     judge_bound(run, on, by)

@@ -14,21 +14,10 @@ WHOLE = {"measure.packings": 1, "measure.max_packings": 1, "measure.half_width":
 WIDE = {**WHOLE, "layer.width": "200 mm", "layer.length": "28 mm", "layer.height": "10.5 mm", "measure.max_cycles": 40,
         "output.frames_per_cycle": 10}
 
-# Layers whose grains of 5 MPa are too soft by the program's rule (s^2 above half of measure.half_width, validation/deep_layers). They are
-# simulated again with the modulus that the program chooses and the time step of deep_layers, where no effect of it was seen.
-STIFF = {"grains.youngs_modulus": None, "solver.rayleigh_fraction": 0.35}
-NARROW = {**GRID, "trough.tan_vibration_angle": [0.25], "trough.throw_number": [1.25, 1.5, 1.75, 2.0, 2.5, 3.0]}
-MIDDLE = {**GRID, "trough.tan_vibration_angle": [0.5], "trough.throw_number": [2.5, 3.0]}
-AGAIN = ["again_free_0.25", "again_free_0.5", "again_blocked_0.25", "again_blocked_0.5"]
-
 CAMPAIGNS: dict[str, tuple[dict[str, Any], dict[str, list[Any]]]] = {
     "free_1.25_to_2": ({}, BETWEEN),
     "free": ({}, FREE),
     "blocked": ({"grains.rotation": "blocked"}, GRID),
-    "again_free_0.25": (STIFF, NARROW),
-    "again_free_0.5": (STIFF, MIDDLE),
-    "again_blocked_0.25": ({**STIFF, "grains.rotation": "blocked"}, NARROW),
-    "again_blocked_0.5": ({**STIFF, "grains.rotation": "blocked"}, MIDDLE),
     "cube": ({"grains.shape": "cube", "grains.diameter_spread": 0, "layer.height": "10.5 mm"},
              {"trough.tan_inclination": SLOPES, "trough.throw_number": [0.8]}),
     # Where the blocked layer is furthest from the theory below throw number 1: is it the softness of the grains?

@@ -11,16 +11,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from campaign_program import Row, campaign_text
-from campaigns import AGAIN, CAMPAIGNS, QUICK
+from campaigns import CAMPAIGNS, QUICK
 from lateral_profile import EDGES, lateral_profile
 from layer_waves import waves
 from validation_case import ValidationCase
 from vibrotrough import File, open_result
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-GRID_COLUMNS = ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width", "gradient", "overlap", "packings",
-                "cycles", "mode", "outcome", "modulus_MPa"]
-PLACE = 4   # columns that say which layer it is
 START = 20  # cycles of start-up that the profiles across and along leave out
 
 
@@ -44,31 +41,29 @@ def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.P
 
 
 def measure(run: ValidationCase) -> None:
-    rows, again = rows_of(run, ["free_1.25_to_2", "free", "blocked", "cube"]), {place(row): row for row in rows_of(run, AGAIN)}
-    run.write_table("result.csv", GRID_COLUMNS, [again.get(place(row), row) for row in rows])
-    run.write_table("soft.csv", [*GRID_COLUMNS[:PLACE], *("soft_" + name for name in GRID_COLUMNS[PLACE:])], [row for row in rows if place(row) in again])
-    run.write_table("noise.csv", GRID_COLUMNS, rows_of(run, ["noise"]))
+    grid(run, "result.csv", ["free_1.25_to_2", "free", "blocked", "cube"])
+    grid(run, "noise.csv", ["noise"])
     walls(run)
     surface(run)
     stiffness(run)
     shake_test(run)
 
 
-def rows_of(run: ValidationCase, names: list[str]) -> list[list[str]]:
-    """GRID_COLUMNS of each case of some campaigns; `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta)."""
-    return [described(row, result) for name in names for row, _, result in cases_of(run, name)]
-
-
-def place(row: list[str]) -> tuple[str, ...]:
-    """Grains, slope, angle and throw number, by which a layer that was simulated again is known."""
-    return tuple(row[:PLACE])
+def grid(run: ValidationCase, table: str, names: list[str]) -> None:
+    """A row per case; `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta)."""
+    rows = []
+    for name in names:
+        for row, _, result in cases_of(run, name):
+            rows.append(described(row, result))
+    run.write_table(table, ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width",
+                            "gradient", "overlap", "packings", "cycles", "mode", "outcome"], rows)
 
 
 def described(row: Row, result: File | None) -> list[str]:
     inputs = [f"{math.tan(math.radians(float(row[name]))):.4g}" for name in ("inclination_deg", "vibration_angle_deg")]
     inputs.append(f"{float(row['throw_number']):.4g}")
     if result is None:
-        return ["", *inputs, "", "", "", "", "", "", "", row["outcome"], ""]
+        return ["", *inputs, "", "", "", "", "", "", "", row["outcome"]]
     shape = str(result["case/grain_shape"])
     grains = shape if shape != "sphere" else str(result["case/grain_rotation"])
     means = " ".join(f"{value:.4f}" for value in result["packings/efficiency"])
@@ -78,7 +73,7 @@ def described(row: Row, result: File | None) -> list[str]:
     overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
     eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency_dem", "efficiency_dem_half_width")]
     return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["mode_layer"],
-            row["outcome"], f"{float(result['case/grain_youngs_modulus']) / 1e6:g}"]
+            row["outcome"]]
 
 
 def walls(run: ValidationCase) -> None:
