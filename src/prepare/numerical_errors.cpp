@@ -12,7 +12,7 @@ namespace {
 constexpr double error_of_box = 0.03;            ///< of a box of 8 x 5 diameters
 constexpr double box_length = 8, box_width = 5;  ///< in diameters
 constexpr double deepest_for_box = 12;           ///< diameters, from where on the error grows with the depth
-constexpr double error_of_time_step = 0.01;       ///< of a step of 0.2 Rayleigh times
+constexpr double error_of_time_step = 0.01;      ///< of a step of 0.2 Rayleigh times
 constexpr double usual_rayleigh_fraction = 0.2;
 
 /// Least share of the half-width wanted that is left to statistics.

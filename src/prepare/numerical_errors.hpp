@@ -11,10 +11,10 @@ namespace vibrotrough::prepare {
 /// Bounds, at 95 %, of the errors of the velocity efficiency that a case's numerical settings cause. The flat
 /// meshes of floor and walls are exact and have no part in them. A rigid block has none of these errors.
 struct NumericalErrors {
-    double softness = 0;   ///< soft grains: softness_bound()
-    double box = 0;        ///< the periodic box: box_bound()
-    /// Of the engine: 0.01 for the usual 0.2 Rayleigh times, in proportion to solver.rayleigh_fraction. No effect
-    /// is seen, and this is how well that is known.
+    double softness = 0;  ///< soft grains: softness_bound()
+    double box = 0;       ///< the periodic box: box_bound()
+    /// Of the engine: 0.01 for the usual 0.2 Rayleigh times, in proportion to solver.rayleigh_fraction. No
+    /// effect is seen, and this is how well that is known.
     double time_step = 0;
 
     /// All together: the root of the sum of squares, because the settings act independently of each other.

@@ -37,8 +37,8 @@ struct Process {
     }
 };
 
-/// Takes the numerical errors from a scenario, so that its half-width is all left to statistics: grains, box and
-/// time step as no engine could simulate them. Made-up packings have only statistical errors.
+/// Takes the numerical errors from a scenario, so that its half-width is all left to statistics: grains, box
+/// and time step as no engine could simulate them. Made-up packings have only statistical errors.
 inline void remove_numerical_errors(scenario::Scenario& scenario) {
     scenario.grains.youngs_modulus = 1e24;
     scenario.layer.length = scenario.layer.width = 1e9;
@@ -72,8 +72,7 @@ inline SimulatedEnd simulate_case(Policy const& policy, PlannedCase const& plann
             values.push_back(
                 {all.first(static_cast<std::size_t>(decision.cycles)), evaluate::start_of(packing)});
         }
-        auto const estimate =
-            measure::estimate_case(values, evaluate::wanted_statistics(planned.scenario()));
+        auto const estimate = measure::estimate_case(values, evaluate::wanted_statistics(planned.scenario()));
         return {estimate, evaluate::outcome_of(estimate, planned.scenario()), decision.cycles};
     }
 }

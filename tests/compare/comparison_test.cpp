@@ -119,8 +119,8 @@ TEST(Compare, KnowsMassFlowPowerAndReaction) {
     EXPECT_NEAR(mass, prepared.mass, 0.005 * mass) << "the sizes of 500 grains are rounded to whole numbers";
     EXPECT_NEAR(row.mass_flow_per_width.value().mean, speed * mass / area, 1e-12);
     double const half_width = std::hypot(0.127, prepared.numerics.total());
-    EXPECT_NEAR(row.mass_flow_per_width->half_width.value() / row.mass_flow_per_width->mean, half_width / 0.82,
-                1e-12);
+    EXPECT_NEAR(row.mass_flow_per_width->half_width.value() / row.mass_flow_per_width->mean,
+                half_width / 0.82, 1e-12);
     EXPECT_FALSE(row.mass_flow) << "a layer that is periodic across is a piece of a trough of any width";
     EXPECT_NEAR(row.power_per_area.value(), 0.05 / area, 1e-9);
     EXPECT_NEAR(row.added_mass_per_area.value(), 0.0025 / area, 1e-12);

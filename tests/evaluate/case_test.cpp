@@ -87,7 +87,8 @@ TEST_F(Assemble, IsFinishedOnlyWhenTheCaseIsPrecise) {
     EXPECT_THAT(evaluate::remark_on(record), testing::HasSubstr("more than it has"));
 }
 
-// The packings agree better than was asked, but box and softness leave no room: 0.08 is more than what was asked.
+// The packings agree better than was asked, but box and softness leave no room: 0.08 is more than what was
+// asked.
 TEST_F(Assemble, IsNotFinishedWhenTheNumericsAreNotPrecise) {
     write_packings(cycles(60, around(0.5)), cycles(60, around(0.5)));
     store::CaseRecord record = assembled();
