@@ -104,7 +104,7 @@ def check_result_values(file):
         "throw_number": omega**2 * 0.006 * math.sin(0.5) / (9.81 * math.cos(-0.05)),
         "velocity_scale": omega * 0.006 * math.cos(0.5),
         "speed": 0.82 * omega * 0.006 * math.cos(0.5),
-        "speed_half_width": 0.127 * omega * 0.006 * math.cos(0.5),
+        "speed_half_width": case["efficiency_whole_half_width"] * omega * 0.006 * math.cos(0.5),
     }
     for name, value in wanted.items():
         assert math.isclose(case[name], value, rel_tol=1e-14), f"{name}: {case[name]}, wanted {value}"
