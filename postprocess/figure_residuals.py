@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+import vibrotrough
 from figure_inputs import Input, panels, split_inputs
 from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, points, save
 
@@ -48,7 +49,7 @@ def draw_line(source: "Source", over: Input, values: Floats) -> Figure:
     figure, axes = new_figure(size=(7.2, 3.6))
     plain_axes(axes)
     axes.axhline(0.0, color="#888888", linewidth=1.0)
-    half_width = np.asarray(source.campaign["efficiency_half_width"], dtype=float)
+    half_width = np.asarray(vibrotrough.whole_half_widths(source.campaign), dtype=float)
     axes.errorbar(over.places()[0], values, yerr=half_width, color=COLOURS[0], marker=MARKERS[0], linestyle="none", capsize=3)
     bounded = np.where(np.isfinite(half_width), half_width, 0.0)
     reach = 1.15 * np.nanmax(np.append(np.abs(values) + bounded, 0.05))

@@ -71,7 +71,7 @@ def theory(cases: list[Case]) -> str:
     def difference(case: Case) -> float:
         return float(case["efficiency_dem"] - case["efficiency_theory"])
 
-    agree = sum(abs(difference(case)) <= (case.get("efficiency_dem_half_width") or 0.0) for case in known)
+    agree = sum(abs(difference(case)) <= (case.get("efficiency_dem_whole_half_width") or 0.0) for case in known)
     worst = max(known, key=lambda case: abs(difference(case)))
     side = "faster" if difference(worst) > 0 else "slower"
     first = (f"The point-mass theory agrees with the layer to within the interval in {agree} of {len(known)} cases."

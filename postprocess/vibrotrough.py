@@ -177,3 +177,10 @@ def open_result(path: str | os.PathLike[str]) -> File:
 def open_theory(path: str | os.PathLike[str]) -> File:
     """A map of `vibrotrough theory map` or a table of `vibrotrough theory batch --output FILE.h5`."""
     return File(path, "vibrotrough theory map", "vibrotrough theory table")
+
+
+def whole_half_widths(campaign: Any) -> Any:
+    """Half-widths of the efficiencies of a campaign's cases, for statistics and numerics together. Files of version 0.2.0 and before
+    have only those of the statistics."""
+    whole = "efficiency_whole_half_width"
+    return campaign[whole if whole in campaign else "efficiency_half_width"]

@@ -38,8 +38,8 @@ std::string three_digits(std::optional<double> const& value) {
 }
 
 std::string efficiency_cell(Row const& row) {
-    if (!row.efficiency_dem || !row.efficiency_dem_half_width) return three_digits(row.efficiency_dem);
-    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.efficiency_dem_half_width);
+    if (!row.efficiency_dem || !row.whole_half_width) return three_digits(row.efficiency_dem);
+    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.whole_half_width);
 }
 
 std::string cycles_cell(Row const& row) {
@@ -51,7 +51,7 @@ std::string cycles_cell(Row const& row) {
 /// is slower, bold from 0.1 on; none within the confidence interval.
 std::string difference_colour(Row const& row) {
     auto const value = difference(row);
-    if (!value || std::abs(*value) <= row.efficiency_dem_half_width.value_or(0.0)) return {};
+    if (!value || std::abs(*value) <= row.whole_half_width.value_or(0.0)) return {};
     return fmt::format("\x1b[{}{}m", std::abs(*value) >= 0.1 ? "1;" : "", *value > 0 ? 33 : 36);
 }
 
@@ -76,10 +76,20 @@ std::vector<Column> efficiency_columns() {
         {.name = "efficiency_dem_half_width",
          .unit = "1",
          .value = field<&Row::efficiency_dem_half_width>,
-         .meaning = "Half-width of the confidence interval of efficiency_dem over all packings",
+         .meaning =
+             "Half-width of the confidence interval of efficiency_dem over all packings: statistics alone",
          .format = "{:.3f}",
          .position = 80,
          .report = ReportView{.heading = "\u00b1 statistical"}},
+        {.name = "efficiency_dem_whole_half_width",
+         .unit = "1",
+         .value = field<&Row::whole_half_width>,
+         .meaning =
+             "Half-width of efficiency_dem for statistics and numerics together: the root of the sum of "
+             "squares of efficiency_dem_half_width and efficiency_dem_numerical_error",
+         .format = "{:.3f}",
+         .position = 87,
+         .report = ReportView{.heading = "\u00b1 together"}},
         {.name = "speed_dem_m_per_s",
          .unit = "m/s",
          .value = mean<&Row::speed_dem>,
@@ -91,7 +101,7 @@ std::vector<Column> efficiency_columns() {
         {.name = "speed_dem_half_width_m_per_s",
          .unit = "m/s",
          .value = half_width<&Row::speed_dem>,
-         .meaning = "Half-width of the confidence interval of speed_dem_m_per_s",
+         .meaning = "Half-width of speed_dem_m_per_s, for statistics and numerics together",
          .format = "{:.3f}",
          .position = 161},
         {.name = "efficiency_theory",
@@ -264,9 +274,8 @@ std::vector<Column> numerics_columns() {
         {.name = "efficiency_dem_numerical_error",
          .unit = "1",
          .value = field<&Row::numerical_error>,
-         .meaning =
-             "Numerical error of efficiency_dem, from 'vibrotrough convergence': how far Young's modulus, "
-             "time step and box are from their limits",
+         .meaning = "Numerical error of efficiency_dem by soft grains, box and time step: as 'vibrotrough "
+                    "convergence' measured it, else its bound at 95 %",
          .format = "{:.3f}",
          .position = 82,
          .report = ReportView{.heading = "\u00b1 numerical"}},
@@ -274,7 +283,7 @@ std::vector<Column> numerics_columns() {
          .unit = "1",
          .value = field<&Row::numerical_error_case>,
          .meaning = "Case that was studied for efficiency_dem_numerical_error: this one, or the nearest one "
-                    "that was",
+                    "that was; unknown for a bound",
          .position = 84,
          .report = ReportView{.heading = "numerical error of case"}},
         {.name = "larger_error",
@@ -288,8 +297,9 @@ std::vector<Column> numerics_columns() {
 }
 
 std::string budget_cell(Row const& row) {
-    if (!row.numerical_error) return efficiency_cell(row);
-    return efficiency_cell(row) + " +- " + three_digits(row.numerical_error) + (is_borrowed(row) ? "*" : "");
+    if (!row.efficiency_dem_half_width || !row.numerical_error) return efficiency_cell(row);
+    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.efficiency_dem_half_width) + " +- " +
+           (is_bound(row) ? "<" : "") + three_digits(row.numerical_error) + (is_borrowed(row) ? "*" : "");
 }
 
 std::string larger_error_colour(Row const& row) {

@@ -23,15 +23,13 @@ ComparedCases compared_cases(campaign::Plan const& plan, campaign::Activity cons
         std::optional<MeasuredFriction> friction;
         if (auto const test = tests.find(layer_key(planned.scenario())); test != tests.end())
             friction = {*test->second.friction, *test->second.low, *test->second.high};
-        Row row =
-            compare(planned.id, *planned.prepared, record == nullptr ? std::nullopt : std::optional(*record),
-                    std::string(one.label()), friction);
+        std::optional<store::CaseRecord> measured;
+        if (record != nullptr) measured = *record;
+        if (auto const known = numerics.find(planned.id); measured && known != numerics.end())
+            measured->studied = known->second;
+        Row row = compare(planned.id, *planned.prepared, measured, std::string(one.label()), friction);
         for (scenario::Key const* const key : plan.swept)
             row.swept.push_back(swept_value(planned.scenario(), *key));
-        if (auto const known = numerics.find(planned.id); known != numerics.end()) {
-            row.numerical_error = known->second.error;
-            row.numerical_error_case = known->second.case_id;
-        }
         found.rows[i] = std::move(row);
         if (sink) sink(i, one, record);
     };

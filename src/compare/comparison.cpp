@@ -112,8 +112,11 @@ void add_measurement(Row& row, store::CaseRecord const& record, prepare::Prepare
     if (!has_mean(record.outcome)) return;  // no mean is reported unless the case is steady
     row.efficiency_dem = record.estimate.mean;
     row.efficiency_dem_half_width = record.estimate.half_width;
+    row.numerical_error = record.numerical_error();
+    if (record.studied) row.numerical_error_case = record.studied->case_id;
+    row.whole_half_width = record.whole_half_width();
     if (record.estimate.mean) {
-        row.speed_dem = scaled({*record.estimate.mean, record.estimate.half_width}, prepared.velocity_scale);
+        row.speed_dem = scaled({*record.estimate.mean, row.whole_half_width}, prepared.velocity_scale);
         add_machine(row, record, prepared.scenario);
     }
     row.efficiency_by_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
@@ -164,6 +167,10 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     return text;
 }
 
+bool is_bound(Row const& row) {
+    return row.numerical_error && !row.numerical_error_case;
+}
+
 bool is_borrowed(Row const& row) {
     return row.numerical_error_case && *row.numerical_error_case != row.id;
 }
@@ -178,7 +185,7 @@ Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
     Row row{};
     row.id = id;
     if (std::string const open = not_covered(prepared.scenario.engine); !open.empty()) row.not_covered = open;
-    if (is_soft(prepared)) row.soft = "soft";
+    if (prepare::is_soft(prepared.scenario)) row.soft = "soft";
     row.throw_number = prepared.throw_number;
     row.machine_number = prepared.machine_number;
     row.vibration_angle_deg = scenario::in_degrees(trough.vibration_angle);

@@ -13,8 +13,8 @@ namespace vibrotrough::compare {
 /// A known value of a column.
 using Value = std::variant<double, int, std::string>;
 
-/// A mean and the half-width of its confidence interval; the latter is not known when the interval is
-/// unbounded.
+/// A mean and the half-width of its interval, for statistics and numerics together; the latter is not known
+/// when the interval is unbounded.
 struct Interval {
     double mean;                       ///< estimate
     std::optional<double> half_width;  ///< at the campaign's confidence
@@ -33,17 +33,21 @@ struct Row {
     double frequency_hz;                              ///< Hz
     std::optional<double> efficiency_dem;             ///< none when the layer never became steady
     std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
-    std::optional<Interval> speed_dem;                ///< efficiency_dem * omega r cos(beta), m/s
-    std::optional<Interval> mass_flow_per_width;      ///< speed_dem times the mass per area, kg/(s m)
-    std::optional<Interval> mass_flow;                ///< of the whole width of the trough, kg/s
-    std::optional<double> power_per_area;             ///< W/m^2, of the trough on the layer
-    std::optional<double> added_mass_per_area;        ///< kg/m^2, by which the layer loads the machine
-    std::optional<double> added_mass_fraction;        ///< added mass over the mass of the layer
-    std::optional<double> damping_per_area;           ///< kg/(s m^2), by which the layer damps the machine
-    std::optional<double> efficiency_theory;          ///< none when the point mass has no mean speed
-    std::optional<double> efficiency_rolling_layer;   ///< none outside the tested range of that law
-    std::optional<std::string> mode_theory;           ///< phases of that point mass in order
-    std::optional<std::string> mode_layer;            ///< phases of the layer as a whole in order
+    std::optional<double> numerical_error;            ///< of efficiency_dem: as studied, else its bound
+    std::optional<std::string>
+        numerical_error_case;                     ///< id of the case that was studied for it; none: a bound
+    std::optional<double> whole_half_width;       ///< of efficiency_dem: statistics and numerics together
+    std::optional<Interval> speed_dem;            ///< efficiency_dem * omega r cos(beta), m/s
+    std::optional<Interval> mass_flow_per_width;  ///< speed_dem times the mass per area, kg/(s m)
+    std::optional<Interval> mass_flow;            ///< of the whole width of the trough, kg/s
+    std::optional<double> power_per_area;         ///< W/m^2, of the trough on the layer
+    std::optional<double> added_mass_per_area;    ///< kg/m^2, by which the layer loads the machine
+    std::optional<double> added_mass_fraction;    ///< added mass over the mass of the layer
+    std::optional<double> damping_per_area;       ///< kg/(s m^2), by which the layer damps the machine
+    std::optional<double> efficiency_theory;      ///< none when the point mass has no mean speed
+    std::optional<double> efficiency_rolling_layer;    ///< none outside the tested range of that law
+    std::optional<std::string> mode_theory;            ///< phases of that point mass in order
+    std::optional<std::string> mode_layer;             ///< phases of the layer as a whole in order
     std::optional<double> efficiency_by_normal_force;  ///< of a point mass under the layer's own normal force
     std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
     std::optional<double> friction_layer;           ///< of the layer as a whole, from a friction test
@@ -56,13 +60,14 @@ struct Row {
     std::optional<int> cycles_discarded;            ///< as start-up, all packings together
     std::optional<double> wall_s;                   ///< wall time of the engine, all packings together, s
     std::string outcome;                            ///< how the case ended, or what it waits for
-    std::optional<double> numerical_error;          ///< of efficiency_dem, when a study has measured it
-    std::optional<std::string> numerical_error_case;  ///< id of the case that was studied for it
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
     std::optional<std::string> soft = {};         ///< "soft" when the grains are too soft for the layer
 };
+
+/// Whether the numerical error of a row is a bound that is known beforehand, and not one that was studied.
+bool is_bound(Row const& row);
 
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.
 bool is_borrowed(Row const& row);
@@ -84,7 +89,7 @@ Row drive_row(std::string const& id, prepare::PreparedCase const& prepared);
 /// Compares one case with the theory.
 /// @param id        of the case
 /// @param prepared  its drive and the inputs of the theory
-/// @param record    the case's result, when it has one
+/// @param record    the case's result, when it has one, with the study of its numerical error
 /// @param outcome   the state of a case without a result, e.g. "lost-grains" or "open"
 /// @param friction  of the layer, when a friction test has measured it
 Row compare(std::string const& id, prepare::PreparedCase const& prepared,

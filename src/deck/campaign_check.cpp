@@ -64,7 +64,7 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
         total.least_modulus = total.cases == 1 ? modulus : std::min(total.least_modulus, modulus);
         total.most_modulus = std::max(total.most_modulus, modulus);
         if (prepared.modulus_chosen) ++total.moduli_chosen;
-        double const packings = expected_packings(scenario.measure);
+        double const packings = expected_packings(prepared.scenario);
         total.work += packings * expected_work(prepared);
         total.largest_step_cost = std::max(total.largest_step_cost, prepared.step_cost());
         total.bytes += expected_bytes(prepared);

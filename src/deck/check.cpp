@@ -1,7 +1,6 @@
 #include "deck/check.hpp"
 
 #include "deck/estimates.hpp"
-#include "deck/known_errors.hpp"
 #include "prepare/softness.hpp"
 
 #include <algorithm>
@@ -162,43 +161,33 @@ void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
                              "use more grains, because these do not form a layer"));
 }
 
-/// The error that a study found with a setting no worse than this one, against the half-width asked for.
-Finding known_error(std::string item, std::string key, std::span<KnownError const> errors, double measure,
-                    double wanted, std::string const& cure) {
-    auto const known = largest_known_error(errors, measure);
-    std::string const advice =
-        known ? fmt::format(
-                    "validation/convergence found {:+.3f} +- {:.3f} at {}; {}, or measure it with "
-                    "'vibrotrough convergence'",
-                    known->error, known->half_width, known->at, cure)
-              : cure;
-    return most("error of eta known from " + item, std::move(key), known ? std::abs(known->error) : 0, wanted,
-                never, advice);
-}
-
 /// Grains that are too soft slow a deep layer down (validation/deep_layers). An error when
 /// prepare::is_soft().
 void check_softness(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     double const wanted = c.scenario.measure.half_width;
     std::string const advice = fmt::format(
         "leave out grains.youngs_modulus, so that it is chosen, or write at least {:.3g} MPa: a landing "
-        "takes "
-        "{:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
-        prepare::stiff_enough(c, wanted / 2) / 1e6,
-        prepare::wave_number(c, *c.scenario.grains.youngs_modulus) * 180 / std::numbers::pi);
+        "takes {:.2g} degrees of the cycle to cross the layer (validation/deep_layers)",
+        prepare::stiff_enough(c.scenario, wanted / 2) / 1e6,
+        prepare::wave_number(c.scenario, *c.scenario.grains.youngs_modulus) * 180 / std::numbers::pi);
     findings.push_back(most("bound of the error of eta by soft grains", "grains.youngs_modulus",
-                            c.softness_error, wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
+                            c.numerics.softness, wanted / 2 * (1 + 1e-9), 2 * wanted, advice));
 }
 
-/// What validation/convergence found in its layer is taken for this one, by the size of the box in diameters.
-void check_known_errors(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
-    scenario::Scenario const& s = c.scenario;
-    double const diameter = s.grains.diameter, wanted = s.measure.half_width;
-    findings.push_back(known_error("boxes as short", "layer.length", known_length_errors(),
-                                   diameter / s.layer.length, wanted, "lengthen the box"));
-    if (s.trough.side_wall_friction) return;  // the width is part of the problem
-    findings.push_back(known_error("boxes as narrow", "layer.width", known_width_errors(),
-                                   diameter / s.layer.width, wanted, "widen the box"));
+/// All numerical errors together must leave something of the interval to statistics. The cure is named for
+/// the larger part.
+void check_numerics(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    prepare::NumericalErrors const& numerics = c.numerics;
+    double const wanted = c.scenario.measure.half_width;
+    bool const is_box = numerics.box >= numerics.softness;
+    std::string const advice = fmt::format(
+        "the case will end as not-precise: {}, or allow a half-width of {:.2g} (validation/whole_interval); "
+        "'vibrotrough convergence' measures these errors",
+        is_box ? "lengthen and widen the box" : "stiffen the grains",
+        numerics.total() / prepare::largest_numerical_share);
+    findings.push_back(most("bound of all numerical errors of eta",
+                            is_box ? "layer.length" : "grains.youngs_modulus", numerics.total(),
+                            prepare::largest_numerical_share * wanted * (1 + 1e-9), never, advice));
 }
 
 /// In some codes small grains get caught between much larger ones (engine/three_grains.hpp).
@@ -270,7 +259,7 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     if (!is_block(prepared.scenario)) {
         check_box(findings, prepared);
         check_softness(findings, prepared);
-        check_known_errors(findings, prepared);
+        check_numerics(findings, prepared);
         check_sizes(findings, prepared);
     }
     check_stroke(findings, prepared);

@@ -96,15 +96,26 @@ double steps_between_rebuilds(prepare::PreparedCase const& c, double speed) {
     return skin_in_diameters * s.grains.diameter / 2 / (speed * c.time.time_step);
 }
 
-int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience) {
+double trusted_half_width(int packings, scenario::MeasurementPlan const& statistics, double whole) {
+    constexpr int trusted_packings = 6;
+    constexpr double share_for_few = 0.5;
+    bool const are_few = packings > 1 && packings < std::min(trusted_packings, statistics.max_packings);
+    return are_few ? std::min(share_for_few * whole, statistics.half_width) : statistics.half_width;
+}
+
+int expected_packings(scenario::Scenario const& scenario, Experience const& experience) {
+    return expected_packings(prepare::statistics_plan(scenario), scenario.measure.half_width, experience);
+}
+
+int expected_packings(scenario::MeasurementPlan const& plan, double whole, Experience const& experience) {
     if (plan.max_packings == 1) return 1;
     double const level = 1 - 0.5 * (1 - plan.confidence);  // see measure/case_estimate.hpp
     int packings = plan.packings + plan.packings % 2;
     for (; packings < plan.max_packings; ++packings) {
         boost::math::students_t const distribution(packings - 1);
         double const quantile = boost::math::quantile(distribution, 0.5 + level / 2);
-        double const share = packings < 6 ? 0.5 : 1;  // see campaign/schedule/until_precise.hpp
-        if (quantile * experience.deviation <= share * plan.half_width * std::sqrt(packings)) break;
+        double const enough = trusted_half_width(packings, plan, whole);
+        if (quantile * experience.deviation <= enough * std::sqrt(packings)) break;
     }
     return std::min(packings, plan.max_packings);
 }
@@ -134,8 +145,7 @@ double expected_work(prepare::PreparedCase const& c, Experience const& experienc
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {
-    scenario::MeasurementPlan const& plan = c.scenario.measure;
-    return bytes_of(c, expected_packings(plan), expected_cycles(c.scenario));
+    return bytes_of(c, expected_packings(c.scenario), expected_cycles(c.scenario));
 }
 
 double largest_bytes(prepare::PreparedCase const& c) {

@@ -70,8 +70,21 @@ bool may_start_moving(scenario::Scenario const& scenario);
 int first_round_cycles(scenario::Scenario const& scenario);
 
 /// The number of packings that a case will probably have: as many as make Student's interval as narrow as
-/// measure.half_width asks, from measure.packings to measure.max_packings.
-int expected_packings(scenario::MeasurementPlan const& plan, Experience const& experience = {});
+/// measure.half_width and the numerical errors ask, from measure.packings to measure.max_packings. The case's
+/// Young's modulus must be known.
+int expected_packings(scenario::Scenario const& scenario, Experience const& experience = {});
+
+/// The same for any half-width wanted.
+/// @param statistics  prepare::statistics_plan() for it
+/// @param whole       the half-width wanted of statistics and numerics together
+int expected_packings(scenario::MeasurementPlan const& statistics, double whole,
+                      Experience const& experience = {});
+
+/// The half-width of statistics with which a case may end that has so many packings, of which it may have
+/// more. Fewer than six can agree by chance more often than their interval says, when their offsets are
+/// skewed or they all are in one of two branches; they count only when it is at most half of the whole that
+/// is wanted.
+double trusted_half_width(int packings, scenario::MeasurementPlan const& statistics, double whole);
 
 /// Number of cycles that one packing will take, at most max_cycles.
 double expected_cycles(scenario::Scenario const& scenario, Experience const& experience = {});

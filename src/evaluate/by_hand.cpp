@@ -223,9 +223,8 @@ HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
         std::span const all(packing.efficiency);
         values.push_back({all.first(static_cast<std::size_t>(run.cycles_used)), start_of(packing.number)});
     }
-    scenario::MeasurementPlan const& plan = run.prepared.scenario.measure;
-    run.estimate = measure::estimate_case(values, {plan.confidence, plan.half_width});
-    run.outcome = outcome_of(run.estimate, plan.half_width);
+    run.estimate = measure::estimate_case(values, wanted_statistics(run.prepared.scenario));
+    run.outcome = outcome_of(run.estimate, run.prepared.scenario);
     for (HandPacking const& packing : run.packings) {
         if (!packing.fault) continue;
         run.outcome = *packing.fault;

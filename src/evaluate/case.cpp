@@ -13,11 +13,28 @@ measure::Start start_of(int packing) {
     return packing % 2 == 1 ? measure::Start::below : measure::Start::above;
 }
 
-core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_width) {
+namespace {
+
+core::Outcome outcome_by(measure::CaseEstimate const& estimate, bool is_precise) {
     if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
     if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
-    bool const is_precise = estimate.half_width && *estimate.half_width <= half_width;
     return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
+}
+
+}  // namespace
+
+core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario) {
+    constexpr double rounding = 1 + 1e-12;  // the policy ends a case by the squares of the same numbers
+    double const wanted = rounding * scenario.measure.half_width;
+    bool const is_precise =
+        estimate.half_width &&
+        prepare::whole_half_width(*estimate.half_width, prepare::numerical_errors(scenario)) <= wanted;
+    return outcome_by(estimate, is_precise);
+}
+
+measure::Precision wanted_statistics(scenario::Scenario const& scenario) {
+    scenario::MeasurementPlan const plan = prepare::statistics_plan(scenario);
+    return {plan.confidence, plan.half_width};
 }
 
 namespace {
@@ -37,8 +54,7 @@ store::Provenance provenance_of(EvaluatedPackings const& packings, std::string c
 
 /// The estimate of the case, and of its packings with the start-up that they have in common.
 void add_estimate(store::CaseRecord& record) {
-    scenario::MeasurementPlan const& plan = record.scenario.measure;
-    measure::Precision const wanted{plan.confidence, plan.half_width};
+    measure::Precision const wanted = wanted_statistics(record.scenario);
     std::vector<measure::PackingValues> values;
     for (store::PackingRecord const& packing : record.packings)
         values.push_back({packing.efficiency, start_of(static_cast<int>(values.size()) + 1)});
@@ -47,7 +63,7 @@ void add_estimate(store::CaseRecord& record) {
         packing.estimate =
             measure::estimate_packing_after(record.estimate.discarded, packing.efficiency, wanted);
     }
-    record.outcome = outcome_of(record.estimate, plan.half_width);
+    record.outcome = outcome_of(record.estimate, record.scenario);
     if (has_mean(record.outcome)) return;
     // No mean is reported unless the case is steady; the cycles stay in the record.
     record.estimate.mean.reset();
@@ -58,7 +74,9 @@ void add_estimate(store::CaseRecord& record) {
 
 void correct_outcome(store::CaseRecord& record) {
     if (record.outcome != core::Outcome::finished) return;
-    record.outcome = outcome_of(record.estimate, record.scenario.measure.half_width);
+    bool const is_precise =
+        record.estimate.half_width && *record.estimate.half_width <= record.scenario.measure.half_width;
+    record.outcome = outcome_by(record.estimate, is_precise);
     if (record.outcome == core::Outcome::finished || record.estimate.deviation) return;
     // Version 0.1 did not store the deviation of a packing, from which the packings needed follow.
     double sum = 0, squares = 0;
@@ -78,9 +96,18 @@ std::string in_words(std::optional<measure::Branch> const& branch) {
     return fmt::format("{:.3f} +- {:.3f}", branch->mean, *branch->half_width);
 }
 
+std::string what_numerics_would_take(scenario::Scenario const& s) {
+    prepare::NumericalErrors const numerics = prepare::numerical_errors(s);
+    return fmt::format(
+        "the numerical errors alone may be {:.3f} (soft grains {:.3f}, box {:.3f}, time step {:.3f}), which "
+        "is "
+        "too much for a half-width of {:g}: more packings do not help, but stiffer grains or a larger box do",
+        numerics.total(), numerics.softness, numerics.box, numerics.time_step, s.measure.half_width);
+}
+
 std::string what_it_would_take(store::CaseRecord const& record) {
-    scenario::MeasurementPlan const& plan = record.scenario.measure;
-    auto const needed = measure::packings_needed(record.estimate, {plan.confidence, plan.half_width});
+    if (!prepare::can_be_finished(record.scenario)) return what_numerics_would_take(record.scenario);
+    auto const needed = measure::packings_needed(record.estimate, wanted_statistics(record.scenario));
     auto const packings = static_cast<int>(record.packings.size());
     if (!needed || *needed <= packings) return "needs longer or more packings";
     double core_time = 0;

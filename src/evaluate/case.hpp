@@ -11,9 +11,12 @@ namespace vibrotrough::evaluate {
 /// The group of a packing: odd numbers start below the expected speed, even numbers above it.
 measure::Start start_of(int packing);
 
-/// What an estimate makes of a case: finished only when it is steady and its interval is as narrow as wanted.
-/// @param half_width  wanted of the interval
-core::Outcome outcome_of(measure::CaseEstimate const& estimate, double half_width);
+/// What an estimate makes of a case: finished only when it is steady and its interval of statistics and
+/// numerics together is as narrow as measure.half_width asks.
+core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario);
+
+/// The precision wanted of the packings' statistics, see prepare::statistics_plan().
+measure::Precision wanted_statistics(scenario::Scenario const& scenario);
 
 /// Corrects the outcome of a result of version 0.1, which called a case finished when each of its packings
 /// was precise, however much they differed.

@@ -248,7 +248,7 @@ height = "{:.4g} mm"
 
 [measure]
 packings = 4
-half_width = 0.03
+half_width = 0.05
 
 [sweep]
 "trough.friction" = [{}]

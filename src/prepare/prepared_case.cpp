@@ -66,8 +66,8 @@ void prepare_modulus(PreparedCase& c) {
     std::optional<double>& modulus = c.scenario.grains.youngs_modulus;
     c.modulus_chosen = !modulus;
     if (!modulus)
-        modulus = block ? modulus_of_blocks : stiff_enough(c, share * c.scenario.measure.half_width);
-    c.softness_error = block ? 0 : softness_bound(c, *modulus);
+        modulus = block ? modulus_of_blocks : stiff_enough(c.scenario, share * c.scenario.measure.half_width);
+    c.numerics = numerical_errors(c.scenario);
 }
 
 void prepare_filling(PreparedCase& c) {

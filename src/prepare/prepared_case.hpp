@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prepare/clump.hpp"
+#include "prepare/numerical_errors.hpp"
 #include "prepare/point_mass.hpp"
 #include "prepare/time_grid.hpp"
 #include "scenario/model/scenario.hpp"
@@ -39,8 +40,8 @@ struct PreparedCase {
     double largest_extent;               ///< m, largest diameter of the spheres that enclose the grains
 
     // Stiffness. Where the campaign file gives no modulus, the scenario above holds the one that was chosen.
-    bool modulus_chosen;    ///< whether Young's modulus was chosen here
-    double softness_error;  ///< bound of the error of the efficiency that the grains' softness causes
+    bool modulus_chosen;       ///< whether Young's modulus was chosen here
+    NumericalErrors numerics;  ///< bounds of the errors of the efficiency by softness, box and time step
 
     // Time.
     TimeGrid time;            ///< of the run with the moving trough

@@ -16,29 +16,32 @@ constexpr double largest_of_key = 1e12;  // scenario/reader/keys.cpp
 
 }  // namespace
 
-double wave_number(PreparedCase const& c, double modulus) {
-    scenario::Scenario const& s = c.scenario;
+double wave_number(scenario::Scenario const& s, double modulus) {
     scenario::Grains grains = s.grains;
     grains.youngs_modulus = modulus;
+    double const depth = layer_height(s);
     double const gravity = scenario::gravity * std::cos(s.trough.inclination);
-    double const pressure = scenario::settled_solid_fraction * grains.density * c.layer_height * gravity *
-                            (1 + c.throw_number) / 2;
+    double const pressure = scenario::settled_solid_fraction * grains.density * depth * gravity *
+                            (1 + throw_number(s.trough)) / 2;
     double const wave =
         std::cbrt(effective_modulus(grains) / grains.density) * std::pow(pressure / grains.density, 1.0 / 6);
-    return c.angular_frequency * c.layer_height / wave;
+    return angular_frequency(s.trough) * depth / wave;
 }
 
-double softness_bound(PreparedCase const& c, double modulus) {
-    return factor_of_bound * std::pow(wave_number(c, modulus), 2);
+double softness_bound(scenario::Scenario const& s, double modulus) {
+    return factor_of_bound * std::pow(wave_number(s, modulus), 2);
 }
 
-bool is_soft(PreparedCase const& c) {
-    return c.softness_error * factor_of_middle / factor_of_bound > c.scenario.measure.half_width / 2;
+bool is_soft(scenario::Scenario const& s) {
+    if (s.layer.block != scenario::Block::none) return false;
+    double const middle =
+        softness_bound(s, s.grains.youngs_modulus.value()) * factor_of_middle / factor_of_bound;
+    return middle > s.measure.half_width / 2;
 }
 
-double stiff_enough(PreparedCase const& c, double error) {
+double stiff_enough(scenario::Scenario const& s, double error) {
     // s goes with E^(-1/3).
-    double const needed = std::pow(wave_number(c, 1) / std::sqrt(error / factor_of_bound), 3);
+    double const needed = std::pow(wave_number(s, 1) / std::sqrt(error / factor_of_bound), 3);
     constexpr double rounding = 1 - 1e-12;
     for (double decade = 1e6; decade < largest_of_key; decade *= 10) {
         for (double const step : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {

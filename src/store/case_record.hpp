@@ -47,6 +47,12 @@ struct Provenance {
     std::string finished;            ///< ISO 8601, UTC
 };
 
+/// The numerical error of a case's velocity efficiency that a study has measured ('vibrotrough convergence').
+struct CaseNumerics {
+    double error;         ///< default settings against their limits, >= 0
+    std::string case_id;  ///< of the case at which it was measured: the case itself, or its nearest
+};
+
 /// A finished case: everything that result.h5 holds.
 struct CaseRecord {
     std::string id;                       ///< of the case
@@ -57,6 +63,16 @@ struct CaseRecord {
     std::vector<PackingRecord> packings;  ///< in the order of their numbers
     Provenance provenance;                ///< of the result
     std::string layer_mode;               ///< of most packings, see measure::LayerMotion
+    std::optional<CaseNumerics> studied =
+        {};  ///< in place of the bounds of the numerical errors; not in result.h5
+
+    /// The numerical error of the velocity efficiency: the one that was studied, else the bound that is known
+    /// beforehand (prepare::numerical_errors). None when there is no mean.
+    std::optional<double> numerical_error() const;
+
+    /// The half-width of the velocity efficiency for statistics and numerics together. None when one of them
+    /// is unknown or unbounded.
+    std::optional<double> whole_half_width() const;
 };
 
 }  // namespace vibrotrough::store

@@ -259,7 +259,6 @@ Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases)
 }  // namespace
 
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           std::map<std::string, CaseNumerics> const& numerics,
                            scenario::SweptKeys const& swept) {
     Hdf5MemoryFileWriter file;
     file.attribute("format", campaign_format);
@@ -274,14 +273,6 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
     for (CaseValue const& value : case_values()) put(value.entry, stored_values(value, cases));
-    put(numerical_error_entry(), stored_values(cases, [&](CaseRecord const& one) {
-            auto const known = numerics.find(one.id);
-            return known == numerics.end() ? std::nullopt : std::optional(known->second.error);
-        }));
-    put(numerical_error_case_entry(), stored_values(cases, [&](CaseRecord const& one) {
-            auto const known = numerics.find(one.id);
-            return known == numerics.end() ? std::string() : known->second.case_id;
-        }));
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     return file.bytes();
 }
@@ -307,9 +298,8 @@ CaseRecord read_result(std::filesystem::path const& path) {
 }
 
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases, std::map<std::string, CaseNumerics> const& numerics,
-                    scenario::SweptKeys const& swept) {
-    core::write_file_atomically(path, campaign_bytes(campaign, cases, numerics, swept));
+                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept) {
+    core::write_file_atomically(path, campaign_bytes(campaign, cases, swept));
 }
 
 CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept) {

@@ -4,7 +4,6 @@
 #include "store/case_record.hpp"
 
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,26 +24,16 @@ void write_result(std::filesystem::path const& path, CaseRecord const& record);
 /// @throws core::InputError naming the file when it is damaged, is not a result file, or has another schema
 CaseRecord read_result(std::filesystem::path const& path);
 
-/// The numerical error of a case's velocity efficiency.
-struct CaseNumerics {
-    double error;         ///< default settings against their limits, >= 0
-    std::string case_id;  ///< of the case at which it was measured: the case itself, or its nearest
-};
-
 /// The bytes of campaign.h5: one dataset per column, with one value for each case in the order given. The
 /// same cases make the same bytes, so that a file holds these cases exactly if its bytes are these.
-/// @param swept     keys that differ between the cases, each of which becomes a dataset swept/KEY
-/// @param numerics  by case id; cases without one have an unknown numerical error
+/// @param swept  keys that differ between the cases, each of which becomes a dataset swept/KEY
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           std::map<std::string, CaseNumerics> const& numerics = {},
                            scenario::SweptKeys const& swept = {});
 
 /// Writes campaign.h5 atomically, with campaign_bytes().
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases,
-                    std::map<std::string, CaseNumerics> const& numerics = {},
-                    scenario::SweptKeys const& swept = {});
+                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept = {});
 
 /// Whether a campaign.h5 is what this program would write, as far as the cases do not matter.
 enum class CampaignFit {

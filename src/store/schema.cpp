@@ -1,5 +1,7 @@
 #include "store/schema.hpp"
 
+#include "prepare/numerical_errors.hpp"
+#include "prepare/softness.hpp"
 #include "store/hdf5_memory_file.hpp"
 #include "store/layer_schema.hpp"
 
@@ -75,6 +77,12 @@ std::optional<double> half_width(Case record) {
     return estimate.half_width;
 }
 
+/// The same for statistics and numerics together.
+std::optional<double> whole_half_width(Case record) {
+    if (record.estimate.mean && !record.estimate.half_width) return std::numeric_limits<double>::infinity();
+    return record.whole_half_width();
+}
+
 /// Velocity efficiency times the velocity scale.
 std::optional<double> speed(Case record, std::optional<double> const& efficiency) {
     if (!efficiency) return {};
@@ -119,19 +127,41 @@ std::vector<CaseValue> drive_and_result_values() {
           "runs "
           "and between packings; NaN unless outcome is finished or not-precise"},
          Real(half_width)},
+        {{"efficiency_numerical_error", "1",
+          "Numerical error of efficiency, by softness of the grains, box and time step: as 'vibrotrough "
+          "convergence' measured it, else its bound at 95 % (validation/whole_interval)"},
+         real([](Case c) { return c.numerical_error(); })},
+        {{"numerical_error_case", "1",
+          "Case that efficiency_numerical_error was measured at: this one, or the nearest that was studied; "
+          "empty for a bound"},
+         Text([](Case c) { return c.studied ? c.studied->case_id : std::string(); })},
+        {{"efficiency_whole_half_width", "1",
+          "Half-width of efficiency for statistics and numerics together: the root of the sum of the squares "
+          "of efficiency_half_width and efficiency_numerical_error"},
+         Real(whole_half_width)},
+        {{"softness_error", "1", "Bound of the error of efficiency by soft grains"},
+         real([](Case c) { return prepare::numerical_errors(c.scenario).softness; })},
+        {{"box_error", "1", "Bound of the error of efficiency by the size of the periodic box"},
+         real([](Case c) { return prepare::numerical_errors(c.scenario).box; })},
+        {{"time_step_error", "1", "Bound of the error of efficiency by the time step"},
+         real([](Case c) { return prepare::numerical_errors(c.scenario).time_step; })},
+        {{"soft", "1",
+          "1 when the grains are too soft for the depth and the drive of the layer, so that efficiency is "
+          "probably wrong by more than half of half_width_wanted; else 0"},
+         Integer([](Case c) { return prepare::is_soft(c.scenario) ? 1 : 0; })},
         {{"confidence", "1", "Confidence of every interval in this file"},
          real([](Case c) { return c.scenario.measure.confidence; })},
         {{"speed", "m/s", "Conveying speed along the trough: efficiency times velocity_scale"},
          real([](Case c) { return speed(c, c.estimate.mean); })},
-        {{"speed_half_width", "m/s", "Half-width of the confidence interval of speed"},
-         real([](Case c) { return speed(c, half_width(c)); })},
+        {{"speed_half_width", "m/s", "Half-width of speed, for statistics and numerics together"},
+         real([](Case c) { return speed(c, whole_half_width(c)); })},
         {{"mass_per_area", "kg/m2", "Mass of the layer per area of trough"},
          real([](Case c) { return mass_per_area(c.scenario); })},
         {{"mass_flow_per_width", "kg s-1 m-1", "Mass flow per width of trough: speed times mass_per_area"},
          real([](Case c) { return mass_flow(c, c.estimate.mean); })},
         {{"mass_flow_per_width_half_width", "kg s-1 m-1",
-          "Half-width of the confidence interval of mass_flow_per_width"},
-         real([](Case c) { return mass_flow(c, half_width(c)); })},
+          "Half-width of mass_flow_per_width, for statistics and numerics together"},
+         real([](Case c) { return mass_flow(c, whole_half_width(c)); })},
         {{"trough_width", "m",
           "Width of the real trough, as given or between the side walls; NaN when it is not known"},
          real([](Case c) { return trough_width(c.scenario); })},
@@ -348,20 +378,6 @@ measure::MassFlow mass_flow_of(CaseRecord const& record) {
 
 Entry scenario_entry() {
     return {"scenario", "1", "The scenario as a campaign file of one case (TOML, SI units)"};
-}
-
-Entry numerical_error_entry() {
-    return {
-        "efficiency_numerical_error", "1",
-        "Numerical error of efficiency by 'vibrotrough convergence': how far Young's modulus, time step and "
-        "box are from their limits; NaN when it is not known"};
-}
-
-Entry numerical_error_case_entry() {
-    return {
-        "numerical_error_case", "1",
-        "Case that efficiency_numerical_error was measured at: this one, or the nearest that was studied; "
-        "empty when it is not known"};
 }
 
 Entry swept_entry(scenario::Key const& key) {

@@ -149,13 +149,6 @@ Entry certificate_entry();
 /// The files that the scenario names, as a JSON object of names and contents, dataset `scenario_files`.
 Entry scenario_files_entry();
 
-/// The numerical error of a case, a column of campaign.h5. It is not in result.h5, because it is measured
-/// apart from the case and may be borrowed from another.
-Entry numerical_error_entry();
-
-/// The case that the numerical error was measured at, a column of campaign.h5.
-Entry numerical_error_case_entry();
-
 /// The values of a swept key, a dataset `swept/<key>` of campaign.h5. Angles are in rad.
 Entry swept_entry(scenario::Key const& key);
 

@@ -142,6 +142,7 @@ class FabricatedPackings : public CampaignFolder {
   protected:
     SimulatedEnd run(Row const& row, unsigned set) const {
         prepare::PreparedCase prepared = *planned.prepared;
+        remove_numerical_errors(prepared.scenario);
         prepared.scenario.measure = {row.limits.packings,     0.95, row.half_width, row.limits.max_cycles,
                                      row.limits.max_packings, {}};
         PlannedCase asked = planned;

@@ -58,6 +58,7 @@ class ReferenceTest : public CampaignFolder {
   protected:
     PlannedCase asking(double half_width) {
         prepare::PreparedCase prepared = *planned.prepared;
+        remove_numerical_errors(prepared.scenario);
         prepared.scenario.measure = {4, 0.95, half_width, 144, 24, {}};
         PlannedCase changed = planned;
         changed.prepared = std::make_shared<prepare::PreparedCase const>(prepared);

@@ -15,6 +15,7 @@ class UntilPreciseTest : public CampaignFolder {
   protected:
     PlannedCase asking(double half_width, int packings = 4, int max_packings = 24, int max_cycles = 192) {
         prepare::PreparedCase prepared = *planned.prepared;
+        remove_numerical_errors(prepared.scenario);
         prepared.scenario.measure = {packings, 0.95, half_width, max_cycles, max_packings, {}};
         PlannedCase changed = planned;
         changed.prepared = std::make_shared<prepare::PreparedCase const>(prepared);

@@ -118,8 +118,9 @@ TEST(Compare, KnowsMassFlowPowerAndReaction) {
     double const mass = mass_per_area(record.scenario) * area;
     EXPECT_NEAR(mass, prepared.mass, 0.005 * mass) << "the sizes of 500 grains are rounded to whole numbers";
     EXPECT_NEAR(row.mass_flow_per_width.value().mean, speed * mass / area, 1e-12);
-    EXPECT_NEAR(row.mass_flow_per_width->half_width.value() / row.mass_flow_per_width->mean, 0.127 / 0.82,
-                1e-12);
+    double const half_width = std::hypot(0.127, prepared.numerics.total());
+    EXPECT_NEAR(row.mass_flow_per_width->half_width.value() / row.mass_flow_per_width->mean,
+                half_width / 0.82, 1e-12);
     EXPECT_FALSE(row.mass_flow) << "a layer that is periodic across is a piece of a trough of any width";
     EXPECT_NEAR(row.power_per_area.value(), 0.05 / area, 1e-9);
     EXPECT_NEAR(row.added_mass_per_area.value(), 0.0025 / area, 1e-12);
@@ -175,12 +176,31 @@ TEST(Compare, MakesNoNumberOfAnIntervalWithoutEnd) {
     EXPECT_FALSE(row.efficiency_dem_half_width);
 }
 
+// A study takes the place of the bounds, and the whole is the root of the sum of squares.
+TEST(Compare, TakesTheStudiedErrorInPlaceOfItsBound) {
+    auto const prepared = prepare::prepare_case(record.scenario);
+    Row const bound = compare("0123456789ab", prepared, record, "");
+    EXPECT_EQ(bound.numerical_error, prepared.numerics.total());
+    EXPECT_TRUE(is_bound(bound));
+    EXPECT_NEAR(bound.whole_half_width.value(), std::hypot(0.127, prepared.numerics.total()), 1e-15);
+    store::CaseRecord studied = record;
+    studied.studied = {0.034, "ba9876543210"};
+    Row const measured = compare("0123456789ab", prepared, studied, "");
+    EXPECT_EQ(measured.numerical_error, 0.034);
+    EXPECT_EQ(measured.numerical_error_case, "ba9876543210");
+    EXPECT_FALSE(is_bound(measured));
+    EXPECT_NEAR(measured.whole_half_width.value(), std::hypot(0.127, 0.034), 1e-15);
+    EXPECT_NEAR(measured.speed_dem->half_width.value() / measured.speed_dem->mean,
+                std::hypot(0.127, 0.034) / 0.82, 1e-12);
+}
+
 // The larger of the two errors is named, and neither when one of them is not known.
 TEST(Compare, SaysWhichErrorIsLarger) {
     Row row = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
-    EXPECT_FALSE(row.numerical_error);
-    EXPECT_FALSE(larger_error(row)) << "unknown is not zero";
+    EXPECT_EQ(larger_error(row), "statistical") << "the bound is below 0.06";
     EXPECT_FALSE(is_borrowed(row));
+    row.numerical_error.reset();
+    EXPECT_FALSE(larger_error(row)) << "unknown is not zero";
     row.numerical_error = 0.126;  // the sample's half-width is 0.127
     row.numerical_error_case = "0123456789ab";
     EXPECT_EQ(larger_error(row), "statistical");

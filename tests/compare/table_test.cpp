@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,7 @@ std::vector<std::string> const contract{"case",
                                         "turns_per_minute",
                                         "efficiency_dem",
                                         "efficiency_dem_half_width",
+                                        "efficiency_dem_whole_half_width",
                                         "speed_dem_m_per_s",
                                         "speed_dem_half_width_m_per_s",
                                         "mass_flow_t_per_h",
@@ -228,7 +230,8 @@ TEST(Table, IsAligned) {
 TEST(Table, ShowsTheMeasurementBesideTheTheory) {
     auto const rows = some_rows();
     std::string const line = lines_of(to_table(rows))[2];
-    EXPECT_NE(line.find("0.820 +- 0.127"), std::string::npos) << line;
+    std::string const whole = fmt::format("0.820 +- {:.3f}", rows[0].whole_half_width.value());
+    EXPECT_NE(line.find(whole), std::string::npos) << line;
     EXPECT_NE(line.find("  30.00  "), std::string::npos) << line;
     EXPECT_NE(line.find(rows[0].mode_theory.value()), std::string::npos) << line;
     EXPECT_NE(line.find("2+2"), std::string::npos) << line;
@@ -261,7 +264,7 @@ TEST(Table, LeavesOutTheLeastTellingColumnsAndSaysSo) {
 
 TEST(Table, ColoursSignAndSizeOfTheDifference) {
     Row row = some_rows()[0];
-    row.efficiency_dem_half_width = 0.02;
+    row.whole_half_width = 0.02;
     row.efficiency_theory = 0.5;
     auto const line = [&](double dem) {
         row.efficiency_dem = dem;
@@ -294,14 +297,18 @@ TEST(Table, ShowsBothErrorsInTheBudget) {
     borrowed.numerical_error_case = "ba9876543210";
     Row unknown = own;
     unknown.numerical_error.reset();
-    std::string const budget = to_table({own, borrowed, unknown}, {}, budget_columns());
+    unknown.whole_half_width.reset();
+    Row bound = compare("0123456789ab", prepare::prepare_case(record.scenario), record, "");
+    bound.numerical_error = 0.055;
+    std::string const budget = to_table({own, borrowed, unknown, bound}, {}, budget_columns());
+    EXPECT_NE(budget.find("0.820 +- 0.127 +- <0.055"), std::string::npos) << budget;
     EXPECT_NE(budget.find("0.820 +- 0.127 +- 0.034 "), std::string::npos) << budget;
     EXPECT_NE(budget.find("0.820 +- 0.127 +- 0.200*"), std::string::npos) << budget;
     EXPECT_EQ(budget.find("+- -"), std::string::npos) << budget;
     EXPECT_NE(budget.find("  numerical  "), std::string::npos) << budget;
     EXPECT_NE(budget.find("  statistical  "), std::string::npos) << budget;
     std::string const table = to_table({own, borrowed}, {});
-    EXPECT_EQ(table.find("0.034"), std::string::npos) << "the plain table is as it was";
+    EXPECT_EQ(table.find("0.034"), std::string::npos) << "the plain table has both errors together";
     EXPECT_EQ(table.find("numerical"), std::string::npos);
 }
 

@@ -16,10 +16,10 @@ KINDS = ("pellets", "paper", "rotation", "design")
 # The same campaign with one case, few grains and a wide interval: seconds instead of minutes.
 SHORTER = {
     '["750 rpm", "850 rpm", "950 rpm"]': '["850 rpm"]',
-    'length = "24 mm"': 'length = "15 mm"',
+    'length = "30 mm"': 'length = "15 mm"',
     'height = "12 mm"': 'height = "8 mm"',
     "packings = 4": "packings = 2",
-    "half_width = 0.04": "half_width = 1.0",
+    "half_width = 0.05": "half_width = 1.0",
 }
 
 

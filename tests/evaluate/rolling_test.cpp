@@ -18,6 +18,8 @@ using testing::HasSubstr;
 class MeasuredRolling : public CampaignFolder {
   protected:
     MeasuredRolling() {
+        campaign_text =
+            with("half_width = 0.02", "half_width = 0.08", campaign_text);  // with room for numerics
         campaign_text = with("max_cycles = 200", "max_cycles = 200\nrolling = true", campaign_text);
         plan = make_plan(scenario::parse_campaign(campaign_text, "campaign.toml"), folder, "LIGGGHTS 3.8.0");
         planned = plan.cases.front();

@@ -104,7 +104,7 @@ def check_result_values(file):
         "throw_number": omega**2 * 0.006 * math.sin(0.5) / (9.81 * math.cos(-0.05)),
         "velocity_scale": omega * 0.006 * math.cos(0.5),
         "speed": 0.82 * omega * 0.006 * math.cos(0.5),
-        "speed_half_width": 0.127 * omega * 0.006 * math.cos(0.5),
+        "speed_half_width": case["efficiency_whole_half_width"] * omega * 0.006 * math.cos(0.5),
     }
     for name, value in wanted.items():
         assert math.isclose(case[name], value, rel_tol=1e-14), f"{name}: {case[name]}, wanted {value}"
@@ -153,9 +153,13 @@ def check_campaign_values(file):
     # Gamma goes with the square of the frequency; powers of two are exact in a double.
     assert file["throw_number"][1] == 4 * file["throw_number"][0]
     assert list(file["packings"]) == [2, 2]
-    # The first case has borrowed its numerical error, that of the second is not known.
-    assert file["efficiency_numerical_error"][0] == 0.034 and math.isnan(file["efficiency_numerical_error"][1])
+    # The first case has borrowed its numerical error, that of the second is the bound: the root of the sum of squares.
+    bounds = [np.asarray(file[f"{part}_error"]) for part in ("softness", "box", "time_step")]
+    assert file["efficiency_numerical_error"][0] == 0.034
+    assert math.isclose(file["efficiency_numerical_error"][1], math.sqrt(sum(part[1]**2 for part in bounds)))
     assert list(file["numerical_error_case"].asstr()) == ["fedcba9876543210", ""]
+    for whole, statistics, numerics in zip(file["efficiency_whole_half_width"], file["efficiency_half_width"], file["efficiency_numerical_error"]):
+        assert math.isclose(whole, math.hypot(statistics, numerics))
     # The swept keys, by their names in the campaign file.
     assert file.attrs["swept_keys"] == "trough.frequency grains.rotation"
     assert list(file["swept/trough.frequency"]) == [13.5, 27.0] and file["swept/trough.frequency"].attrs["units"] == "Hz"

@@ -265,7 +265,7 @@ TEST_F(ForeignTable, ColumnsOfAnotherKindAreRefused) {
 // so.
 TEST_F(ResultFile, CampaignTellsWhoWroteItAndForWhichKeys) {
     scenario::SweptKeys const swept{scenario::find_key("grains.friction")};
-    write_campaign(path, "one", {sample_record("0123456789ab")}, {}, swept);
+    write_campaign(path, "one", {sample_record("0123456789ab")}, swept);
     EXPECT_EQ(fit_of_campaign(path, swept), CampaignFit::fits);
     EXPECT_EQ(fit_of_campaign(path, {}), CampaignFit::other_keys);
     EXPECT_EQ(fit_of_campaign(folder / "none.h5", swept), CampaignFit::damaged);

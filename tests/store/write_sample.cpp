@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
         std::filesystem::path const folder = argv[1];
         std::filesystem::create_directories(folder);
         write_result(folder / "result.h5", sample_record());
-        write_campaign(folder / "campaign.h5", "sample",
-                       {sample_record(), sample_record("fedcba9876543210", 27.0)},
-                       {{"0123456789abcdef", {0.034, "fedcba9876543210"}}},
+        CaseRecord studied = sample_record();
+        studied.studied = {0.034, "fedcba9876543210"};
+        write_campaign(folder / "campaign.h5", "sample", {studied, sample_record("fedcba9876543210", 27.0)},
                        {vibrotrough::scenario::find_key("trough.frequency"),
                         vibrotrough::scenario::find_key("grains.rotation")});
         return 0;

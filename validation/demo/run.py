@@ -18,13 +18,13 @@ def main() -> None:
         gamma = float(row["throw_number"])
         theory = run.json("point", "--throw-number", row["throw_number"], "--vibration-angle", row["vibration_angle_deg"] + " deg",
                           "--friction", 1.0 if run.control else row["friction"])["velocity_efficiency"]
-        difference, width = float(row["efficiency_dem"]) - theory, float(row["efficiency_dem_half_width"])
+        difference, width = float(row["efficiency_dem"]) - theory, float(row["efficiency_dem_whole_half_width"])
         if gamma <= 2.0:
             run.between(f"layer less theory, Gamma {gamma} (+- {width:.3f})", difference, 0.1 + width, 0.6,
                         "the gap: a tenth beyond the interval")
         elif gamma >= 2.5:
             run.check(f"layer less theory, Gamma {gamma} (+- {width:.3f})", difference, 0, 0.08,
-                      "defaults are off by up to 0.03 each (validation/convergence)")
+                      "the numerical errors are at most 0.04 together, and the scatter comes on top (validation/whole_interval)")
     run.finish()
 
 

@@ -66,8 +66,8 @@ Json describe(deck::Finding const& finding) {
 Json describe(prepare::PreparedCase const& prepared, int number, Speed const& speed) {
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
-    scenario::MeasurementPlan const& plan = prepared.scenario.measure;
-    double const work = deck::expected_packings(plan) * deck::expected_work(prepared);
+    int const packings = deck::expected_packings(prepared.scenario);
+    double const work = packings * deck::expected_work(prepared);
     scenario::Grains const& grains = prepared.scenario.grains;
     return {{"case", number},
             {"throw_number", prepared.throw_number},
@@ -76,7 +76,11 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
             {"youngs_modulus_pa", grains.youngs_modulus.value()},
             {"youngs_modulus_chosen", prepared.modulus_chosen},
             {"findings", findings},
-            {"expected_packings", deck::expected_packings(plan)},
+            {"numerical_error", prepared.numerics.total()},
+            {"softness_error", prepared.numerics.softness},
+            {"box_error", prepared.numerics.box},
+            {"time_step_error", prepared.numerics.time_step},
+            {"expected_packings", packings},
             {"expected_cycles_per_packing", deck::expected_cycles(prepared.scenario)},
             {"expected_grain_steps", work / prepared.step_cost()},
             {"relative_step_cost", prepared.step_cost()},

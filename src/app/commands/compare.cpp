@@ -51,19 +51,17 @@ compare::TableStyle style_for(std::string const& colour) {
     return style;
 }
 
-/// The table with both errors. @throws core::InputError when no numerical error is known
+/// The table with both errors.
 void print_budget(std::vector<compare::Row> const& rows, std::span<compare::Column const> columns,
                   CompareArguments const& options) {
-    bool const any =
-        std::ranges::any_of(rows, [](auto const& row) { return row.numerical_error.has_value(); });
-    if (!any && !rows.empty()) {
-        throw core::InputError(fmt::format(
-            "the numerical error of no case in {} is known; measure it with 'vibrotrough convergence {}'",
-            options.folder, core::shell_word(options.folder)));
-    }
     fmt::print("{}", compare::to_table(rows, style_for(options.colour), compare::budget_columns(columns)));
     if (std::ranges::any_of(rows, compare::is_borrowed))
         fmt::print("* of the nearest case that was studied, see numerical_error_case in --csv\n");
+    if (std::ranges::any_of(rows, compare::is_bound)) {
+        fmt::print(
+            "< a bound that is known beforehand; 'vibrotrough convergence {}' measures the error of a case\n",
+            core::shell_word(options.folder));
+    }
 }
 
 /// A bundle keeps its results for good, but which cases they belong to follows from the decks of this
@@ -123,8 +121,8 @@ void add_compare(CLI::App& program, int& exit_code) {
         ->excludes(csv);
     command
         ->add_flag("--budget", options->budget,
-                   "Print the table with both errors of the simulation, statistical and numerical, after "
-                   "'vibrotrough convergence'. JSON and CSV always have both")
+                   "Print the table with both errors of the simulation apart, statistical and numerical. "
+                   "JSON and CSV always have both")
         ->excludes(json)
         ->excludes(csv);
     command
@@ -151,7 +149,7 @@ void add_compare(CLI::App& program, int& exit_code) {
 the name that it has in the campaign file; --sort and --filter take these names, too:
 
   eta DEM     velocity efficiency of the simulated layer: its mean velocity relative to the trough
-              over omega r cos(beta), +- the half-width of its confidence interval
+              over omega r cos(beta), +- its half-width for statistics and numerics together
   eta theory  velocity efficiency of a point mass at the friction of a grain on the trough (at mu)
               and, after 'vibrotrough friction-test', at that of the whole layer (at mu layer)
   eta point   velocity efficiency of a point mass with the friction of a grain under the normal
@@ -160,7 +158,7 @@ the name that it has in the campaign file; --sort and --filter take these names,
               is how the grains pass friction on. Both hold to about 0.05.
   difference  eta DEM minus eta theory at mu. In colour: yellow where the layer is faster than the
               theory, cyan where it is slower, bold from 0.1 on, plain within the interval
-  mass flow   of the simulated layer, +- the half-width of its interval: of the whole trough when
+  mass flow   of the simulated layer, +- its half-width, likewise: of the whole trough when
               its width is known (trough.width, or side walls), else per metre of width
   mode        how the theory's point mass and the layer move within a period
 
@@ -168,7 +166,8 @@ The files of a bundle are checked against its checksums first, and one that was 
 unpacked into a private folder below TMPDIR, which is removed again.
 
 With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
-interval, and how far Young's modulus, time step and box are from their limits. A star marks a numerical error that was
+interval of the packings, and how far Young's modulus, box and time step are from their limits. < marks a bound at 95 %
+that is known beforehand. 'vibrotrough convergence' replaces it by the error of the case itself; a star marks one that was
 measured at the nearest case of the campaign and not at this one. 'larger error' says which of the two is larger: more
 cycles do not help where it is the numerical one.
 

@@ -43,6 +43,12 @@ measure::PackingEstimate by_itself(evaluate::HandPacking const& packing,
                                      {plan.confidence, plan.half_width});
 }
 
+/// Of the velocity efficiency, for statistics and numerics together.
+std::optional<double> whole_half_width(evaluate::HandRun const& run) {
+    if (!run.estimate.half_width) return {};
+    return prepare::whole_half_width(*run.estimate.half_width, run.prepared.numerics);
+}
+
 Json describe(evaluate::HandPacking const& packing, scenario::MeasurementPlan const& plan, int used) {
     auto const first = packing.efficiency.begin();
     double const mean = std::accumulate(first, first + used, 0.0) / used;
@@ -75,9 +81,11 @@ void print_json(evaluate::HandRun const& run) {
     Json const json{{"outcome", name_of(run.outcome)},
                     {"efficiency", number(e.mean)},
                     {"efficiency_half_width", number(e.half_width)},
+                    {"efficiency_numerical_error", run.prepared.numerics.total()},
+                    {"efficiency_whole_half_width", number(whole_half_width(run))},
                     {"confidence", run.prepared.scenario.measure.confidence},
                     {"speed_m_per_s", speed(e.mean)},
-                    {"speed_half_width_m_per_s", speed(e.half_width)},
+                    {"speed_half_width_m_per_s", speed(whole_half_width(run))},
                     {"efficiency_theory", number(theory(run))},
                     {"cycles_used", run.cycles_used},
                     {"cycles_discarded", e.discarded},
@@ -118,7 +126,9 @@ void print_text(evaluate::HandRun const& run) {
     std::string const interval =
         !e.mean ? "unknown"
         : e.half_width
-            ? fmt::format("{:.4f} +- {:.4f} ({:g} %)", *e.mean, *e.half_width, 100 * plan.confidence)
+            ? fmt::format("{:.4f} +- {:.4f} ({:g} %: statistics {:.4f}, numerics below {:.4f})", *e.mean,
+                          *whole_half_width(run), 100 * plan.confidence, *e.half_width,
+                          run.prepared.numerics.total())
             : fmt::format(
                   "{:.4f}, with an unbounded interval because one packing does not tell how packings differ",
                   *e.mean);

@@ -53,8 +53,7 @@ Learned learn(std::vector<CaseOverview> const& cases) {
     }
     for (CaseOverview const& one : cases) {
         if (!one.result || one.result->packings == 0) continue;
-        scenario::MeasurementPlan const& wanted = one.planned->scenario().measure;
-        double const expected = deck::expected_packings(wanted, learned.experience) *
+        double const expected = deck::expected_packings(one.planned->scenario(), learned.experience) *
                                 deck::expected_cycles(one.planned->scenario(), learned.experience);
         learned.ratios.push_back(std::log(one.result->cycles / expected));
     }
@@ -87,8 +86,7 @@ double scatter_of(std::vector<double> const& ratios) {
 /// Packings that a case has or will probably have.
 int packings_of(CaseOverview const& one, Learned const& learned) {
     if (one.result) return one.result->packings;
-    return std::max(one.packings_done,
-                    deck::expected_packings(one.planned->scenario().measure, learned.experience));
+    return std::max(one.packings_done, deck::expected_packings(one.planned->scenario(), learned.experience));
 }
 
 }  // namespace

@@ -15,9 +15,6 @@ namespace {
 /// Packings of each kind of start with which two branches are reported.
 constexpr int packings_per_branch = 4;
 constexpr double least_growth = 1.2, most_growth = 2;
-/// Fewer packings than these end a case only with an interval that is narrower by this factor.
-constexpr int trusted_packings = 6;
-constexpr double share_for_few = 0.5;
 
 /// Velocity efficiencies at which packings start, relative to the one expected. In its first cycle a layer
 /// whose grains all have the same speed gains about 0.13, so that these are 0.12 below and 0.18 above.
@@ -43,8 +40,9 @@ class Replay {
     Replay(KnownCase const& known, std::optional<double> half_width)
         : known_(known),
           prepared_(*known.planned->prepared),
-          plan_(known.planned->scenario().measure),
-          wanted_{plan_.confidence, half_width.value_or(plan_.half_width)} {}
+          whole_(half_width.value_or(prepared_.scenario.measure.half_width)),
+          plan_(prepare::statistics_plan(prepared_.scenario, whole_)),
+          wanted_{plan_.confidence, plan_.half_width} {}
 
     CaseDecision decide() {
         Round round{{}, first_cycles()};
@@ -111,9 +109,8 @@ class Replay {
     /// The next round; false when the case ends with this one.
     bool advance(Round& round) const {
         if (estimate_.steadiness != measure::Steadiness::steady) return settle(round);
-        if (statistics() <= trusted_half_width(round))
-            return evaluate::outcome_of(estimate_, wanted_.half_width) != core::Outcome::finished &&
-                   (lengthen(round) || grow(round, packings_of_next_round(round)));
+        if (statistics() <= deck::trusted_half_width(round.count(), plan_, whole_))
+            return wants_drift_removed() && (lengthen(round) || grow(round, packings_of_next_round(round)));
         if (round.count() >= plan_.max_packings) {
             return half_width_with(lengthened(round)) <= wanted_.half_width && lengthen(round);
         }
@@ -127,13 +124,8 @@ class Replay {
         return std::sqrt(std::max(0.0, std::pow(*estimate_.half_width, 2) - std::pow(estimate_.drift, 2)));
     }
 
-    /// The half-width with which a case may end. A few packings agree by chance more often than their
-    /// interval says, when their offsets are skewed or they all are in one of two branches.
-    double trusted_half_width(Round const& round) const {
-        bool const are_few = round.count() > 1 && round.count() < trusted_packings;
-        bool const may_grow = round.count() < plan_.max_packings;
-        return (are_few && may_grow ? share_for_few : 1) * wanted_.half_width;
-    }
+    /// Whether what is left of a start-up makes an interval too wide that is narrow enough without it.
+    bool wants_drift_removed() const { return *estimate_.half_width > wanted_.half_width; }
 
     /// For a case that is not steady: more cycles, and at the end enough packings to report both branches.
     bool settle(Round& round) const {
@@ -206,7 +198,7 @@ class Replay {
     /// Cycles in the end: of this round, whose packings are not all there, and of those that will probably
     /// follow.
     double expected(Round const& round) const {
-        int const packings = deck::expected_packings(plan_, experience());
+        int const packings = deck::expected_packings(plan_, whole_, experience());
         return std::max(round.count(), packings) * static_cast<double>(round.cycles);
     }
 
@@ -218,8 +210,9 @@ class Replay {
 
     KnownCase const& known_;
     prepare::PreparedCase const& prepared_;
-    scenario::MeasurementPlan const& plan_;
-    measure::Precision wanted_;
+    double whole_;                    ///< half-width wanted of statistics and numerics together
+    scenario::MeasurementPlan plan_;  ///< with the half-width that is left to statistics
+    measure::Precision wanted_;       ///< of the statistics
     measure::CaseEstimate estimate_;  ///< of the last complete round
 };
 

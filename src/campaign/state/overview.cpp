@@ -100,11 +100,14 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
 /// The summaries of all results that are there, in the order of the plan.
 /// @param keep  whether those that had to be read from the results are written beside them
 std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = false) {
+    auto const studied = read_case_numerics(plan);
     std::vector<store::CaseRecord> records;
     for (PlannedCase const& planned : plan.cases) {
         auto found = find_summary(planned);
         if (!found) continue;
         if (keep && found->is_from_result) write_summary(planned, found->record);
+        if (auto const known = studied.find(planned.id); known != studied.end())
+            found->record.studied = known->second;
         records.push_back(std::move(found->record));
     }
     return records;
@@ -168,8 +171,7 @@ CampaignFileState campaign_file_state(Plan const& plan) {
         case store::CampaignFit::fits:
             break;
     }
-    bool const holds_them = core::read_file(file) ==
-                            store::campaign_bytes(plan.name, records, read_case_numerics(plan), plan.swept);
+    bool const holds_them = core::read_file(file) == store::campaign_bytes(plan.name, records, plan.swept);
     return holds_them ? CampaignFileState::up_to_date : CampaignFileState::of_other_results;
 }
 
@@ -183,8 +185,7 @@ bool is_campaign_file_outdated(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true),
-                          read_case_numerics(plan), plan.swept);
+    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true), plan.swept);
 }
 
 }  // namespace vibrotrough::campaign

@@ -68,11 +68,11 @@ struct Layer {
 
 /// What is measured, and how precisely.
 struct MeasurementPlan {
-    int packings;                           ///< least number of independent packings per case
-    double confidence;                      ///< level of every interval, e.g. 0.95
-    double half_width;                      ///< wanted of the interval of the case's velocity efficiency
-    int max_cycles;                         ///< largest number of cycles of a packing
-    int max_packings = 24;                  ///< largest number of packings of a case
+    int packings;           ///< least number of independent packings per case
+    double confidence;      ///< level of every interval, e.g. 0.95
+    double half_width;      ///< wanted of the case's velocity efficiency, statistics and numerics together
+    int max_cycles;         ///< largest number of cycles of a packing
+    int max_packings = 24;  ///< largest number of packings of a case
     std::optional<double> max_core_time{};  ///< s, largest core time that a case may take
     bool rolling = false;                   ///< whether the contacts at the floor are measured, too
 };

@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
+
+import numpy as np  # noqa: E402
+import scipy.stats  # noqa: E402
+
+from campaign_program import Row, campaign_text  # noqa: E402
+from figure_style import COLOURS, plt  # noqa: E402
+from layers import SIMULATED, Layer, layers  # noqa: E402
+from validation_case import Floats, ValidationCase  # noqa: E402
+
+INPUTS = ["diameter_mm", "amplitude_mm", "depth", "throw_number", "tan_vibration_angle", "tan_inclination", "friction", "grain_friction",
+          "rolling_friction"]
+MEASURED = ["modulus_Pa", "efficiency", "half_width", "packings", "cycles", "outcome"]
+
+
+def measured(run: ValidationCase, name: str, row: Row) -> tuple[float, list[object]]:
+    """Young's modulus of a case, and MEASURED."""
+    scenario = tomllib.loads((run.runs / name / "cases" / row["case"] / "scenario.toml").read_text(encoding="utf-8"))
+    modulus = float(str(scenario["grains"]["youngs_modulus"]).removesuffix(" Pa"))
+    numbers = [f"{float(row[key] or math.nan):.4f}" for key in ("efficiency_dem", "efficiency_dem_half_width")]
+    return modulus, [f"{modulus:g}", *numbers, row["packings"], row["cycles_measured"], row["outcome"]]
+
+
+def simulate(run: ValidationCase, layer: Layer) -> list[object]:
+    """Both simulations of a layer: a row of result.csv."""
+    sweep = {"trough.throw_number": [layer.throw_number]}
+    name = f"ordinary-{layer.number}"
+    modulus, ordinary = measured(run, name, run.campaign(name, layer.changes(), sweep)[0])
+    name = f"accurate-{layer.number}"
+    _, accurate = measured(run, name, run.campaign(name, layer.accurate(modulus), sweep)[0])
+    inputs = [layer.diameter, layer.amplitude, layer.depth, layer.throw_number, layer.tan_vibration_angle, layer.tan_inclination,
+              layer.friction, layer.grain_friction, layer.rolling_friction]
+    return [layer.number, *inputs, *ordinary, *accurate]
+
+
+def check(run: ValidationCase, changes: dict[str, object], throw_number: float) -> dict[str, float]:
+    """What `vibrotrough check` says of a layer before anything is simulated."""
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+        file.write(campaign_text(run.sections(), changes, {"trough.throw_number": [throw_number]}))
+        file.flush()
+        answer = subprocess.run([run.program, "check", file.name, "--json"], capture_output=True, text=True, check=False)
+    case: dict[str, float] = json.loads(answer.stdout)["cases"][0]
+    return case
+
+
+def simulations(run: ValidationCase) -> None:
+    """The layers that will probably cost least, for the table result.csv."""
+    rows = []
+    cheapest = sorted(layers(), key=lambda layer: check(run, layer.changes(), layer.throw_number)["expected_core_hours"])
+    for layer in cheapest[:2 if run.quick else SIMULATED]:
+        rows.append(simulate(run, layer))
+        header = ["layer", *INPUTS, *(f"ordinary_{name}" for name in MEASURED), *(f"accurate_{name}" for name in MEASURED)]
+        run.write_table("result.csv", header, rows)  # after each layer: what there is can be judged
+
+
+def numerics(run: ValidationCase, row: Row) -> float:
+    """The program's bound of the numerical errors of an ordinary simulation."""
+    layer = layers()[int(row["layer"]) - 1]
+    return check(run, layer.changes() | {"grains.youngs_modulus": f"{row['ordinary_modulus_Pa']} Pa"}, layer.throw_number)["numerical_error"]
+
+
+def least_covered(count: int) -> int:
+    """The fewest of so many layers that an interval of 95 % covers in nineteen of twenty studies."""
+    return int(scipy.stats.binom.ppf(0.05, count, 0.95))
+
+
+def draw(run: ValidationCase, differences: Floats, statistics: Floats, bounds: Floats, accurate: Floats) -> None:
+    figure, axes = plt.subplots(figsize=(7, 3.6))
+    places = np.arange(len(differences))
+    axes.axhline(0, color="#999999", linewidth=0.8)
+    axes.errorbar(places, np.zeros(len(places)), yerr=np.sqrt(statistics**2 + bounds**2 + accurate**2), color="#bbbbbb", linestyle="none",
+                  capsize=4, linewidth=5, label="statistics and numerics of both simulations")
+    axes.errorbar(places, np.zeros(len(places)), yerr=np.sqrt(statistics**2 + accurate**2), color="#777777", linestyle="none", capsize=4,
+                  label="statistics of both simulations")
+    axes.plot(places, differences, color=COLOURS[0], marker="o", linestyle="none", label="ordinary less accurate")
+    axes.set_xlabel("layer, in the order of what it costs")
+    axes.set_ylabel("velocity efficiency \u03b7  [-]")
+    axes.legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(run.figure("intervals.png"), dpi=150)
+
+
+def judge(run: ValidationCase) -> None:
+    rows = run.table("result.csv")
+
+    def column(name: str) -> Floats:
+        return np.array([float(row[name]) for row in rows])
+
+    accurate, accurate_width = column("accurate_efficiency"), column("accurate_half_width")
+    if run.control:  # of the next layer
+        accurate, accurate_width = np.roll(accurate, -1), np.roll(accurate_width, -1)
+    differences, statistics = column("ordinary_efficiency") - accurate, column("ordinary_half_width")
+    bounds = np.array([numerics(run, row) for row in rows])
+    covered = np.abs(differences) <= np.sqrt(statistics**2 + bounds**2 + accurate_width**2)
+    alone = np.abs(differences) <= np.sqrt(statistics**2 + accurate_width**2)
+    run.between("layers that the whole interval covers", int(np.sum(covered)), least_covered(len(rows)), len(rows),
+                f"of {len(rows)}; 95 % covers fewer in one of twenty studies")
+    run.finding("the bounds are not too wide: the whole interval covers at most 98 %", bool(np.mean(covered) <= 0.98),
+                f"{np.sum(covered)} of {len(rows)}")
+    run.finding("statistics alone cover less than 93 %", bool(np.mean(alone) < 0.93), f"{np.sum(alone)} of {len(rows)}")
+    run.finding("the numerical errors are as large as their bounds: their rms is at least a third of that of the bounds",
+                bool(np.sqrt(np.mean(differences**2)) >= np.sqrt(np.mean(bounds**2)) / 3),
+                f"rms difference {np.sqrt(np.mean(differences**2)):.4f}, mean {np.mean(differences):+.4f}, rms bound {np.sqrt(np.mean(bounds**2)):.4f}, "
+                f"rms half-width of the statistics of both {np.sqrt(np.mean(statistics**2 + accurate_width**2)):.4f}")
+    if not run.control:
+        draw(run, differences, statistics, bounds, accurate_width)
+
+
+def main() -> None:
+    run = ValidationCase(FOLDER)
+    if run.long:
+        simulations(run)
+    judge(run)
+    run.finish()
+
+
+if __name__ == "__main__":
+    main()
