@@ -52,8 +52,7 @@ def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str
             units[name] = str(data.attrs.get("units", "1"))
 
     try:
-        with h5py.File(path) as file:
-            vibrotrough.require_own_values(file)
+        with vibrotrough.open_sound(path) as file:
             file.visititems(keep)
             return columns, units, dict(file.attrs)
     except (OSError, ValueError) as error:
