@@ -61,7 +61,8 @@ class Bundle {
         files_.push_back({name, core::sha256_hex(content), content.size()});
     }
     void add(std::vector<StoredFile> const& files) {
-        for (StoredFile const& file : files) add(file.name, core::read_own_file(file.source));
+        for (StoredFile const& file : files)
+            add(file.name, file.content ? *file.content : core::read_own_file(file.source));
     }
     std::vector<ListedFile> const& files() const { return files_; }
     bool has(std::string_view start) const {

@@ -59,8 +59,8 @@ int run_archive(ArchiveArguments const& options) {
     fs::path const output = options.output.empty() ? fs::path(plan.name + ".zip") : fs::path(options.output);
     archive::BundleReport const report =
         archive::write_bundle(plan, campaign::activity_in(plan.folder), output, options.words);
-    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", output.string(), report.files,
-               static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
+    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", core::harmless(output.string()),
+               report.files, static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
     std::string const folder = core::shell_word(options.folder);
     if (!report.left_aside.empty()) fmt::print("left aside: {}\n", core::harmless(report.left_aside));
     if (std::string const fault = fault_of(report.campaign_file); !fault.empty())
