@@ -78,14 +78,19 @@ _LARGEST_FILE = 4 << 30  # bytes
 _LINE_BEGIN, _LINE_LENGTH = b"\nvibrotrough sha256 ", 85
 
 
-def _sound_bytes(path: pathlib.Path) -> bytes:
-    """The bytes of a regular file before its last line, which holds their SHA-256. @raises ValueError, OSError"""
+def read_regular(path: str | os.PathLike[str], largest: int = _LARGEST_FILE) -> bytes:
+    """The bytes of a regular file of bounded size. Anything else, such as a pipe, which would never end, is refused with OSError."""
     # Without O_NONBLOCK the opening of a pipe would wait for a writer.
     with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK), "rb") as file:
         status = os.fstat(file.fileno())
-        if not stat.S_ISREG(status.st_mode) or status.st_size > _LARGEST_FILE:
-            raise ValueError(f"{path} is not a file of at most {_LARGEST_FILE >> 20} MB; move it away")
-        content = file.read()
+        if not stat.S_ISREG(status.st_mode) or status.st_size > largest:
+            raise OSError(f"{path} is not a file of at most {largest >> 20} MB")
+        return file.read()
+
+
+def _sound_bytes(path: pathlib.Path) -> bytes:
+    """The bytes of a file before its last line, which holds their SHA-256. @raises ValueError, OSError"""
+    content = read_regular(path)
     body, line = content[:-_LINE_LENGTH], content[-_LINE_LENGTH:]
     if line != _LINE_BEGIN + hashlib.sha256(body).hexdigest().encode() + b"\n":
         raise ValueError(f"{path} is damaged (its bytes do not match the SHA-256 in its last line); delete it, and let vibrotrough make it again")
