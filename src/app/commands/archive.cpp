@@ -112,7 +112,8 @@ A bundle names the machines on which it was simulated and the path of the engine
 Exit codes:
     0  all well
     2  the input is wrong: the campaign is still running, a result is damaged, a case has no result
-       or the frozen campaign file was changed (both without --partial), or the output is another file
+       or the frozen campaign file was changed (both without --partial), or the output is another
+       file
     3  a file cannot be read (a symbolic link is not followed), or there is no disk space
 
 Example:
