@@ -12,7 +12,6 @@ import argparse
 import pathlib
 from typing import Any
 
-import h5py
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
@@ -40,11 +39,11 @@ LETTERS = "F flight, P slide forwards, N slide backwards, R rest; P', N' directl
 
 class TheoryMap:
     def __init__(self, path: pathlib.Path) -> None:
-        with h5py.File(path) as file:
-            try:
-                vibrotrough.require_own_values(file)
-            except ValueError as error:
-                raise SystemExit(str(error)) from error
+        try:
+            file = vibrotrough.open_sound(path)
+        except (OSError, ValueError) as error:
+            raise SystemExit(str(error)) from error
+        with file:
             if file.attrs["format"] != "vibrotrough theory map":
                 raise SystemExit(f"{path} is not a map of the theory; make one with vibrotrough theory map")
             self.x, self.y = file["x"][:], file["y"][:]

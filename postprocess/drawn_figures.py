@@ -5,13 +5,16 @@ figure only when both are what they should be: a figure of an earlier state of t
 there, is not shown.
 """
 
+import fcntl
+import glob
 import hashlib
 import json
 import os
 import pathlib
-import stat
 import xml.etree.ElementTree as ElementTree
 from typing import Any
+
+import vibrotrough
 
 SVG = "http://www.w3.org/2000/svg"
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -24,26 +27,42 @@ ElementTree.register_namespace("", SVG)
 ElementTree.register_namespace("xlink", "http://www.w3.org/1999/xlink")
 
 
+def remove_remains(path: pathlib.Path) -> None:
+    """Removes what processes that were killed left of a file. One that still writes holds its lock."""
+    for part in path.parent.glob(glob.escape(f".{path.name}.part-") + "*"):
+        if not part.name.rpartition("-")[2].isdigit():
+            continue  # a person's
+        try:
+            number = os.open(part, os.O_WRONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        except OSError:
+            continue
+        try:
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            part.unlink(missing_ok=True)
+        except OSError:
+            pass
+        finally:
+            os.close(number)
+
+
 def write_file(path: pathlib.Path, content: bytes) -> None:
     """Writes a file that appears whole or not at all, and never through a symbolic link: one of its name is replaced."""
+    remove_remains(path)
     part = path.with_name(f".{path.name}.part-{os.getpid()}")
     part.unlink(missing_ok=True)
-    with open(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666), "wb") as file:
-        file.write(content)
     try:
+        with open(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666), "wb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            file.write(content)
         os.replace(part, path)
-    except OSError:
+    except BaseException:
         part.unlink(missing_ok=True)
         raise
 
 
 def read_note(path: pathlib.Path) -> bytes:
     """A file of facts. A pipe, which would never end, and a file that is far too long are refused with OSError."""
-    with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK), "rb") as file:
-        status = os.fstat(file.fileno())
-        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST_NOTE:
-            raise OSError(f"{path} is not a file of at most {LARGEST_NOTE >> 20} MB")
-        return file.read()
+    return vibrotrough.read_regular(path, LARGEST_NOTE)
 
 
 def digest_of_data(directory: pathlib.Path, output: pathlib.Path, case: str | None = None) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from drawn_figures import read_note
 from figure_style import COLOURS, GREY, Problem, corner, new_figure, plain, plain_axes, points, save
 
 if TYPE_CHECKING:
@@ -23,11 +24,10 @@ def read_budgets(directory: pathlib.Path, order: list[str]) -> list[Budget]:
     """The budgets of numerics.json whose cases are in `order`, in that order; empty when there is no file."""
     path = directory / "numerics.json"
     try:
-        with open(path, encoding="utf-8") as file:
-            known = {budget["case"]: budget for budget in json.load(file)["cases"]}
+        known = {budget["case"]: budget for budget in json.loads(read_note(path))["cases"]}
     except FileNotFoundError:
         return []
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise Problem(f"cannot read {path} ({error!r}); delete it and run 'vibrotrough convergence' again") from error
     return [known[case] for case in order if case in known]
 

@@ -4,6 +4,7 @@ Both need what is measured phase by phase (phases/ and profiles/ in result.h5); 
 """
 
 import csv
+import io
 import pathlib
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
+from drawn_figures import read_note
 from figure_style import COLOURS, DASHES, GREY, case_title, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
@@ -29,8 +31,7 @@ MILLI = 1e3
 def read_point_mass(path: pathlib.Path) -> dict[str, Floats] | None:
     """The theory's columns as arrays; None when its motion has no period."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(io.StringIO(read_note(path).decode())))
     except OSError:
         return None
     if not rows:

@@ -3,6 +3,7 @@
 import dataclasses
 import io
 import pathlib
+import unicodedata
 from collections.abc import Mapping
 from typing import Any
 
@@ -44,6 +45,7 @@ class Print:
 
 # What a file would say of the day on which it was drawn.
 UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+STEERING = ("Cc", "Cf", "Cs", "Zl", "Zp")  # categories of Unicode: control, format, half of a character, ends of lines
 FORMATS = ("svg", "png", "pdf")
 INCH = 0.0254  # m
 USUAL_WIDTH, USUAL_FONT = 7.2, 10.0  # inches, points: those of a figure for a screen
@@ -66,7 +68,8 @@ def new_figure(*shape: int, size: tuple[float, float] = (USUAL_WIDTH, 4.8), **se
     its width, so that both stay readable.
     """
     matplotlib.rc_file_defaults()
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "pdf.fonttype": 42, "font.size": USUAL_FONT,
+    # A name may hold dollar signs: nothing in a figure is mathematics for matplotlib.
+    plt.rcParams.update({"text.parse_math": False, "svg.fonttype": "none", "svg.hashsalt": "vibrotrough", "pdf.fonttype": 42, "font.size": USUAL_FONT,
                          "axes.axisbelow": True})  # fmt: skip
     if is_narrow() and len(shape) > 1 and shape[1] > 1:
         raise TooNarrow(f"panels beside one another need a width of {1000 * PANELS_WIDTH:.0f} mm, such as --width two-columns")
@@ -95,6 +98,24 @@ def characters_across(figure: Figure, size: float) -> int:
     return int(figure.get_size_inches()[0] * 72 / (0.5 * size))
 
 
+def shown(text: object) -> str:
+    """A text from outside, such as a path, made harmless for a terminal and a figure: what steers it is written as \\x1b or \\u202e."""
+
+    def written(letter: str) -> str:
+        number = ord(letter)
+        if 0xDC80 <= number <= 0xDCFF:  # a byte of a path that is not UTF-8
+            return f"\\x{number - 0xDC00:02x}"
+        return f"\\x{number:02x}" if number < 0x80 else f"\\u{number:04x}"
+
+    return "".join(written(letter) if unicodedata.category(letter) in STEERING else letter for letter in str(text))
+
+
+def one_line(error: BaseException) -> str:
+    """What an error says, on one line."""
+    said = " ".join(str(error).split())
+    return said if isinstance(error, (OSError, Problem)) else f"{type(error).__name__}: {said}" if said else type(error).__name__
+
+
 def plain_axes(axes: Axes) -> None:
     axes.grid(True, color="#e5e5e5", linewidth=0.6)
     for side in ("top", "right"):
@@ -103,7 +124,7 @@ def plain_axes(axes: Axes) -> None:
 
 def plain(text: str) -> str:
     """Keys of the campaign file as words: "grains.rolling_friction 0.1" is "grain rolling friction 0.1"."""
-    return text.replace("trough.", "").replace("grains.", "grain ").replace("layer.", "layer ").replace("_", " ")
+    return shown(text).replace("trough.", "").replace("grains.", "grain ").replace("layer.", "layer ").replace("_", " ")
 
 
 def case_title(row: Mapping[str, Any]) -> str:
@@ -114,7 +135,7 @@ def case_title(row: Mapping[str, Any]) -> str:
 
 def corner(figure: Figure, attributes: Mapping[str, Any], text: str = "") -> None:
     """The campaign's name and the program's version, small, at the lower right; a remark at the lower left."""
-    name = f"{attributes['campaign']}  \u00b7  Vibrotrough {attributes['program_version']}"
+    name = f"{shown(attributes['campaign'])}  \u00b7  Vibrotrough {attributes['program_version']}"
     figure.text(0.99, 0.01, name, ha="right", va="bottom", fontsize=points(7), color=GREY)
     if text:
         figure.text(0.01, 0.01, text, ha="left", va="bottom", fontsize=points(7), color=GREY)

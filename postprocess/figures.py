@@ -15,6 +15,7 @@ import os
 import pathlib
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
@@ -25,9 +26,10 @@ import figure_residuals
 import figure_rolling
 import figure_spin
 import vibrotrough
-from drawn_figures import DrawnFigures, digest_of_data
+from drawn_figures import DrawnFigures, digest_of_data, read_note
 from figure_inputs import swept_inputs
-from figure_style import FORMATS, Problem, TooNarrow, take_style, target
+from figure_style import FORMATS, Problem, TooNarrow, one_line, shown, take_style, target
+from matplotlib import pyplot as plt
 from plot_campaign import plot_efficiency
 
 KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles")
@@ -39,14 +41,13 @@ class Source:
     def __init__(self, directory: pathlib.Path, output: pathlib.Path) -> None:
         self.directory, self.output, self.data = directory, output, output / "data"
         try:
-            with open(self.data / "campaign.json", encoding="utf-8") as file:
-                self.overview: dict[str, Any] = json.load(file)
+            self.overview: dict[str, Any] = json.loads(read_note(self.data / "campaign.json"))
             self.campaign = vibrotrough.open_campaign(directory)
-        except (OSError, ValueError) as error:
-            raise Problem(f"cannot read the campaign ({error}); give a campaign's folder, by 'vibrotrough plot DIR'") from error
-        self.attributes = self.campaign.attributes
-        units = {name: self.campaign[name].units for name in self.campaign}
-        self.inputs = swept_inputs(self.campaign, units, self.attributes)
+            self.attributes = self.campaign.attributes
+            units = {name: self.campaign[name].units for name in self.campaign}
+            self.inputs = swept_inputs(self.campaign, units, self.attributes)
+        except Exception as error:  # whatever a file holds that this program did not write
+            raise Problem(f"cannot read the campaign ({one_line(error)}); give a campaign's folder, by 'vibrotrough plot DIR'") from error
         if self.campaign.cases == 0:
             raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
 
@@ -104,24 +105,35 @@ def draw_cases(source: Source, only: Collection[str], cases: list[str]) -> Itera
             raise Problem("a process that drew figures was ended, perhaps because memory ran out; run the command again") from error
 
 
-def fitting(name: str, draw_one: Callable[[], list[pathlib.Path]]) -> list[pathlib.Path]:
-    """Draws a figure. One that does not fit into the width is left out and named."""
+def drawn(name: str, file: pathlib.Path, draw_one: Callable[[], list[pathlib.Path]]) -> list[pathlib.Path]:
+    """Draws a figure. One that does not fit into the width, or whose file holds what cannot be drawn, is left out and named."""
     try:
         return draw_one()
     except TooNarrow as problem:
-        print(f"figures.py: {name} is left out: {problem}", file=sys.stderr)
-        return []
+        print(shown(f"figures.py: {name} is left out: {problem}"), file=sys.stderr)
+    except Problem:
+        raise
+    except Exception as error:  # a file may be whole and still hold anything
+        print(shown(f"figures.py: {name} is left out: {file} cannot be drawn ({one_line(error)}); delete it, and let vibrotrough make it again"),
+              file=sys.stderr)
+    plt.close("all")
+    return []
 
 
 def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib.Path]]:
     """The figures of the campaign as a whole."""
-    if "efficiency" in only:
+    table = source.directory / "campaign.h5"
+
+    def efficiency() -> list[pathlib.Path]:
         theory = {row["case"]: row["efficiency_theory"] for row in source.overview["cases"]}
-        yield plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", theory)
+        return plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", theory)
+
+    if "efficiency" in only:
+        yield drawn("efficiency", table, efficiency)
     if "residuals" in only:
-        yield fitting("residuals", lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
+        yield drawn("residuals", table, lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
     if "budget" in only:
-        yield figure_budget.plot_budget(source, source.output / "budget")
+        yield drawn("budget", source.directory / "numerics.json", lambda: figure_budget.plot_budget(source, source.output / "budget"))
 
 
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
@@ -133,12 +145,12 @@ def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list
         return
     try:
         result = source.campaign.case(case)
-    except (OSError, ValueError) as error:
-        print(f"figures.py: case {case} is left out: {error}", file=sys.stderr)
+    except Exception as error:  # HDF5 has errors of many kinds
+        print(shown(f"figures.py: case {case} is left out: {one_line(error)}"), file=sys.stderr)
         return
     for kind in wanted:
         name = f"{kind}-{case}"
-        yield fitting(name, lambda: drawers[kind](source, case, result, source.output / name))
+        yield drawn(name, result.path, lambda: drawers[kind](source, case, result, source.output / name))
 
 
 def main() -> None:
@@ -154,14 +166,16 @@ def main() -> None:
     target.formats, target.width = tuple(options.format or target.formats), options.width
     if options.style is not None:
         take_style(options.style)
+    # Bars of an interval that is not known are left out, of which matplotlib would warn.
+    warnings.filterwarnings("ignore", message="Warning: converting a masked element to nan")
     source = Source(options.directory, options.output or options.directory / "report")
     for paths in draw(source, options.only or KINDS, options.case):
         for path in paths:
-            print(path, flush=True)
+            print(shown(path), flush=True)
 
 
 if __name__ == "__main__":
     try:
         main()
     except Problem as problem:
-        sys.exit(f"figures.py: {problem}")
+        sys.exit(shown(f"figures.py: {problem}"))

@@ -13,6 +13,7 @@ the theory is computed here. Writes NAME.svg and NAME.png, by default DIR/report
 
 import argparse
 import csv
+import io
 import itertools
 import math
 import pathlib
@@ -28,6 +29,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
+from drawn_figures import read_note
 from figure_inputs import Input, panels, split_inputs, swept_inputs
 from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
                           points, save)  # fmt: skip
@@ -52,8 +54,7 @@ def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str
             units[name] = str(data.attrs.get("units", "1"))
 
     try:
-        with h5py.File(path) as file:
-            vibrotrough.require_own_values(file)
+        with vibrotrough.open_sound(path) as file:
             file.visititems(keep)
             return columns, units, dict(file.attrs)
     except (OSError, ValueError) as error:
@@ -74,12 +75,11 @@ def read_theory(path: pathlib.Path) -> tuple[dict[LineKey, Pair], dict[str, Any]
     points: dict[LineKey, list[tuple[float, float]]] = defaultdict(list)
 
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = csv.DictReader(file)
-            fine = "velocity_efficiency" in (rows.fieldnames or [])
-            for row in rows:
-                value = row["velocity_efficiency" if fine else "efficiency_theory"]
-                points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
+        rows = csv.DictReader(io.StringIO(read_note(path).decode()))
+        fine = "velocity_efficiency" in (rows.fieldnames or [])
+        for row in rows:
+            value = row["velocity_efficiency" if fine else "efficiency_theory"]
+            points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
     except (OSError, KeyError, ValueError) as error:
         raise Problem(f"cannot use {path} as a theory curve ({error!r}); see --help for its columns") from error
     lines = {}
@@ -92,10 +92,9 @@ def read_theory(path: pathlib.Path) -> tuple[dict[LineKey, Pair], dict[str, Any]
 def read_rolling_layer(path: pathlib.Path) -> dict[LineKey, Pair]:
     """Lines of the rolling-layer law, of a fine curve that has them; NaN where the law was not tested."""
     points: dict[LineKey, list[tuple[float, float]]] = defaultdict(list)
-    with open(path, newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            value = row.get("rolling_layer_efficiency")
-            points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
+    for row in csv.DictReader(io.StringIO(read_note(path).decode())):
+        value = row.get("rolling_layer_efficiency")
+        points[line_key(row)].append((float(row["throw_number"]), float(value) if value else math.nan))
     lines = {}
     for key, pairs in points.items():
         places, values = np.array(sorted(pairs)).T
@@ -106,7 +105,7 @@ def read_rolling_layer(path: pathlib.Path) -> dict[LineKey, Pair]:
 
 def rotates(columns: Columns) -> bool:
     """Whether any case has grains that rotate freely, of which the rolling-layer law speaks."""
-    return "free" in columns.get("grain_rotation", np.array([]))
+    return "free" in list(columns.get("grain_rotation", ()))
 
 
 def same(value: float) -> float:

@@ -20,7 +20,7 @@ import jinja2
 import markupsafe
 
 from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
-from figure_style import Problem, plain
+from figure_style import Problem, one_line, plain, shown
 from report_words import conclusion
 
 # Of units that are not written as they are.
@@ -51,6 +51,7 @@ CASE_FIGURES = [
 ]
 
 
+MOST_LEVELS = 20  # of a certificate; ours have four
 MOST_CASES = 60  # whose own figures are in the report: 140 kB each
 
 
@@ -61,8 +62,38 @@ def read_json(path: pathlib.Path, needed: bool = True) -> Any:
         if not needed:
             return None
         raise Problem(f"there is no {path}; call it by 'vibrotrough report DIR'") from None
-    except (OSError, ValueError) as error:
-        raise Problem(f"cannot read {path} ({error}); remove it or write it anew") from error
+    except (OSError, ValueError, RecursionError) as error:
+        raise Problem(f"cannot read {path} ({one_line(error)}); remove it or write it anew") from error
+
+
+def read_certificate(directory: pathlib.Path) -> Any:
+    """The engine's certificate; None when there is none, or when it is damaged, which is said."""
+    try:
+        certificate = read_json(directory / "certificate.json", needed=False)
+    except Problem as problem:
+        print(shown(f"report.py: the page is without the engine's probes: {problem}"), file=sys.stderr)
+        return None
+    if certificate is None or (isinstance(certificate, dict) and depth_of(certificate) <= MOST_LEVELS):
+        return certificate
+    print(shown(f"report.py: the page is without the engine's probes: {directory / 'certificate.json'} is not a certificate; remove it, and run the "
+                "campaign again"), file=sys.stderr)
+    return None
+
+
+def depth_of(value: Any) -> int:
+    """Levels of a value of JSON, which json has read and which is therefore not deeper than Python can go."""
+    below = list(value.values()) if isinstance(value, dict) else value if isinstance(value, list) else []
+    return 1 + max(map(depth_of, below), default=0)
+
+
+def as_table(value: Any) -> Any:
+    """Lists that are not tables, because their entries differ in kind, as text: a file may hold anything."""
+    if isinstance(value, dict):
+        return {str(name): as_table(one) for name, one in value.items()}
+    if isinstance(value, list):
+        is_table = all(isinstance(one, dict) for one in value)
+        return [as_table(one) if is_table else one if isinstance(one, (str, int, float)) else json.dumps(one) for one in value]
+    return value
 
 
 def inline_svg(drawing: str, number: int, title: str) -> markupsafe.Markup:
@@ -164,7 +195,7 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     cases = overview["cases"]
     figures = Figures(directory, output)
     general = figures.all(FIGURES)
-    certificate, lists = split_certificate(read_json(directory / "certificate.json", needed=False))
+    certificate, lists = split_certificate(as_table(read_certificate(directory)))
     columns, told = split_columns(report_columns(overview), cases)
     single = [
         {"case": case, "figures": found}
@@ -199,18 +230,28 @@ def main() -> None:
     parser.add_argument("directory", type=pathlib.Path, metavar="DIR", help="a campaign's folder")
     parser.add_argument("--output", type=pathlib.Path, metavar="OUT", help="folder of the figures and the report")
     options = parser.parse_args()
-    output = options.output or options.directory / "report"
-    page = render(options.directory, output)
+    print(shown(write_page(options.directory, options.output or options.directory / "report")))
+
+
+def write_page(directory: pathlib.Path, output: pathlib.Path) -> pathlib.Path:
+    """Writes OUT/report.html, and returns its path."""
+    try:
+        page = render(directory, output)
+    except Problem:
+        raise
+    except Exception as error:  # a file may be whole and still hold anything
+        raise Problem(f"cannot make a page of {output / 'data' / 'campaign.json'} ({one_line(error)}); call 'vibrotrough report {directory}' again, "
+                      "which writes it anew") from error
     path = output / "report.html"
     try:
         write_file(path, page.encode())
     except OSError as error:
         raise Problem(f"cannot write {path} ({error.strerror}); choose another --output") from error
-    print(path)
+    return path
 
 
 if __name__ == "__main__":
     try:
         main()
     except Problem as problem:
-        sys.exit(f"report.py: {problem}")
+        sys.exit(shown(f"report.py: {problem}"))

@@ -11,14 +11,17 @@
     theory = vibrotrough.open_theory("map.h5")                  # of 'theory map', or of 'theory batch'
     table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
 
-Everything is read at once, so files may be renewed meanwhile. The tables of names are in src/store/README.md.
+Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. The tables of names are in src/store/README.md.
 Needs h5py and numpy, and to_dataframe() pandas.
 """
 
 from __future__ import annotations
 
+import hashlib
+import io
 import os
 import pathlib
+import stat
 from collections.abc import Iterator
 from typing import Any
 
@@ -58,7 +61,7 @@ class Array(np.ndarray[Any, np.dtype[Any]]):
 def _read(dataset: h5py.Dataset) -> Array:
     values = dataset.asstr()[()] if h5py.check_string_dtype(dataset.dtype) else dataset[()]
     if "units" not in dataset.attrs:
-        raise ValueError(f"{dataset.file.filename}: {dataset.name} does not tell its units; Vibrotrough did not write it")
+        raise ValueError(f"{dataset.name} does not tell its units; Vibrotrough did not write it")
     return Array(values, str(dataset.attrs["units"]), str(dataset.attrs.get("description", "")))
 
 
@@ -71,7 +74,45 @@ def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
         yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, units, description)
 
 
-def require_own_values(file: h5py.File) -> None:
+_LARGEST_FILE = 4 << 30  # bytes
+_LINE_BEGIN, _LINE_LENGTH = b"\nvibrotrough sha256 ", 85
+
+
+def read_regular(path: str | os.PathLike[str], largest: int = _LARGEST_FILE) -> bytes:
+    """The bytes of a regular file of bounded size. Anything else, such as a pipe, which would never end, is refused with OSError."""
+    # Without O_NONBLOCK the opening of a pipe would wait for a writer.
+    with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK), "rb") as file:
+        status = os.fstat(file.fileno())
+        if not stat.S_ISREG(status.st_mode) or status.st_size > largest:
+            raise OSError(f"{path} is not a file of at most {largest >> 20} MB")
+        return file.read()
+
+
+def _sound_bytes(path: pathlib.Path) -> bytes:
+    """The bytes of a file before its last line, which holds their SHA-256. @raises ValueError, OSError"""
+    content = read_regular(path)
+    body, line = content[:-_LINE_LENGTH], content[-_LINE_LENGTH:]
+    if line != _LINE_BEGIN + hashlib.sha256(body).hexdigest().encode() + b"\n":
+        raise ValueError(f"{path} is damaged (its bytes do not match the SHA-256 in its last line); delete it, and let vibrotrough make it again")
+    return body
+
+
+def open_sound(path: str | os.PathLike[str]) -> h5py.File:
+    """An HDF5 file that vibrotrough wrote, for reading. What is read from it are the very bytes whose SHA-256 was found right.
+
+    @raises ValueError when the file is damaged or takes data from other files, OSError when it cannot be read
+    """
+    path = pathlib.Path(path)
+    file = h5py.File(io.BytesIO(_sound_bytes(path)), "r")
+    try:
+        _require_own_values(file, path)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+def _require_own_values(file: h5py.File, path: pathlib.Path) -> None:
     """HDF5 can fetch values from other files of this machine: refuses links to them, external storage and virtual datasets."""
 
     def is_foreign(name: bytes, info: Any) -> bool | None:
@@ -80,7 +121,7 @@ def require_own_values(file: h5py.File) -> None:
         return foreign or None
 
     if file.id.links.visit(is_foreign, info=True):
-        raise ValueError(f"{file.filename} takes data from other files; it was not written by vibrotrough")
+        raise ValueError(f"{path} takes data from other files; it was not written by vibrotrough")
 
 
 class File:
@@ -91,8 +132,7 @@ class File:
     def __init__(self, path: str | os.PathLike[str], *wanted_formats: str) -> None:
         self.path = pathlib.Path(path)
         self._arrays: dict[str, Array] = {}
-        with h5py.File(self.path) as file:
-            require_own_values(file)
+        with open_sound(self.path) as file:
             self.attributes: dict[str, Any] = dict(file.attrs)
             found = self.attributes.get("format")
             if found not in wanted_formats:

@@ -121,7 +121,8 @@ ReadyCampaign prepare_run(RunOptions const& options) {
 
 void size_tasks(ReadyCampaign& ready, std::optional<int> minutes) {
     if (!minutes) return;
-    auto const cases = campaign::survey(ready.plan, campaign::activity_in(ready.plan.folder));
+    auto const cases =
+        campaign::survey(ready.plan, campaign::activity_in(ready.plan.folder), {}, campaign::Trust::stamp);
     ready.inputs.task_duration = *minutes * 60.0;
     ready.inputs.speed = campaign::forecast(ready.plan, cases).speed;
 }

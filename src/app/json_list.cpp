@@ -10,7 +10,7 @@ namespace {
 
 /// As text of several lines that are indented by so many blanks, but for the first.
 std::string indented(nlohmann::ordered_json const& value, std::size_t blanks) {
-    std::string const text = value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::string const text = value.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
     std::string result;
     for (char const c : text) {
         result += c;

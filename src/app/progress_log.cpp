@@ -103,7 +103,13 @@ void JsonProgress::case_ended(campaign::PlannedCase const& planned, core::Outcom
                               std::string const& message) {
     Json const json{{"event", "case_ended"},  {"time", core::utc_now()},     {"case", planned.id},
                     {"label", planned.label}, {"outcome", name_of(outcome)}, {"message", message}};
-    tell("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+    tell("{}\n", json.dump(-1, ' ', true, Json::error_handler_t::replace));
+}
+
+void JsonProgress::noticed(campaign::PlannedCase const& planned, std::string const& message) {
+    Json const json{
+        {"event", "noticed"}, {"time", core::utc_now()}, {"case", planned.id}, {"message", message}};
+    tell("{}\n", json.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 CampaignLog::CampaignLog(std::filesystem::path const& folder) {
@@ -151,6 +157,11 @@ void LoggingObserver::progressed(campaign::Progress const& progress) {
                         one.planned->id, one.packing, one.silent_for, one.cycles));
     }
     next_.progressed(progress);
+}
+
+void LoggingObserver::noticed(campaign::PlannedCase const& planned, std::string const& message) {
+    log().warn(fmt::format("case {}: {}", described(planned), message));
+    next_.noticed(planned, message);
 }
 
 void LoggingObserver::stopping() {

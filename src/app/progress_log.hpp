@@ -14,7 +14,7 @@ class logger;  // NOLINT(readability-identifier-naming): spdlog's name
 namespace vibrotrough::app {
 
 /// Prints progress as JSON on standard error, one object per line. Its member "event" is "progress" (at most
-/// once a second, and once more when all cases have ended) or "case_ended".
+/// once a second, and once more when all cases have ended), "case_ended" or "noticed".
 class JsonProgress : public campaign::Observer {
   public:
     /// Prints the progress, at most once a second but in any case when nothing is left to do.
@@ -22,6 +22,8 @@ class JsonProgress : public campaign::Observer {
     /// Prints that a case has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
+    /// Prints it.
+    void noticed(campaign::PlannedCase const& planned, std::string const& message) override;
 
   private:
     double shown_ = -1;  ///< s, elapsed time of the latest progress line; negative before the first
@@ -63,6 +65,8 @@ class LoggingObserver : public campaign::Observer {
     /// Writes that a case has ended to the log, and passes it on.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
+    /// Writes it to the log, and passes it on.
+    void noticed(campaign::PlannedCase const& planned, std::string const& message) override;
     /// Writes that the run stops to the log, and passes it on.
     void stopping() override;
 

@@ -106,6 +106,11 @@ void ProgressPrinter::case_ended(campaign::PlannedCase const& planned, core::Out
          core::name_of(outcome), message.empty() ? "" : ": ", core::harmless(message));
 }
 
+void ProgressPrinter::noticed(campaign::PlannedCase const& planned, std::string const& message) {
+    clear_lines();
+    tell("case {}: {}\n", planned.id, core::harmless(message));
+}
+
 void ProgressPrinter::stopping() {
     clear_lines();
     tell("stopping: the engines end the cycles that they are in; Ctrl-C again stops them at once\n");

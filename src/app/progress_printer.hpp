@@ -23,6 +23,8 @@ class ProgressPrinter : public campaign::Observer {
     /// Prints a line about a case that has ended.
     void case_ended(campaign::PlannedCase const& planned, core::Outcome outcome,
                     std::string const& message) override;
+    /// Prints a line about it.
+    void noticed(campaign::PlannedCase const& planned, std::string const& message) override;
     /// Says that the run stops, and how to stop it at once.
     void stopping() override;
 

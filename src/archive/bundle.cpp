@@ -3,6 +3,8 @@
 #include "archive/bundle_files.hpp"
 #include "archive/crate.hpp"
 #include "archive/zip_file.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/left_aside.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
@@ -10,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/shell.hpp"
 #include "core/version.hpp"
 
 #include <algorithm>
@@ -18,6 +21,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::archive {
@@ -57,7 +61,8 @@ class Bundle {
         files_.push_back({name, core::sha256_hex(content), content.size()});
     }
     void add(std::vector<StoredFile> const& files) {
-        for (StoredFile const& file : files) add(file.name, core::read_own_file(file.source));
+        for (StoredFile const& file : files)
+            add(file.name, file.content ? *file.content : core::read_own_file(file.source));
     }
     std::vector<ListedFile> const& files() const { return files_; }
     bool has(std::string_view start) const {
@@ -104,11 +109,25 @@ void refuse_to_leave_out(std::vector<campaign::CaseOverview> const& cases) {
     auto const left_out = std::ranges::count_if(cases, has_no_result);
     if (left_out == 0) return;
     campaign::CaseOverview const& first = *std::ranges::find_if(cases, has_no_result);
-    throw core::InputError(
-        fmt::format("{} of {} cases {} no result ({}{}: {}); simulate them with 'vibrotrough run', or "
-                    "archive the others with --partial",
-                    left_out, cases.size(), left_out == 1 ? "has" : "have",
-                    left_out == 1 ? "" : "the first is ", first.planned->id, first.label()));
+    throw core::InputError(fmt::format(
+        "{} of {} cases {} no result ({}{}: {}); simulate them with 'vibrotrough run', or "
+        "archive the others with --partial",
+        left_out, cases.size(), left_out == 1 ? "has" : "have", left_out == 1 ? "" : "the first is ",
+        first.planned->id, first.fault.empty() ? first.label() : first.fault));
+}
+
+/// Nor would anybody notice that the bundle holds another campaign file than the one that was run.
+void refuse_edited_files(campaign::Plan const& plan) {
+    auto const edited = campaign::edited_files(plan.folder);
+    if (edited.empty()) return;
+    std::string const file = core::shell_word(plan.folder / "campaign.toml");
+    throw core::InputError(fmt::format(
+        "{} in {} {} not what was run: {} changed since, and {} case folders belong to no case of "
+        "it; go on with 'vibrotrough run {} --output {}', bring back what was run, or archive what "
+        "fits with --partial",
+        fmt::join(edited, ", "), plan.folder.string(), edited.size() == 1 ? "is" : "are",
+        edited.size() == 1 ? "it was" : "they were", campaign::count_left_aside(plan), file,
+        core::shell_word(plan.folder)));
 }
 
 void refuse_to_replace(fs::path const& output) {
@@ -201,7 +220,10 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     compare::ComparedCases const compared = compare::compared_cases(plan, activity, note);
     refuse_damaged_results(compared.cases);
     if (!rotten.empty()) throw_damaged(std::ranges::min(rotten));
-    if (!words.partial) refuse_to_leave_out(compared.cases);
+    if (!words.partial) {
+        refuse_edited_files(plan);
+        refuse_to_leave_out(compared.cases);
+    }
 
     Bundle bundle(output);
     bundle.add(facts_file, archive_facts(plan, compared.cases, making));
@@ -224,6 +246,7 @@ BundleReport write_bundle(campaign::Plan const& plan, campaign::Activity const& 
     bundle.finish();
 
     BundleReport report;
+    report.left_aside = describe(campaign::find_left_aside(plan, compared.cases), plan);
     report.results = making.results;
     report.files = bundle.files().size() + 1;
     report.bytes = fs::file_size(output);

@@ -29,7 +29,8 @@ struct BundleReport {
     std::uint64_t bytes = 0;  ///< of the bundle
     /// Of campaign.h5, which the bundle holds if it is up to date.
     campaign::CampaignFileState campaign_file = campaign::CampaignFileState::missing;
-    bool has_report = false;  ///< whether figures or a report are there
+    bool has_report = false;      ///< whether figures or a report are there
+    std::string left_aside = {};  ///< what of the campaign's folder is not in it (campaign::describe)
 };
 
 /// Writes a campaign as one ZIP file for the supplement of a paper: the frozen campaign, the decks of every

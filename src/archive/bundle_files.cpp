@@ -4,6 +4,7 @@
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/case_state.hpp"
 #include "core/error.hpp"
+#include "core/own_folder.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
 
@@ -31,7 +32,14 @@ class Collection {
             throw core::InputError(fmt::format("{}: a bundle holds no file of this name; rename it",
                                                core::harmless((folder_ / name).string())));
         }
-        files_.push_back({name, folder_ / name});
+        files_.push_back({name, folder_ / name, {}});
+    }
+
+    /// Adds a file with other bytes than those in the folder; a symbolic link of its name is refused as
+    /// above.
+    void add(std::string const& name, std::string content) {
+        if (core::is_link(folder_ / name)) return add(name);
+        files_.push_back({name, folder_ / name, std::move(content)});
     }
 
     /// Adds all files below a folder but hidden ones. Links to folders are not followed.
@@ -70,6 +78,13 @@ std::set<std::string> frozen_names(campaign::Plan const& plan) {
     return names;
 }
 
+/// The deck of a packing in a result; empty when the result was made without this packing.
+std::string deck_that_ran(store::CaseRecord const& result, int packing) {
+    auto const found =
+        std::ranges::find(result.packings, deck::packing_seed(packing), &store::PackingRecord::seed);
+    return found == result.packings.end() ? "" : found->deck;
+}
+
 }  // namespace
 
 std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
@@ -96,9 +111,14 @@ std::vector<StoredFile> files_of_case(campaign::Plan const& plan, campaign::Plan
     if (packings.empty()) return collection.take();
     // The decks of all packings consist of files of the same names.
     auto const deck = deck::make_deck(*planned.prepared, {1}).files;
+    // The result holds the decks that were run; those in the folder may have been edited since.
+    auto const result = read_whole_result(planned);
     for (int const packing : packings) {
-        for (auto const& [name, content] : deck)
-            collection.add(fmt::format("{}packing-{}/{}", folder, packing, name));
+        std::string const run = result ? deck_that_ran(*result, packing) : "";
+        for (auto const& [name, content] : deck) {
+            std::string const path = fmt::format("{}packing-{}/{}", folder, packing, name);
+            name == deck::drive_file && !run.empty() ? collection.add(path, run) : collection.add(path);
+        }
     }
     return collection.take();
 }

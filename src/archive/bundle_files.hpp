@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace vibrotrough::archive {
 
 /// A file that goes into a bundle as it lies in the campaign's folder.
 struct StoredFile {
-    std::string name;              ///< in the bundle, and below the campaign's folder
-    std::filesystem::path source;  ///< where it lies
+    std::string name;                    ///< in the bundle, and below the campaign's folder
+    std::filesystem::path source;        ///< where it lies
+    std::optional<std::string> content;  ///< its bytes where they are not those that lie there
 };
 
 /// What is frozen of a campaign and what belongs to it as a whole: campaign file, engine, certificate, files

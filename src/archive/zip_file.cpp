@@ -2,7 +2,9 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/open_file.hpp"
 #include "core/own_folder.hpp"
+#include "core/remains.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <locale.h>
-#include <sys/stat.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace vibrotrough::archive {
@@ -106,18 +108,18 @@ struct ZipWriter::State {
     Writer writer{archive_write_new(), archive_write_free};
 
     explicit State(fs::path const& name)
-        : path(name),
-          parent(name),
-          temporary(fmt::format("{}.part-{}", name.filename().string(), ::getpid())) {}
+        : path(name), parent(name), temporary(core::temporary_name(name.filename().string())) {}
 };
 
 ZipWriter::ZipWriter(fs::path const& path) : state_(std::make_unique<State>(path)) {
     State& state = *state_;
     if (!state.parent.is_open()) refuse_to_write(path, core::reason_of_errno().c_str());
+    core::remove_remains(state.parent);
     ::unlinkat(state.parent.descriptor(), state.temporary.c_str(), 0);
     state.file = ::openat(state.parent.descriptor(), state.temporary.c_str(),
                           O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (state.file < 0) refuse_to_write(path, core::reason_of_errno().c_str());
+    ::flock(state.file, LOCK_EX);  // tells the next bundle of this name that it is no remnant
     struct ::archive* const writer = state.writer.get();
     if (archive_write_set_format_zip(writer) != ARCHIVE_OK ||
         archive_write_zip_set_compression_deflate(writer) != ARCHIVE_OK ||
@@ -200,12 +202,10 @@ void read_zip(fs::path const& path, ZipLimits const& limits,
 std::string first_name_in_zip(fs::path const& path) {
     // PKWARE's APPNOTE.TXT, 4.3.7: the length of the first name stands at byte 26, the name at byte 30.
     std::array<unsigned char, 30> head{};
-    int const file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int const file = core::open_to_read(path, core::Kinds::regular);
     if (file < 0) return {};
-    struct stat status {};
     std::string name;
-    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-        ::read(file, head.data(), head.size()) == static_cast<ssize_t>(head.size()) &&
+    if (::read(file, head.data(), head.size()) == static_cast<ssize_t>(head.size()) &&
         std::memcmp(head.data(), "PK\3\4", 4) == 0) {
         name.resize(static_cast<std::size_t>(head[26]) + 256 * static_cast<std::size_t>(head[27]));
         ssize_t const count = ::read(file, name.data(), name.size());

@@ -8,6 +8,7 @@
 #include "core/version.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,10 +42,11 @@ Json swept_list(campaign::Plan const& plan) {
 
 }  // namespace
 
-int write_report_data(campaign::Plan const& plan, campaign::Activity const& activity,
-                      fs::path const& folder) {
+std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan,
+                                                      campaign::Activity const& activity,
+                                                      fs::path const& folder) {
     if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
-    ComparedCases const compared = compared_cases(plan, activity);
+    ComparedCases compared = compared_cases(plan, activity);
     auto const& cases = compared.cases;
     core::make_folder(folder / "point_mass");
     for (campaign::CaseOverview const& one : cases) {
@@ -63,8 +65,7 @@ int write_report_data(campaign::Plan const& plan, campaign::Activity const& acti
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));
-    return static_cast<int>(
-        std::ranges::count_if(cases, [](auto const& one) { return one.result.has_value(); }));
+    return std::move(compared.cases);
 }
 
 }  // namespace vibrotrough::compare

@@ -3,6 +3,7 @@
 #include "campaign/state/overview.hpp"
 
 #include <filesystem>
+#include <vector>
 
 namespace vibrotrough::compare {
 
@@ -18,9 +19,10 @@ namespace vibrotrough::compare {
 ///
 /// When the campaign.h5 of the campaign's folder lacks a finished case, it is written again.
 /// @param activity  what the executors know of the campaign, for cases without a result
-/// @returns the number of cases that have a result
+/// @returns what is known of the cases
 /// @throws core::MissingError when a file cannot be written
-int write_report_data(campaign::Plan const& plan, campaign::Activity const& activity,
-                      std::filesystem::path const& folder);
+std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan,
+                                                      campaign::Activity const& activity,
+                                                      std::filesystem::path const& folder);
 
 }  // namespace vibrotrough::compare

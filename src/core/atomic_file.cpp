@@ -1,15 +1,15 @@
 #include "core/atomic_file.hpp"
 
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "core/own_place.hpp"
-#include "core/time.hpp"
+#include "core/remains.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -59,15 +59,7 @@ class Descriptor {
 
 enum class Sync { yes, no };
 
-constexpr char const* temporary_mark = ".part-";
-
-/// The name of the temporary file. The host name is needed because machines that share a file system may use
-/// the same process number.
-std::string temporary_name(std::string const& name) {
-    return name + temporary_mark + host_name().substr(0, 40) + "-" + std::to_string(::getpid());
-}
-
-/// Opens a new file, which is locked until it is closed: see remove_remains().
+/// Opens a new file, which is locked until it is closed: see remains.hpp.
 int open_new(int folder, std::string const& name) {
     constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
     for (int i = 0; i < 3; ++i) {
@@ -85,32 +77,6 @@ int open_new(int folder, std::string const& name) {
     }
     errno = EEXIST;
     return -1;
-}
-
-/// Removes what a killed process left of a temporary file. A process that still writes it holds its lock,
-/// whatever its number and on whichever machine.
-void remove_remnant(int folder, char const* name) {
-    Descriptor const file(::openat(folder, name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    struct stat status {};
-    if (file.is_open() && ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) &&
-        ::flock(file.number(), LOCK_EX | LOCK_NB) == 0)
-        ::unlinkat(folder, name, 0);
-}
-
-/// Removes what killed processes left of a file. That it cannot be removed does no harm.
-void remove_remains(ParentFolder const& parent) {
-    int const copy = ::openat(parent.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR* const stream = copy < 0 ? nullptr : ::fdopendir(copy);
-    if (stream == nullptr) {
-        if (copy >= 0) ::close(copy);
-        return;
-    }
-    std::string const begin = std::string(parent.name()) + temporary_mark;
-    while (dirent const* const entry = ::readdir(stream)) {
-        if (std::string_view(entry->d_name).starts_with(begin))
-            remove_remnant(parent.descriptor(), entry->d_name);
-    }
-    ::closedir(stream);
 }
 
 /// Gives a file the mode and the owner of the one that it is about to replace, so that a private file stays
@@ -185,10 +151,13 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
     throw MissingError(fmt::format("cannot read {} ({})", path.string(), reason));
 }
 
+[[noreturn]] void refuse_kind(fs::path const& path) {
+    refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
+}
+
 /// Reads to the end. The reported size is only a hint: the file may grow meanwhile, and files in /proc report
 /// a size of 0.
-std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_t hint, std::size_t limit) {
-    std::string content(std::max<std::size_t>(hint + 1, 4096), '\0');
+void read_to_end(Descriptor const& file, fs::path const& path, std::size_t limit, std::string& content) {
     std::size_t length = 0;
     while (true) {
         ssize_t const count = ::read(file.number(), content.data() + length, content.size() - length);
@@ -200,12 +169,12 @@ std::string read_to_end(Descriptor const& file, fs::path const& path, std::size_
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);
-    return content;
 }
 
-/// Reads a file that was opened with these flags, and closes it.
-std::string read_descriptor(int opened, fs::path const& path, int flags, std::size_t limit) {
+/// Reads a file that was opened, and closes it.
+void read_descriptor(int opened, fs::path const& path, Kinds kinds, std::size_t limit, std::string& content) {
     Descriptor const file(opened);
+    if (!file.is_open() && errno == ESPIPE) refuse_kind(path);
     struct stat status {};
     if (!file.is_open() || ::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
         std::string const reason = file.is_open() || errno == ENOENT || errno == EACCES
@@ -213,16 +182,17 @@ std::string read_descriptor(int opened, fs::path const& path, int flags, std::si
                                        : reason_of_errno();
         throw MissingError(fmt::format("cannot open {} ({})", path.string(), reason));
     }
-    if ((flags & O_NONBLOCK) != 0 && !S_ISREG(status.st_mode))
-        refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
+    if (kinds == Kinds::regular && !S_ISREG(status.st_mode)) refuse_kind(path);
     auto const size = static_cast<std::size_t>(status.st_size);
     if (size > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
-    return read_to_end(file, path, size, limit);
+    content.resize(std::max({size + 1, content.capacity(), std::size_t{4096}}));
+    read_to_end(file, path, limit, content);
 }
 
-std::string read_opened(fs::path const& path, int flags, std::size_t limit) {
-    // Without O_NONBLOCK the opening of a pipe would wait for a writer.
-    return read_descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags), path, flags, limit);
+std::string read_opened(fs::path const& path, Kinds kinds, std::size_t limit) {
+    std::string content;
+    read_descriptor(open_to_read(path, kinds), path, kinds, limit, content);
+    return content;
 }
 
 }  // namespace
@@ -232,15 +202,21 @@ std::string read_own_file(fs::path const& path, std::size_t limit) {
     int const opened = parent.open(O_RDONLY | O_NONBLOCK);
     if (opened < 0 && (errno == ELOOP || errno == EXDEV || errno == ENOTDIR))
         refuse_to_read(path, "it is a symbolic link, or there is one on the way");
-    return read_descriptor(opened, path, O_NONBLOCK, limit);
+    std::string content;
+    read_descriptor(opened, path, Kinds::regular, limit, content);
+    return content;
 }
 
 std::string read_file(fs::path const& path, std::size_t limit) {
-    return read_opened(path, O_NONBLOCK, limit);
+    return read_opened(path, Kinds::regular, limit);
+}
+
+void read_file_into(fs::path const& path, std::string& content, std::size_t limit) {
+    read_descriptor(open_to_read(path, Kinds::regular), path, Kinds::regular, limit, content);
 }
 
 std::string read_given_file(fs::path const& path, std::size_t limit) {
-    return read_opened(path, 0, limit);
+    return read_opened(path, Kinds::given, limit);
 }
 
 TextFile read_text_file(fs::path const& path) {

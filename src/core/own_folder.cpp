@@ -239,11 +239,9 @@ void remove_tree(fs::path const& path) {
     if (!gone) refuse("remove", path);
 }
 
-void remove_content(fs::path const& folder) {
+void remove_if_empty(fs::path const& folder) {
     ParentFolder const parent(folder);
-    Handle const opened(parent.open(O_RDONLY | O_DIRECTORY));
-    bool const done = opened.is_open() ? empty_folder(opened.number()) : errno == ENOENT;
-    if (!done) refuse("empty the folder", folder);
+    if (parent.is_open()) ::unlinkat(parent.descriptor(), parent.name(), AT_REMOVEDIR);
 }
 
 void rename_entry(fs::path const& from, fs::path const& to) {

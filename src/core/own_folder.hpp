@@ -62,9 +62,8 @@ void remove_file(std::filesystem::path const& path);
 /// @throws MissingError with the reason
 void remove_tree(std::filesystem::path const& path);
 
-/// Removes the content of a folder, as remove_tree() does, and leaves the folder.
-/// @throws MissingError with the reason
-void remove_content(std::filesystem::path const& folder);
+/// Removes a folder if it is empty; does nothing otherwise.
+void remove_if_empty(std::filesystem::path const& folder);
 
 /// Renames a file or folder as rename(2) does. @throws MissingError with the reason
 void rename_entry(std::filesystem::path const& from, std::filesystem::path const& to);

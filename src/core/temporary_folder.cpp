@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -121,21 +122,23 @@ bool take_lock(int descriptor) {
     return result == 0;
 }
 
-/// Whether a process that this user may look into works below the folder, or names it in its environment:
-/// MPI's ranks close the lock that they inherit.
-bool is_in_use(fs::path const& path) {
+/// Processes that this user may look into which work below the folder, or name it in their environment: MPI's
+/// ranks close the lock that they inherit.
+std::vector<int> users_of(fs::path const& path) {
+    std::vector<int> found;
     std::error_code failure;
     for (auto const& process : fs::directory_iterator("/proc", failure)) {
-        if (std::isdigit(static_cast<unsigned char>(process.path().filename().string().front())) == 0)
-            continue;
+        std::string const name = process.path().filename().string();
+        int number = 0;
+        if (std::from_chars(name.data(), name.data() + name.size(), number).ec != std::errc()) continue;
         std::error_code ended;
         std::string const place = fs::read_symlink(process.path() / "cwd", ended).string() + "/";
-        if (!ended && place.starts_with(path.string() + "/")) return true;
         std::ifstream file(process.path() / "environ");
         std::string const environment{std::istreambuf_iterator<char>(file), {}};
-        if (environment.find(path.string()) != std::string::npos) return true;
+        bool const works_there = !ended && place.starts_with(path.string() + "/");
+        if (works_there || environment.find(path.string()) != std::string::npos) found.push_back(number);
     }
-    return false;
+    return found;
 }
 
 /// A folder of this user whose lock is free has no owner. Its owner takes the lock right after making it, and
@@ -143,7 +146,8 @@ bool is_in_use(fs::path const& path) {
 bool is_left(fs::path const& path, int descriptor) {
     struct stat status {};
     return ::fstat(descriptor, &status) == 0 && status.st_uid == ::geteuid() &&
-           ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(path, descriptor) && !is_in_use(path);
+           ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(path, descriptor) &&
+           users_of(path).empty();
 }
 
 fs::path parent_of_folders() {
@@ -200,6 +204,12 @@ TemporaryFolder::~TemporaryFolder() {
 
 void TemporaryFolder::keep_in_child() const {
     if (lock_ >= 0) ::fcntl(lock_, F_SETFD, 0);
+}
+
+std::vector<int> TemporaryFolder::users() const {
+    std::vector<int> found = users_of(path_);
+    std::erase(found, ::getpid());
+    return found;
 }
 
 int remove_left_folders(fs::path const& parent) {

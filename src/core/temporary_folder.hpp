@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace vibrotrough::core {
 
@@ -25,6 +26,8 @@ class TemporaryFolder {
     /// To be called in a child between fork and exec: the folder counts as in use until the child, and
     /// whatever inherits its files, has ended.
     void keep_in_child() const;
+    /// Processes of this user that work below the folder or name it in their environment, besides this one.
+    std::vector<int> users() const;
 
   private:
     std::filesystem::path path_;

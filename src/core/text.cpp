@@ -54,7 +54,8 @@ Character first_of(std::string_view text) {
 /// Control characters, and marks that reorder or hide what is written (Unicode TR 36).
 bool is_steering(char32_t code) {
     return code < 0x20 || (code >= 0x7f && code <= 0x9f) || (code >= 0x200b && code <= 0x200f) ||
-           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2060 && code <= 0x206f) || code == 0xfeff;
+           (code >= 0x2028 && code <= 0x202e) || (code >= 0x2060 && code <= 0x206f) || code == 0x061c ||
+           code == 0xfeff;
 }
 
 }  // namespace
@@ -64,8 +65,11 @@ std::string harmless(std::string_view text) {
     line.reserve(text.size());
     while (!text.empty()) {
         auto const [code, length] = first_of(text);
-        if (length == 0 || is_steering(code)) {
-            line += '?';
+        if (length == 0) {
+            line += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+        } else if (is_steering(code)) {
+            auto const number = static_cast<unsigned>(code);
+            line += number < 0x80 ? fmt::format("\\x{:02x}", number) : fmt::format("\\u{:04x}", number);
         } else {
             line += text.substr(0, length);
         }

@@ -14,8 +14,8 @@ std::string_view trimmed(std::string_view text);
 std::string printable(std::string_view text, std::size_t longest);
 
 /// A text from outside, made harmless for a terminal and a single line: control characters, with which a
-/// terminal can be steered, marks that change the direction of writing, and bytes that are not UTF-8 become
-/// '?'. The letters of all languages stay.
+/// terminal can be steered, marks that change the direction of writing, and bytes that are not UTF-8 are
+/// written as "\x1b", "\u202e" and "\xff". The letters of all languages stay.
 std::string harmless(std::string_view text);
 
 /// Bytes, such as those of a path, as a text that is UTF-8 and can stand in a JSON file: a byte that is not

@@ -226,6 +226,14 @@ void await_end(pid_t process) {
     }
 }
 
+/// Kills what the engine has started and left behind, if it still holds the engine's lock, and with it
+/// perhaps the engine's files: a child that runs on, or a daemon. They are known by the engine's own session
+/// folder, which they name in their environment; numbers of processes and groups may be a stranger's by now.
+void end_descendants(fs::path const& folder, core::TemporaryFolder const& session) {
+    if (!has_writer(folder)) return;
+    for (int const process : session.users()) ::kill(process, SIGKILL);
+}
+
 /// Otherwise programs that help to start the engine end with messages of their own, or wait for long.
 void require_resources() {
     constexpr unsigned long files = 24;  // measured: 21 with one engine, two more for each further one
@@ -250,6 +258,7 @@ struct EngineProcess::State {
     }
 
     core::TemporaryFolder session{session_name};
+    fs::path folder;
     bp::child process;
     boost::asio::steady_timer patience;
     std::function<void(ExitStatus)> on_exit;
@@ -264,12 +273,14 @@ EngineProcess::EngineProcess(boost::asio::io_context& context, Engine const& eng
     : state_(std::make_shared<State>(context)) {
     state_->on_exit = std::move(on_exit);
     state_->ranks = engine.ranks;
+    state_->folder = folder;
     // The exit handler owns the state; a destroyed EngineProcess no longer has a handler. The handler is
     // posted, because Boost 1.74 iterates over its list of children while it calls handlers and must not find
     // a new child there. The number that Boost passes may be an exit code or a signal; only the process
     // status tells which.
     auto const ended = [state = state_, &context](int, std::error_code const&) {
         state->ended = true;
+        end_descendants(state->folder, state->session);
         state->core_time = time_of_ended_processes();
         state->patience.cancel();
         boost::asio::post(context, [state] {
@@ -308,6 +319,7 @@ EngineProcess::~EngineProcess() {
     if (state_->ended || !state_->process.valid()) return;
     state_->signal(SIGKILL);
     await_end(state_->process.id());
+    end_descendants(state_->folder, state_->session);
 }
 
 double EngineProcess::core_time() const {

@@ -91,7 +91,7 @@ double cpu_time_of_children() {
 }
 
 int grains_at_end(fs::path const& transcript) {
-    std::ifstream file(transcript);
+    std::istringstream file(text_of_output(transcript));
     int grains = 0;
     for (std::string line, word; std::getline(file, line);) {
         long step = 0;

@@ -4,10 +4,10 @@
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
+#include "engine/run_report.hpp"
 
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ core::InputError unreadable(std::filesystem::path const& path) {
 }  // namespace
 
 std::vector<std::vector<GrainSample>> read_samples(std::filesystem::path const& path, std::size_t grains) {
-    std::ifstream file(path);
+    std::istringstream file(text_of_output(path));
     std::vector<std::vector<GrainSample>> times;
     for (std::string line; std::getline(file, line);) {
         if (!line.starts_with("ITEM: ATOMS")) continue;
@@ -59,7 +59,7 @@ std::vector<TroughSample> read_trough_samples(std::filesystem::path const& path)
 }
 
 std::string problem_of_run(std::filesystem::path const& folder, ExitStatus status) {
-    std::ifstream file(folder / output_file);
+    std::istringstream file(text_of_output(folder / output_file));
     bool ended = false;
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with("ERROR")) return core::printable(line, 300);

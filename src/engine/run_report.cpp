@@ -1,5 +1,7 @@
 #include "engine/run_report.hpp"
 
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "deck/deck.hpp"
 
@@ -7,7 +9,6 @@
 #include <array>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -41,7 +42,7 @@ std::optional<std::string> after(std::string const& line, char const* marker) {
 
 Transcript read_transcript(std::filesystem::path const& path) {
     Transcript seen;
-    std::ifstream file(path);
+    std::istringstream file(text_of_output(path));
     bool begun_anew = false;
     for (std::string line, word; std::getline(file, line);) {
         if (!seen.error && line.starts_with("ERROR")) seen.error = clean(line);
@@ -83,6 +84,14 @@ RunReport named_failure(std::string const& text) {
 }
 
 }  // namespace
+
+std::string text_of_output(std::filesystem::path const& path) {
+    try {
+        return core::read_file(path);
+    } catch (core::MissingError const&) {
+        return {};
+    }
+}
 
 RunReport examine_run(std::filesystem::path const& folder, ExitStatus status, Stage stage) {
     Transcript const seen = read_transcript(folder / output_file);

@@ -25,6 +25,10 @@ struct RunReport {
     double settled_force = 0;  ///< N, of the resting layer on the trough, pressing positive, of settling
 };
 
+/// What an engine or a probe wrote into a file; nothing when there is no such file, or when something else
+/// than a file has its name. What should be in it is then missing.
+std::string text_of_output(std::filesystem::path const& path);
+
 /// Judges an ended run by its exit status and what it printed into `folder`. An exit code alone proves
 /// nothing: LIGGGHTS also ends with 0 after a signal and on a full disk.
 RunReport examine_run(std::filesystem::path const& folder, ExitStatus status, Stage stage);

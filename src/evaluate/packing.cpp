@@ -2,6 +2,7 @@
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "deck/deck.hpp"
 #include "evaluate/layer.hpp"
 #include "evaluate/rolling.hpp"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -99,6 +101,24 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
             carried, prepared.weight)};
 }
 
+/// The deck that a packing was run with: the one in its folder or, when that is not what was run any more,
+/// the same one made again. None when it cannot be made again either.
+std::optional<std::string> deck_of_run(prepare::PreparedCase const& prepared, int packing,
+                                       fs::path const& packing_folder, PackingMarker const& marker) {
+    std::error_code missing;
+    fs::path const file = packing_folder / deck::drive_file;
+    std::string written;
+    if (marker.deck_sha256.empty() || fs::exists(file, missing))
+        written = core::read_file(file, core::largest_note);
+    if (marker.deck_sha256.empty() || core::sha256_hex(written) == marker.deck_sha256) return written;
+    auto const again = deck::make_deck(prepared, {packing, 0, marker.start_efficiency}).files;
+    for (int const ranks : {1, 2}) {  // all decks for several ranks are the same
+        std::string made = deck::for_ranks(again, ranks).at(deck::drive_file);
+        if (core::sha256_hex(made) == marker.deck_sha256) return made;
+    }
+    return {};
+}
+
 }  // namespace
 
 InterimEstimate estimate_so_far(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
@@ -153,12 +173,14 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
     PackingFiles const files = read_packing_files(packing_folder);
     auto const marker = read_marker(files);
     if (!marker) return {};
+    auto deck = deck_of_run(prepared, packing, packing_folder, *marker);
+    if (!deck) return {};
     auto const phases = packing_phases(prepared, files.phases);
     auto const series = first_of(parse(prepared, files.cycles), cycles, packing_folder);
     EvaluatedPacking evaluated{*marker, measure_packing(prepared, packing, files, series, phases)};
     hold_to_marker(evaluated.record, files, *marker);
     add_run(evaluated.record, *marker);
-    evaluated.record.deck = core::read_file(packing_folder / deck::drive_file, core::largest_note);
+    evaluated.record.deck = std::move(*deck);
     return evaluated;
 }
 

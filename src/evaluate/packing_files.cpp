@@ -79,7 +79,8 @@ std::optional<PackingMarker> read_marker(PackingFiles const& files) {
                              json.contains("start_efficiency")
                                  ? std::optional(json.at("start_efficiency").get<double>())
                                  : std::nullopt,
-                             json.value("rolling_sha256", std::string())};
+                             json.value("rolling_sha256", std::string()),
+                             json.value("deck_sha256", std::string())};
     } catch (Json::exception const&) {
         return {};
     }
@@ -102,6 +103,7 @@ void write_marker(PackingFiles const& files, PackingMarker const& marker) {
               {"cycles_sha256", files.cycles_sha256},
               {"layer_sha256", files.layer_sha256}};
     if (!files.rolling_sha256.empty()) json["rolling_sha256"] = files.rolling_sha256;
+    if (!marker.deck_sha256.empty()) json["deck_sha256"] = marker.deck_sha256;
     if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
     core::write_file_atomically(files.folder / marker_file, json.dump(2) + "\n");
 }

@@ -35,6 +35,7 @@ struct PackingMarker {
     /// Velocity efficiency with which all grains started; none when they started at rest.
     std::optional<double> start_efficiency = {};
     std::string rolling_sha256 = "";  ///< of rolling.csv when the run ended; empty when there was none
+    std::string deck_sha256 = "";     ///< of in.liggghts as it was run; empty up to version 0.2
 };
 
 /// Whether the folder has a marker, whatever it is worth.

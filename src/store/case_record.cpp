@@ -8,13 +8,14 @@ namespace vibrotrough::store {
 
 std::optional<double> CaseRecord::numerical_error() const {
     if (!estimate.mean) return {};
-    return studied ? studied->error : prepare::numerical_errors(scenario).total();
+    if (studied) return studied->error;
+    if (scenario.layer.block != scenario::Block::none) return {};
+    return prepare::numerical_errors(scenario).total();
 }
 
 std::optional<double> CaseRecord::whole_half_width() const {
-    auto const numerics = numerical_error();
-    if (!numerics || !estimate.half_width) return {};
-    return std::hypot(*estimate.half_width, *numerics);
+    if (!estimate.mean || !estimate.half_width) return {};
+    return std::hypot(*estimate.half_width, numerical_error().value_or(0));
 }
 
 }  // namespace vibrotrough::store

@@ -1,6 +1,6 @@
 #include "store/hdf5_memory_file.hpp"
 
-#include "core/hash.hpp"
+#include "store/file_digest.hpp"
 #include "store/hdf5_values.hpp"
 
 #include <algorithm>
@@ -40,18 +40,11 @@ Hdf5Handle make_file() {
                       "make a file");
 }
 
-/// The line that follows the HDF5 file.
-std::string checksum_line(std::string const& hdf5_file) {
-    return fmt::format("\nvibrotrough sha256 {}\n", core::sha256_hex(hdf5_file));
-}
-
 /// The HDF5 file without its checksum line, which must be right.
 std::string without_checksum(std::string bytes) {
-    std::size_t const length = checksum_line("").size();
-    require(bytes.size() > length, "find its last line, it is cut short or of another kind");
-    std::string const found = bytes.substr(bytes.size() - length);
-    bytes.resize(bytes.size() - length);
-    require(found == checksum_line(bytes), "trust it, its bytes do not match the SHA-256 in its last line");
+    require(stated_digest(bytes).has_value(), "find its last line, it is cut short or of another kind");
+    require(sound_digest(bytes).has_value(), "trust it, its bytes do not match the SHA-256 in its last line");
+    bytes.resize(without_digest(bytes).size());
     return bytes;
 }
 
@@ -183,7 +176,7 @@ std::string Hdf5MemoryFileWriter::bytes() const {
     require(size > 0, "size the file");
     std::string hdf5_file(static_cast<std::size_t>(size), '\0');
     require(H5Fget_file_image(file_.id(), hdf5_file.data(), hdf5_file.size()) == size, "take the file");
-    return hdf5_file + checksum_line(hdf5_file);
+    return with_digest(std::move(hdf5_file));
 }
 
 Hdf5MemoryFileReader::Hdf5MemoryFileReader(std::string bytes)

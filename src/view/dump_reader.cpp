@@ -1,37 +1,15 @@
 #include "view/dump_reader.hpp"
 
-#include "core/error.hpp"
+#include "core/atomic_file.hpp"
 #include "view/text_cursor.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::view {
 namespace {
-
-/// Reads the file into `text` and reuses its memory, which read_file of core would allocate anew for every
-/// frame.
-void read_into(std::filesystem::path const& path, std::string& text) {
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"), &std::fclose);
-    if (!file)
-        throw core::MissingError(fmt::format("cannot open {} ({})", path.string(), std::strerror(errno)));
-    std::size_t used = 0;
-    text.resize(std::max<std::size_t>(text.capacity(), std::size_t{1} << 16));
-    while (std::size_t const got = std::fread(text.data() + used, 1, text.size() - used, file.get())) {
-        used += got;
-        if (used == text.size()) text.resize(2 * used);
-    }
-    if (std::ferror(file.get()) != 0) {
-        throw core::MissingError(fmt::format("cannot read {} ({})", path.string(), std::strerror(errno)));
-    }
-    text.resize(used);
-}
 
 /// The meaning of a column of the dump.
 enum class Column { id, x, y, z, vx, vy, vz, radius, omegax, omegay, omegaz, other };
@@ -139,7 +117,7 @@ void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
 }  // namespace
 
 DumpState DumpReader::read(std::filesystem::path const& path, GrainFrame& frame) {
-    read_into(path, text_);
+    core::read_file_into(path, text_);  // uses the memory of the frame before
     TextCursor cursor(text_, path);
     try {
         read_frame(cursor, text_.size(), frame);

@@ -8,6 +8,7 @@
 #include "store/summary.hpp"
 
 #include <cmath>
+#include <fstream>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -61,6 +62,44 @@ TEST_F(ResultSummary, NoticesADamagedAndARemovedResult) {
     EXPECT_TRUE(look().first);
     fs::remove(planned.result_file());
     EXPECT_FALSE(look().first);
+}
+
+// A disk can spoil a byte, and a copy with its times can be another file: size, time and inode do not tell.
+TEST_F(ResultSummary, NoticesAByteThatRotsWhileTheStampStays) {
+    look();
+    std::string const whole = core::read_file(planned.result_file());
+    auto const time = fs::last_write_time(planned.result_file());
+    auto const write_over = [&](std::string const& content) {
+        std::fstream(planned.result_file(), std::ios::in | std::ios::out | std::ios::binary) << content;
+        fs::last_write_time(planned.result_file(), time);
+    };
+    for (std::size_t position = 9; position < whole.size(); position += whole.size() / 23) {
+        std::string rotten = whole;
+        rotten[position] = static_cast<char>(rotten[position] ^ 1);
+        write_over(rotten);
+        EXPECT_TRUE(find_summary(planned, Trust::stamp)) << "a quick look sees the stamp only";
+        EXPECT_FALSE(find_summary(planned)) << position;
+    }
+    write_over(whole);
+    auto const found = find_summary(planned);
+    EXPECT_TRUE(found && !found->is_from_result);
+}
+
+// A sound file in place of another one, of the same size and time: its own numbers count, not the summary's.
+TEST_F(ResultSummary, NoticesAnotherResultUnderTheSameStamp) {
+    look();
+    auto const time = fs::last_write_time(planned.result_file());
+    auto other = store::sample_record(planned.id);
+    other.estimate.mean = *other.estimate.mean + 0.125;
+    auto const made = planned.folder / "other.h5";
+    store::write_result(made, other);
+    std::string const bytes = core::read_file(made);
+    ASSERT_EQ(bytes.size(), fs::file_size(planned.result_file()));
+    std::fstream(planned.result_file(), std::ios::in | std::ios::out | std::ios::binary) << bytes;
+    fs::last_write_time(planned.result_file(), time);
+    auto const found = find_summary(planned);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->record.estimate.mean, other.estimate.mean);
 }
 
 TEST_F(ResultSummary, ADamagedSummaryIsReplaced) {

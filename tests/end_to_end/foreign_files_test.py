@@ -1,7 +1,9 @@
 """Sentences of .github/SECURITY.md about what other people's files and names make the program do: each has a test of the name that the page gives."""
 
 import hashlib
+import json
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -10,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from trough_program import PATIENCE, EndToEndTest
 
@@ -161,6 +164,133 @@ class ForeignFiles(EndToEndTest):
         result.write_bytes(whole)
         (result.parent / "summary").unlink(missing_ok=True)
         self.assertEqual(self.table(), before)
+
+    @staticmethod
+    def spoil_cycles(result):
+        """Makes the cycles of the first packing three times their value, as a disk or a person may do; size, times and inode stay."""
+        times = result.stat()
+        with h5py.File(result) as file:
+            table = file["series/1"]
+            place, count, row = table.id.get_offset(), len(table), table.dtype
+        with open(result, "r+b") as file:
+            file.seek(place)
+            values = np.frombuffer(file.read(count * row.itemsize), row).copy()
+            values["efficiency"] *= 3
+            file.seek(place)
+            file.write(values.tobytes())
+        os.utime(result, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+    def test_no_number_of_a_damaged_result_is_shown(self):
+        """Its summary beside it is sound, and size and times are the old ones: only the hash of the result tells."""
+        campaign = self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.2]})
+        self.run_campaign(campaign, wanted=None)
+        before = self.table()
+        result = self.output / "cases" / before[0]["case"] / "result.h5"
+        whole, drawn = result.read_bytes(), result.parent.name
+        self.spoil_cycles(result)
+        self.assertNotEqual(result.read_bytes(), whole)
+        with self.assertRaisesRegex(ValueError, "result.h5 is damaged"):
+            vibrotrough.open_result(result)
+        damaged, sound = self.table()
+        self.assertEqual((damaged["outcome"], damaged["efficiency_dem"]), ("interrupted", None))
+        self.assertEqual(sound, before[1])
+        for command in ("plot", "report"):
+            done = self.call(command, self.output)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(list(self.output.glob(f"report/*-{drawn}.*")), [])
+        self.assertEqual(list(vibrotrough.open_campaign(self.output)["case"]), [sound["case"]])
+        data = json.loads((self.output / "report" / "data" / "campaign.json").read_text())
+        self.assertEqual([row["efficiency_dem"] for row in data["cases"]], [None, sound["efficiency_dem"]])
+        self.assertEqual(self.call("export", self.output, "--table").returncode, 0)
+        table = (self.output / "view" / "campaign.vtt").read_text(encoding="utf-8")
+        (least, most) = re.search(r'Name="efficiency_dem"[^>]*RangeMin="([^"]*)" *RangeMax="([^"]*)"', table).groups()
+        self.assertEqual((float(least), float(most)), (sound["efficiency_dem"],) * 2, "only the sound result is in ParaView's table")
+        # What compare and status advise helps: run sees the damage, too.
+        self.run_campaign(campaign, wanted=None)
+        self.assertEqual([row["efficiency_dem"] for row in self.table()], [row["efficiency_dem"] for row in before])
+
+    def assert_left_aside(self, *parts, archive="--partial", draw=True):
+        """Every command that shows the campaign says in one line what it leaves aside, and archive refuses it."""
+        drawing = (("plot", "--only", "efficiency"), ("report",)) if draw else ()
+        for command in (("status",), ("compare",), ("compare", "--json"), ("export", "--table"), *drawing):
+            done = self.call(command[0], self.output, *command[1:])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stderr, r"(\A|\n)vibrotrough: left aside: [^\n]+\n", command)
+            for part in parts:
+                self.assertIn(part, done.stderr, command)
+        bundle = self.folder / "bundle.zip"
+        self.assert_one_line_error(self.call("archive", self.output, "--output", bundle), 2, archive)
+        self.assertFalse(bundle.exists())
+
+    def test_what_is_left_aside_is_said(self):
+        self.run_campaign(self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.1, 2.2]}), wanted=None)
+        self.assertEqual(self.call("status", self.output).stderr, "", "nothing is left aside")
+        first, second, _ = (self.output / "cases" / row["case"] for row in self.table())
+        # Something else has the name of a case's folder.
+        hidden = self.folder / "hidden"
+        for make in (lambda path: path.write_text("dear"), lambda path: path.symlink_to("nowhere"), os.mkfifo):
+            first.rename(hidden)
+            make(first)
+            self.assert_left_aside("1 of 3 cases", first.name, "not a folder", draw=first.is_file())
+            first.unlink()
+            hidden.rename(first)
+        # The result is there and cannot be used.
+        result = second / "result.h5"
+        result.rename(hidden)
+        for make in (lambda path: path.write_text("damaged"), lambda path: path.symlink_to("nowhere"), os.mkfifo):
+            make(result)
+            self.assert_left_aside("1 of 3 cases", second.name, "result.h5 is", archive="result.h5 is damaged", draw=result.is_file())
+            result.unlink()
+        hidden.rename(result)
+        # The frozen campaign file was edited: two cases of three are left, and nobody would miss the third.
+        frozen = self.output / "campaign.toml"
+        before = frozen.read_text()
+        frozen.write_text(before.replace("2.1, ", ""))
+        self.assert_left_aside("campaign.toml", "was changed", "1 case folder that belongs to no case")
+        self.assertEqual(len(self.table()), 2)
+        done = self.call("archive", self.output, "--partial", "--output", self.folder / "bundle.zip")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("\nleft aside: ", done.stdout)
+        frozen.write_text(before)
+        self.assertEqual(self.call("compare", self.output).stderr, "")
+
+    def test_a_folder_that_may_not_be_read_is_said(self):
+        self.run_campaign(self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.1]}), wanted=None)
+        case = self.output / "cases" / self.table()[0]["case"]
+        stranger = {"user": 65534, "group": 65534} if os.geteuid() == 0 else {}
+        os.chmod(self.folder, 0o755)
+        os.chmod(self.output, 0o777)  # for the figures
+        (self.output / "campaign.h5").unlink()
+        if self.call("status", self.output, **stranger).returncode != 0:
+            self.skipTest("another user cannot start the program here")
+        for path in (case, case / "result.h5", case / "packing-1" / "packing.json", self.output / "cases"):
+            mode = path.stat().st_mode
+            if path.name == "packing.json":
+                (case / "result.h5").rename(case / "result")
+            os.chmod(path, 0)
+            # A quick look believes the stamp of a result, and reads none.
+            for command in ("status", "compare") if path.name != "result.h5" else ("compare",):
+                done = self.call(command, self.output, **stranger)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertRegex(done.stderr, r"\Avibrotrough: left aside: [^\n]*(cannot be read|cannot be looked at|cannot open)[^\n]+\n\Z", path)
+            os.chmod(path, mode)
+            if path.name == "packing.json":
+                (case / "result").rename(case / "result.h5")
+
+    def test_what_is_drawn_is_what_was_checked(self):
+        """campaign.h5 and the results are drawn by Python, which looks at their hashes itself."""
+        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        self.assertEqual(self.call("plot", self.output, "--only", "cycles").returncode, 0)
+        (result,) = self.results()
+        (figure,) = self.output.glob("report/cycles-*.svg")
+        figures = str(Path(vibrotrough.__file__).with_name("figures.py"))
+        figure.unlink()
+        self.spoil_cycles(result)
+        # Called as the program calls it: between its own check and this one, the file was spoilt.
+        done = subprocess.run([sys.executable, "-B", figures, self.output, "--only", "cycles"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        self.assertRegex(done.stderr, r"\Afigures.py: case [0-9a-f]{12} is left out: [^\n]*result.h5 is damaged[^\n]*\n\Z")
+        self.assertFalse(figure.exists())
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import sys
 
 import h5py
 import numpy as np
+from sign import sign
 
 
 def raises(error, call, *parts):
@@ -83,9 +84,12 @@ def main(scripts, sample, work):
             file.attrs["format"] = f"vibrotrough theory {kind}"
             file["boundaries/x0"] = [1.0, 2.0]
             file["boundaries/x0"].attrs["units"] = "degree"
+        raises(ValueError, lambda: vibrotrough.open_theory(folder / f"{kind}.h5"), "is damaged", "SHA-256")
+        sign(folder / f"{kind}.h5")
         assert vibrotrough.open_theory(folder / f"{kind}.h5")["boundaries/x0"].units == "degree"
     with h5py.File(folder / "map.h5", "a") as file:
         file["foreign"] = [1.0]
+    sign(folder / "map.h5")
     raises(ValueError, lambda: vibrotrough.open_theory(folder / "map.h5"), "/foreign does not tell its units")
 
     raises(KeyError, lambda: campaign["eta"], "has no 'eta'", "efficiency")

@@ -6,6 +6,7 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -58,9 +59,10 @@ int run_archive(ArchiveArguments const& options) {
     fs::path const output = options.output.empty() ? fs::path(plan.name + ".zip") : fs::path(options.output);
     archive::BundleReport const report =
         archive::write_bundle(plan, campaign::activity_in(plan.folder), output, options.words);
-    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", output.string(), report.files,
-               static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
+    fmt::print("{}: {} files, {:.1f} MB, {} of {} cases with a result\n", core::harmless(output.string()),
+               report.files, static_cast<double>(report.bytes) / 1e6, report.results, plan.cases.size());
     std::string const folder = core::shell_word(options.folder);
+    if (!report.left_aside.empty()) fmt::print("left aside: {}\n", core::harmless(report.left_aside));
     if (std::string const fault = fault_of(report.campaign_file); !fault.empty())
         fmt::print("without campaign.h5, {}: 'vibrotrough run' writes it\n", fault);
     if (!report.has_report)
@@ -95,7 +97,8 @@ void add_archive(CLI::App& program, int& exit_code) {
                      "Address of the licence under which others may use the data")
         ->type_name("URL");
     command->add_flag("--partial", options->words.partial,
-                      "Archive the cases that have a result although others have none");
+                      "Archive the cases that have a result although others have none, or although the "
+                      "campaign file in the folder was changed");
     command->footer(
         R"(The bundle holds the frozen campaign file with the files that it names, the decks of every case, its results
 with all cycles, the engine's certificate, the table of 'vibrotrough compare' as CSV, JSON and text, campaign.h5, figures and
@@ -109,7 +112,8 @@ A bundle names the machines on which it was simulated and the path of the engine
 Exit codes:
     0  all well
     2  the input is wrong: the campaign is still running, a result is damaged, a case has no result
-       (without --partial), or the output is another file
+       or the frozen campaign file was changed (both without --partial), or the output is another
+       file
     3  a file cannot be read (a symbolic link is not followed), or there is no disk space
 
 Example:

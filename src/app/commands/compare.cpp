@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/left_aside.hpp"
 #include "app/standard_streams.hpp"
 #include "archive/open_bundle.hpp"
 #include "campaign/execute/executors.hpp"
@@ -84,6 +85,7 @@ int run_compare(CompareArguments const& options) {
     auto [cases, rows, columns] =
         compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
     if (bundle) tell_unknown_results(*bundle, rows, cases);
+    tell_left_aside(plan, cases);
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
     if (options.json) {

@@ -179,8 +179,8 @@ int run_convergence(ConvergenceArguments const& options) {
     bool const was_run = fs::is_regular_file(original.folder / "campaign.h5");
     if (was_run) campaign::write_campaign_file(original);
     fmt::print("written to {}; see it{} with: vibrotrough compare {} --budget\n",
-               campaign::numerics_file(original.folder).string(), was_run ? "" : " after 'vibrotrough run'",
-               core::shell_word(original.folder));
+               core::harmless(campaign::numerics_file(original.folder).string()),
+               was_run ? "" : " after 'vibrotrough run'", core::shell_word(original.folder));
     print_advice(budgets);
     bool const all =
         std::ranges::all_of(budgets, [](auto const& one) { return one.numerical_error().has_value(); });

@@ -7,6 +7,7 @@
 #include "campaign/schedule/policy.hpp"
 #include "core/own_folder.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "deck/deck_folder.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -63,8 +64,8 @@ int run_deck(DeckArguments const& options) {
         auto const first_round = policy->decide({&planned, {}, {}, {}}).wanted;
         write_case(folder, prepared, first_round);
         fmt::print("{}: throw number {:.4g}, machine number {:.4g}, {} grains, {} packings\n",
-                   folder.string(), prepared.throw_number, prepared.machine_number, scenario.layer.grains,
-                   first_round.size());
+                   core::harmless(folder.string()), prepared.throw_number, prepared.machine_number,
+                   scenario.layer.grains, first_round.size());
     }
     fmt::print(
         "{} cases written; run one by hand with: cd {} && liggghts -in settle.liggghts && liggghts -in "

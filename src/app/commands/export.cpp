@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/left_aside.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -41,6 +42,7 @@ fs::path export_table(campaign::Plan const& plan) {
     core::make_folder(path.parent_path());
     auto const compared = compare::compared_cases(plan, campaign::activity_in(plan.folder));
     view::write_table(path, compared.rows, compared.columns);
+    tell_left_aside(plan, compared.cases);
     return fs::absolute(path).lexically_normal();
 }
 

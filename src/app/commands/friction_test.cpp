@@ -11,6 +11,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 #include "scenario/reader/shake_test.hpp"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ int run_friction_test(FrictionTestArguments const& options) {
     }
     campaign::write_friction(folder, tests);
     fmt::print("written to {}; 'vibrotrough compare {}' now also shows the theory at this friction\n",
-               campaign::friction_file(folder).string(), core::shell_word(folder));
+               core::harmless(campaign::friction_file(folder).string()), core::shell_word(folder));
     return exit_code_of(summary, tests);
 }
 

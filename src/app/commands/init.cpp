@@ -5,6 +5,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -42,7 +43,8 @@ int run_init(InitArguments const& options) {
     }
     core::write_file_atomically(path, found->second);
     std::string const name = core::shell_word(path);
-    fmt::print("written: {}\nnext: change its numbers, then: vibrotrough check {}\n", path.string(), name);
+    fmt::print("written: {}\nnext: change its numbers, then: vibrotrough check {}\n",
+               core::harmless(path.string()), name);
     fmt::print("and:  vibrotrough run {}\n", name);
     return all_well;
 }

@@ -181,7 +181,7 @@ int run_plan(PlanArguments const& options) {
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     campaign::Plan const plan = campaign::make_plan(campaign, folder, engine_version(options, folder));
     campaign.cases = {};  // the plan has its own
-    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
+    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
     campaign::Forecast const cost = campaign::forecast(plan, cases);
     PlanView view{campaign, plan, cases, cost};
     for (campaign::CaseOverview const& one : cases) view.known += one.result ? 1 : 0;

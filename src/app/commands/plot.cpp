@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
+#include "app/left_aside.hpp"
 #include "app/python.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -76,8 +77,9 @@ int run_plot(PlotArguments const& options) {
     fs::path const output = output_folder(options);
     core::make_folder(output);
     core::OwnFolder const own(output);
-    bool const finished =
-        compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data") > 0;
+    auto const cases = compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data");
+    tell_left_aside(plan, cases);
+    bool const finished = std::ranges::any_of(cases, [](auto const& one) { return one.result.has_value(); });
     if (!finished && !options.report) {
         throw core::InputError(fmt::format("{} holds no finished case yet; see 'vibrotrough status {}'",
                                            options.folder, options.folder));

@@ -2,6 +2,7 @@
 #include "app/commands/common_options.hpp"
 #include "app/exit_code.hpp"
 #include "app/json_list.hpp"
+#include "app/left_aside.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -145,10 +146,11 @@ void print_text(StatusView const& view) {
 
 int run_status(StatusArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
-    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder));
+    auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
     campaign::Forecast const cost = campaign::forecast(plan, cases);
     StatusView const view{plan, cases, cost};
     options.json ? print_json(view) : print_text(view);
+    tell_left_aside(plan, cases);
     return all_well;
 }
 

@@ -7,8 +7,10 @@
 #include "campaign/state/checkpoint.hpp"
 #include "campaign/state/folder_lock.hpp"
 #include "campaign/state/result_summary.hpp"
+#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "engine/folder_watch.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
 #include "evaluate/case.hpp"
@@ -76,6 +78,7 @@ class Driver {
           policy_(policy),
           executor_(executor),
           settings_(inputs.settings),
+          foreign_commands_(inputs.foreign_commands),
           observer_(observer) {}
 
     Summary run(Until until) {
@@ -97,6 +100,7 @@ class Driver {
             if (!std::exchange(is_stopping_, true)) observer_.stopping();
             executor_.interrupt();
         }
+        watch_.check();
         for (EndedPacking& ended : executor_.wait()) handle(ended);
         submit_orders();
         report();
@@ -117,6 +121,9 @@ class Driver {
                 return;
             }
         }
+        std::error_code missing;
+        if (!found && fs::exists(fs::symlink_status(planned.result_file(), missing)))
+            observer_.noticed(planned, "its result.h5 is damaged or cannot be read, and is replaced");
         ++progress_.left;
         one.known = know(planned);
         if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
@@ -194,7 +201,8 @@ class Driver {
         if (core::is_link(remains)) core::remove_file(remains);
         if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains)) {
             engine::make_sole_writer(remains);
-            core::remove_tree(remains);
+            remove_run_files(remains);
+            core::remove_if_empty(remains);
         }
         one.in_hand.insert(packing);
         orders_.push_back({&planned, wanted});
@@ -315,6 +323,7 @@ class Driver {
         std::vector<KnownCase const*> known;
         for (DrivenCase const& one : cases_) known.push_back(&one.known);
         for (scenario::Scenario const& scenario : policy_.further_cases(known)) {
+            check_foreign_commands(plan_.folder.string(), scenario, foreign_commands_);
             if (PlannedCase const* const added = add_case(plan_, scenario)) take_stock(*added);
         }
     }
@@ -341,8 +350,10 @@ class Driver {
     Policy const& policy_;
     Executor& executor_;
     scenario::RunSettings const& settings_;
+    ForeignCommands const& foreign_commands_;
     Observer& observer_;
     StopSignals signals_;
+    engine::FolderWatch watch_{plan_.folder};
     std::deque<DrivenCase> cases_;
     std::map<std::string, DrivenCase*> by_id_;
     std::map<PackingId, PackingActivity> before_;  ///< what earlier runs gave to the executor

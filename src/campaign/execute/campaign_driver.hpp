@@ -34,6 +34,8 @@ class Observer {
     /// Called once for each case that ends: with its outcome, and why it failed.
     virtual void case_ended(PlannedCase const& planned, core::Outcome outcome,
                             std::string const& message) = 0;
+    /// Called when something of a case that a person may want to know is about to be changed.
+    virtual void noticed(PlannedCase const&, std::string const&) {}
     /// Called once when a signal has asked for a stop: engines end the cycle that they are in.
     virtual void stopping() {}
 };

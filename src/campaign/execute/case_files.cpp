@@ -20,16 +20,6 @@ FileLock lock_case(PlannedCase const& planned) {
     return FileLock::wait_for(planned.folder / ".lock");
 }
 
-/// Removes what a killed process left half-written. The caller holds the case's lock.
-void remove_partial_files(PlannedCase const& planned) {
-    std::error_code ignored;
-    for (auto const& entry : std::filesystem::directory_iterator(planned.folder, ignored)) {
-        std::string const name = entry.path().filename().string();
-        if (name.starts_with("result.h5.part-") || name.starts_with("failure.json.part-"))
-            core::remove_file(entry.path());
-    }
-}
-
 bool is_made_of(store::CaseRecord const& record, ResultParts const& parts) {
     return record.packings.size() == parts.packings.size() &&
            std::ranges::all_of(record.packings, [&](store::PackingRecord const& packing) {
@@ -44,7 +34,7 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
     FileLock const lock = lock_case(planned);
     if (auto result = read_whole_result(planned); result && is_made_of(*result, parts))
         return std::move(*result);
-    remove_partial_files(planned);
+    core::remove_remains_of(planned.failure_file());  // which may never be written again
     evaluate::EvaluatedPackings used;
     for (int const packing : parts.packings) {
         auto known = evaluated.extract(packing);

@@ -1,7 +1,9 @@
 #include "campaign/execute/packing_run.hpp"
 
+#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/time.hpp"
 #include "core/version.hpp"
 #include "engine/binary_watch.hpp"
@@ -111,7 +113,7 @@ void PackingRun::start_on(Settled const& settled) {
         return;
     }
     // What an earlier run left behind. (The folder itself stays: to make a new one costs more than to look.)
-    core::remove_content(folder_);
+    remove_run_files(folder_);
     deck::write_deck(deck_, folder_, engine_.ranks);
     // The packing's folder holds its settled packing, so that the deck can be run there by hand.
     core::link_or_copy(settled.restart, folder_ / deck::settled_file);
@@ -132,6 +134,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
     core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
     last_cycle_at_ = earlier_wall_time_;
+    watch_.emplace(folder_);
     process_ = std::make_unique<engine::EngineProcess>(
         context_, engine_, folder_,
         [this](engine::ExitStatus status) {
@@ -156,6 +159,7 @@ void PackingRun::seal() {
 
 void PackingRun::inspect() {
     if (!process_) return;  // the packing is still settling
+    watch_->check();
     seal();
     std::error_code missing;
     auto const size = std::filesystem::file_size(folder_ / "cycles.csv", missing);
@@ -205,6 +209,7 @@ std::optional<PackingEnd> PackingRun::go_on() {
 std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (engine_.watch) engine_.watch->check();
+    watch_->check();
     if (interrupted_) {
         seal();
         return interrupted_end();
@@ -222,6 +227,7 @@ PackingEnd PackingRun::conclude(long last_step) {
     auto evaluation = evaluate::evaluate_outputs(*planned_.prepared, packing_.number, files, last_step);
     if (auto const* const fault = std::get_if<evaluate::UnusableOutputs>(&evaluation))
         return {fault->outcome, fault->message};
+    std::string const deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
     evaluate::PackingMarker const marker{wall_time(),
                                          started_,
                                          core::utc_now(),
@@ -230,10 +236,12 @@ PackingEnd PackingRun::conclude(long last_step) {
                                          core::host_name(),
                                          engine_certificate_,
                                          earlier_core_time_ + core_time_,
-                                         packing_.start_efficiency};
+                                         packing_.start_efficiency,
+                                         files.rolling_sha256,
+                                         core::sha256_hex(deck)};
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
     evaluate::add_run(evaluated_->record, marker);
-    evaluated_->record.deck = deck::for_ranks(deck_.files, engine_.ranks).at(deck::drive_file);
+    evaluated_->record.deck = deck;
     // The policy may want more cycles of this packing, which then continue from its end.
     seal();
     evaluate::write_marker(files, marker);

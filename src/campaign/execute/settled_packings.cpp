@@ -1,12 +1,14 @@
 #include "campaign/execute/settled_packings.hpp"
 
 #include "campaign/state/older_cases.hpp"
+#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/time.hpp"
 #include "deck/commands.hpp"
 #include "engine/binary_watch.hpp"
+#include "engine/folder_watch.hpp"
 #include "engine/run_report.hpp"
 #include "engine/sole_writer.hpp"
 
@@ -73,9 +75,8 @@ void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck
         core::remove_tree(made);
         return;
     }
-    core::remove_tree(place);
     try {
-        core::rename_entry(made, place);
+        replace_run(made, place, seal_file);
     } catch (core::MissingError const&) {
         if (!is_whole(place, deck)) throw;
     }
@@ -91,6 +92,7 @@ struct SettledPackings::Settling {
     double weight;
     std::vector<Ready> waiting;
     bool interrupted = false;
+    std::optional<engine::FolderWatch> watch = {};
     std::unique_ptr<engine::EngineProcess> process;
 };
 
@@ -141,6 +143,7 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     settling->waiting.push_back(std::move(ready));
     core::remove_tree(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
+    settling->watch.emplace(settling->folder);
     settling->process = std::make_unique<engine::EngineProcess>(
         context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});
@@ -175,6 +178,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     boost::asio::post(context_, [settling] {});  // the process is in the middle of its own call
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
+    settling->watch->check();
     if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     if (!settled.failure) {
         publish(settling->folder, folder_ / key, settling->deck);
@@ -184,8 +188,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
         fs::path const kept = folder_ / (key + ".failed");
-        core::remove_tree(kept);
-        core::rename_entry(settling->folder, kept);
+        replace_run(settling->folder, kept, engine::output_file);
         settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
     for (Ready const& ready : settling->waiting) ready(settled);

@@ -204,6 +204,21 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
     core::make_folder(plan.folder / "cases");
 }
 
+std::vector<std::string> edited_files(fs::path const& folder) {
+    std::vector<std::string> names;
+    Json const facts = read_frozen_facts(folder);
+    Json const frozen = facts.is_object() ? facts.value("frozen", Json::object()) : Json::object();
+    for (auto const& [name, digests] : frozen.items()) {
+        try {
+            Json const now = core::sha256_hex(core::read_file(folder / name, core::largest_note));
+            if (digests.is_array() && std::ranges::find(digests, now) != digests.end()) continue;
+        } catch (core::MissingError const&) {
+        }
+        names.push_back(core::harmless(name));
+    }
+    return names;
+}
+
 scenario::Campaign read_frozen_campaign(fs::path const& folder) {
     std::error_code ignored;  // a name that is too long is not a folder either
     if (!fs::is_regular_file(folder / "campaign.toml", ignored) ||

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace vibrotrough::campaign {
 
@@ -30,6 +31,9 @@ void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine
 /// The plan of a folder that `freeze` made.
 /// @throws core::InputError when it is not a campaign folder or is damaged
 Plan open_plan(std::filesystem::path const& folder);
+
+/// Names of the frozen files that are not what `freeze` wrote any more, or cannot be read.
+std::vector<std::string> edited_files(std::filesystem::path const& folder);
 
 /// The campaign file that is frozen in a folder. @throws core::InputError as open_plan
 scenario::Campaign read_frozen_campaign(std::filesystem::path const& folder);

@@ -1,6 +1,7 @@
 #include "campaign/state/file_lock.hpp"
 
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "core/own_folder.hpp"
 
 #include <cerrno>
@@ -65,7 +66,7 @@ FileLock FileLock::wait_for(std::filesystem::path const& path) {
 }
 
 bool FileLock::is_held(std::filesystem::path const& path) {
-    int const descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int const descriptor = core::open_to_read(path, core::Kinds::regular);
     if (descriptor < 0) return false;
     struct flock lock = whole_file();
     bool const held = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;

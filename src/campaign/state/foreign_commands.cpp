@@ -1,8 +1,10 @@
 #include "campaign/state/foreign_commands.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,10 +27,30 @@ bool are_equal(scenario::DeckTemplates const& some, scenario::DeckTemplates cons
            });
 }
 
+/// A file that a command names by its path is not part of the case: when it changes, a case would keep its id
+/// and stay finished, and nobody would know which file it was simulated with.
+void refuse_outside_paths(std::string const& source, scenario::EnginePlan const& plan) {
+    std::vector<scenario::NamedFile const*> files;
+    if (plan.extra) files.push_back(&plan.extra->file);
+    if (plan.templates) {
+        for (scenario::NamedFile const& file : plan.templates->files) files.push_back(&file);
+    }
+    for (scenario::NamedFile const* const file : files) {
+        std::string const path = scenario::outside_path(file->content);
+        if (path.empty()) continue;
+        throw core::InputError(fmt::format(
+            "{}: a command in {} names '{}', which leads out of the deck's folder; what lies there "
+            "is not part of the case, and a case would stay finished when it changes; write "
+            "commands and numbers into {} itself",
+            source, file->name, core::printable(path, 60), file->name));
+    }
+}
+
 }  // namespace
 
 void check_foreign_commands(std::string const& source, scenario::Scenario const& scenario,
                             ForeignCommands const& leave) {
+    refuse_outside_paths(source, scenario.engine);
     if (leave.allowed) return;
     if (scenario.engine.templates && !are_equal(*scenario.engine.templates, leave.templates.get())) {
         throw core::InputError(

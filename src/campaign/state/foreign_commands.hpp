@@ -21,7 +21,8 @@ struct ForeignCommands {
 /// The gate to the engine: both roads to it, run_campaign() and work(), go through it with every case that
 /// they may simulate, wherever it was read.
 /// @param source  names the campaign in errors
-/// @throws core::InputError that shows the commands, unless they are allowed
+/// @throws core::InputError that shows the commands, unless they are allowed, and whether or not they are
+/// when one names a file outside of the deck's folder
 void check_foreign_commands(std::string const& source, scenario::Scenario const& scenario,
                             ForeignCommands const& leave);
 

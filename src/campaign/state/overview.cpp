@@ -2,8 +2,8 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/numerics_results.hpp"
-#include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "evaluate/case.hpp"
 #include "store/result_file.hpp"
@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -74,8 +75,40 @@ CaseOverview survey_ended(PlannedCase const& planned, store::CaseRecord const& r
     return overview;
 }
 
+/// Why nothing of a case can be read although something is there; empty when it can be, or nothing is.
+std::string fault_of_folder(PlannedCase const& planned) {
+    std::error_code failure;
+    auto const type = fs::status(planned.folder, failure).type();
+    if (type == fs::file_type::not_found && !core::is_link(planned.folder)) return {};
+    if (type == fs::file_type::directory) {
+        if (::access(planned.folder.c_str(), R_OK | X_OK) == 0) return {};
+        return fmt::format("its folder cannot be read ({})", core::reason_of_errno());
+    }
+    if (type == fs::file_type::none)
+        return fmt::format("its folder cannot be looked at ({})", failure.message());
+    return "something that is not a folder has the name of its folder; move it away";
+}
+
+/// Why a result that is there was not used; empty when there is none.
+std::string fault_of_result(PlannedCase const& planned) {
+    std::error_code failure;
+    auto const type = fs::symlink_status(planned.result_file(), failure).type();
+    if (type == fs::file_type::not_found || type == fs::file_type::none) return {};
+    if (!fs::is_regular_file(planned.result_file(), failure))
+        return "result.h5 is not a file, or is a link that leads to none; move it away and run again";
+    if (::access(planned.result_file().c_str(), R_OK) != 0)
+        return fmt::format("result.h5 cannot be read ({})", core::reason_of_errno());
+    return "result.h5 is damaged; run again";
+}
+
 CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) {
     CaseOverview overview{&planned, CaseStatus::open, {}, {}, 0, {}};
+    overview.fault = fault_of_folder(planned);
+    if (!overview.fault.empty()) {
+        overview.status = CaseStatus::interrupted;
+        overview.message = overview.fault;
+        return overview;
+    }
     std::error_code missing;
     if (!fs::is_directory(planned.folder, missing)) return overview;
     auto const finished = finished_packings(planned).size();
@@ -84,17 +117,29 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
         overview.status = CaseStatus::failed;
         overview.outcome = failure->outcome;
         overview.message = failure->message;
-    } else if (fs::is_regular_file(planned.failure_file(), missing)) {
+    } else if (fs::exists(fs::symlink_status(planned.failure_file(), missing))) {
         overview.status = CaseStatus::failed;
-        overview.message = "failure.json is damaged";
+        overview.message = overview.fault =
+            "failure.json is damaged or is not a file; remove it and run again";
     } else if (has_driver) {
         if (has_unfinished_packing(planned, finished)) overview.status = CaseStatus::running;
     } else {
         overview.status = CaseStatus::interrupted;
     }
-    if (overview.status != CaseStatus::failed && fs::exists(planned.result_file(), missing))
-        overview.message = "result.h5 is damaged; run again";
+    if (std::string const fault = fault_of_result(planned); !fault.empty()) {
+        overview.fault = fault;
+        if (overview.status != CaseStatus::failed) overview.message = fault;
+    }
     return overview;
+}
+
+/// The same for a case with files that cannot be read: the others are looked at all the same.
+CaseOverview survey_readable(PlannedCase const& planned, bool has_driver) {
+    try {
+        return survey_without_result(planned, has_driver);
+    } catch (core::MissingError const& error) {
+        return {&planned, CaseStatus::interrupted, {}, error.what(), 0, {}, error.what()};
+    }
 }
 
 /// The summaries of all results that are there, in the order of the plan.
@@ -136,16 +181,17 @@ std::string_view CaseOverview::label() const {
     return "finished";
 }
 
-std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink) {
+std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink,
+                                 Trust trust) {
     std::map<std::string_view, Activities> by_case;
     for (PackingActivity const& one : activity.packings) by_case[one.id.case_id].push_back(&one);
     std::vector<CaseOverview> cases(plan.cases.size());
     core::for_each_index(cases.size(), cases_per_thread, [&] {
         return [&](std::size_t i) {
             PlannedCase const& planned = plan.cases[i];
-            auto const found = find_summary(planned);
-            cases[i] = found ? survey_ended(planned, found->record)
-                             : survey_without_result(planned, activity.has_driver);
+            auto const found = find_summary(planned, trust);
+            cases[i] =
+                found ? survey_ended(planned, found->record) : survey_readable(planned, activity.has_driver);
             auto const active = by_case.find(planned.id);
             if (active != by_case.end() && !found) add_activity(cases[i], active->second);
             if (sink) sink(i, cases[i], found ? &found->record : nullptr);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "campaign/state/plan.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "core/outcome.hpp"
 #include "store/case_record.hpp"
 
@@ -61,6 +62,8 @@ struct CaseOverview {
     std::string message;                   ///< why it failed or waits
     int packings_done;                     ///< finished packings
     std::optional<ResultFacts> result;     ///< of a case that has one
+    /// Why files of the case that are there cannot be used; empty when there is no such file.
+    std::string fault = {};
 
     /// The outcome's name, else that of the status: open, queued, running, unknown, interrupted.
     std::string_view label() const;
@@ -73,7 +76,9 @@ using OverviewSink =
 
 /// What the files and the executors say of every case of a plan. Writes nothing. The summaries of all results
 /// would fill the memory: whoever needs more than their facts looks at them one by one.
-std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink = {});
+/// @param trust  what makes a result believed
+std::vector<CaseOverview> survey(Plan const& plan, Activity const& activity, OverviewSink const& sink = {},
+                                 Trust trust = Trust::bytes);
 
 /// How campaign.h5 stands to the files from which it is made. Without a result, any one is up to date.
 enum class CampaignFileState {

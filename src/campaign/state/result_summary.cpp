@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "evaluate/case.hpp"
+#include "store/file_digest.hpp"
 #include "store/summary.hpp"
 
 #include <cstdint>
@@ -24,7 +25,7 @@ std::filesystem::path summary_file(PlannedCase const& planned) {
 }
 
 std::string const& layout() {
-    static std::string const text = "vibrotrough summary 3 " + store::summary_layout();
+    static std::string const text = "vibrotrough summary 4 " + store::summary_layout();
     return text;
 }
 
@@ -36,21 +37,32 @@ std::optional<Json> stamp_of(std::filesystem::path const& file) {
     return Json::array({status.st_size, time, status.st_ino});
 }
 
-/// The first line of the file, before the packed summary: what the summary was made from.
+/// The first line of the file: what the summary was made from. The second one is the SHA-256 of the result,
+/// and the packed summary follows.
 std::string header(Json const& stamp) {
     return Json({{"layout", layout()}, {"result", stamp}}).dump() + "\n";
 }
 
-std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json const& stamp) {
+constexpr std::size_t digest_line = 65;  ///< length of the second line
+
+/// Whether the result has this digest now.
+bool has_digest(PlannedCase const& planned, std::string_view digest) {
+    auto const now = store::sound_digest(core::read_file(planned.result_file()));
+    return now && *now == digest;
+}
+
+std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json const& stamp, Trust trust) {
     std::error_code missing;
     if (!std::filesystem::is_regular_file(summary_file(planned), missing)) return {};
     try {
         std::string const file = core::read_file(summary_file(planned)), expected = header(stamp);
-        if (!file.starts_with(expected)) return {};
+        std::size_t const start = expected.size() + digest_line;
+        if (!file.starts_with(expected) || file.size() < start || file[start - 1] != '\n') return {};
+        std::string_view const digest = std::string_view(file).substr(expected.size(), digest_line - 1);
         std::span const bytes(reinterpret_cast<std::uint8_t const*>(file.data()), file.size());
-        store::CaseRecord record = store::unpack_summary(bytes.subspan(expected.size()), planned.scenario());
+        store::CaseRecord record = store::unpack_summary(bytes.subspan(start), planned.scenario());
         evaluate::correct_outcome(record);
-        if (record.id == planned.id) return record;
+        if (record.id == planned.id && (trust == Trust::stamp || has_digest(planned, digest))) return record;
     } catch (core::Error const&) {
         // Not readable, or not a summary: the same as if it were not there.
     }
@@ -59,10 +71,10 @@ std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json cons
 
 }  // namespace
 
-std::optional<FoundSummary> find_summary(PlannedCase const& planned) {
+std::optional<FoundSummary> find_summary(PlannedCase const& planned, Trust trust) {
     auto const stamp = stamp_of(planned.result_file());
     if (!stamp) return {};
-    if (auto record = read_file(planned, *stamp)) return FoundSummary{std::move(*record), false};
+    if (auto record = read_file(planned, *stamp, trust)) return FoundSummary{std::move(*record), false};
     auto const whole = read_whole_result(planned);
     if (!whole) return {};
     return FoundSummary{store::unpack_summary(store::pack_summary(*whole), planned.scenario()), true};
@@ -78,7 +90,10 @@ void write_summary(PlannedCase const& planned, store::CaseRecord const& record) 
     if (!stamp) return;
     std::vector<std::uint8_t> const bytes = store::pack_summary(record);
     try {
-        core::replace_file(summary_file(planned), header(*stamp).append(bytes.begin(), bytes.end()));
+        auto const digest = store::stated_digest(core::read_file(planned.result_file()));
+        if (!digest) return;
+        core::replace_file(summary_file(planned),
+                           (header(*stamp) + *digest + "\n").append(bytes.begin(), bytes.end()));
     } catch (core::MissingError const&) {
         // The folder may only be read, or the disk is full.
     }

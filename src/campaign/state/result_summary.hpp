@@ -8,9 +8,15 @@
 namespace vibrotrough::campaign {
 
 // The summary of a result (store::summary_of) in a small file summary beside result.h5, so that tables
-// of thousands of cases need not read the results themselves. It is written by whatever writes or repairs
-// results, never by a query, and counts only while size, time and inode of result.h5 are what they were when
-// it was written. It may be deleted at any time.
+// of thousands of cases need not take the results apart. It is written by whatever writes or repairs results,
+// never by a query, and counts only while size, time and inode of result.h5 are what they were when it was
+// written. It may be deleted at any time.
+
+/// What makes a summary believed besides size, time and inode of its result.
+enum class Trust {
+    bytes,  ///< the bytes of result.h5 have the SHA-256 that they had when the summary was made
+    stamp,  ///< nothing: for a quick look at how far a campaign is, of which no number is published
+};
 
 /// A result's summary, and where it came from.
 struct FoundSummary {
@@ -19,10 +25,10 @@ struct FoundSummary {
 };
 
 /// The case's summary if its result is there and whole. Writes nothing.
-std::optional<FoundSummary> find_summary(PlannedCase const& planned);
+std::optional<FoundSummary> find_summary(PlannedCase const& planned, Trust trust = Trust::bytes);
 
 /// Whether the case's result.h5 can be read whole now, with all its checksums, and is the one that `summary`
-/// summarises. find_summary() believes the file's size and time; who publishes a result asks this.
+/// summarises. For whoever publishes the result itself, later than it asked find_summary().
 bool is_summary_of_result(PlannedCase const& planned, store::CaseRecord const& summary);
 
 /// Writes the summary of the result that is in the case's folder. A disk that refuses is ignored: the next

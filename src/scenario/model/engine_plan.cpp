@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <set>
 #include <stdexcept>
 
@@ -31,6 +32,63 @@ std::array<std::string_view, 2> first_words(std::string_view command) {
         command.remove_prefix(word.size());
     }
     return words;
+}
+
+/// Takes the next word of a command from its front: up to a blank or, when it begins with one, to the next
+/// quotation mark.
+std::string_view take_word(std::string_view& command) {
+    command = without_blanks(command);
+    std::string_view word;
+    if (!command.empty() && (command.front() == '"' || command.front() == '\'')) {
+        std::size_t const end = std::min(command.find(command.front(), 1), command.size());
+        word = command.substr(1, end - 1);
+        command.remove_prefix(std::min(end + 1, command.size()));
+    } else {
+        word = command.substr(0, command.find_first_of(" \t"));
+        command.remove_prefix(word.size());
+    }
+    return word;
+}
+
+/// A command without the comment behind it. In quotation marks '#' begins none.
+std::string_view without_comment(std::string_view line) {
+    char quote = '\0';
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        char const c = line[i];
+        if (quote != '\0') {
+            if (c == quote) quote = '\0';
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '#') {
+            return line.substr(0, i);
+        }
+    }
+    return line;
+}
+
+/// Whether a word names a file outside of the deck's folder. A slash before a digit, a bracket or a variable
+/// is a division.
+bool leads_outside(std::string_view word) {
+    auto const is_letter = [](char c) {
+        return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '.';
+    };
+    if (word.starts_with("~/") || word == ".." || word.starts_with("../") || word.ends_with("/.."))
+        return true;
+    return (word.size() > 1 && word.front() == '/' && is_letter(word[1])) || word.find("/../") != word.npos;
+}
+
+/// The same of a command, of the commands in its quotation marks, and of what it prints.
+std::string outside_path_of(std::string_view command, int level) {
+    std::string_view const name = first_words(command)[0];
+    for (int number = 0; !without_blanks(command).empty(); ++number) {
+        std::string_view const word = take_word(command);
+        if (name == "print" && number == 1) continue;  // what is printed
+        if (leads_outside(word)) return std::string(word);
+        if (level < 3 && word.find_first_of(" \t") != word.npos) {
+            if (auto inner = outside_path_of(word, level + 1); !inner.empty()) return inner;
+        }
+    }
+    return {};
 }
 
 /// Commands that would bring in what is not part of the case's id, or would end, repeat or shift the cycles.
@@ -111,6 +169,16 @@ std::shared_ptr<ExtraLines const> read_extra_lines(NamedFile file) {
     if (extra.after_contact.empty() && extra.before_first_cycle.empty() && extra.at_cycle_end.empty())
         throw std::invalid_argument(fmt::format("there is no command below {}", headings));
     return std::make_shared<ExtraLines const>(std::move(extra));
+}
+
+std::string outside_path(std::string_view commands) {
+    while (!commands.empty()) {
+        std::string_view line = commands.substr(0, commands.find('\n'));
+        commands.remove_prefix(std::min(line.size() + 1, commands.size()));
+        line = without_blanks(without_comment(line.substr(0, line.find('\r'))));
+        if (auto found = outside_path_of(line, 0); !found.empty()) return found;
+    }
+    return {};
 }
 
 bool is_template_name(std::string_view name) {

@@ -37,6 +37,11 @@ struct DeckTemplates {
     std::vector<NamedFile> files;  ///< such as "contact.mustache", sorted by name
 };
 
+/// The first word in commands of the engine that leads out of the deck's folder, as a path with "/" or "~" at
+/// its beginning or ".." in it does; empty when there is none. What lies there is not part of a case's id, so
+/// that a case would stay finished when it changes. Comments and texts that are printed are left out.
+std::string outside_path(std::string_view commands);
+
 /// Whether a text is the name of a template: letters, digits, '.', '_' or '-', with the ending ".mustache".
 bool is_template_name(std::string_view name);
 

@@ -4,6 +4,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "store/theory_map.hpp"
 #include "view/theory_map_vtk.hpp"
 
@@ -98,7 +99,8 @@ void run_theory_map(TheoryMapArguments const& options) {
     fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(),
                theory::count_modes(map), map.boundaries.size());
     fmt::print("{:.3f} microseconds of CPU per solution\n", 1e6 * map.cpu_seconds_per_solution);
-    fmt::print("written: {}\n         {}\n         {}\n", output.string(), image.string(), lines.string());
+    fmt::print("written: {}\n         {}\n         {}\n", core::harmless(output.string()),
+               core::harmless(image.string()), core::harmless(lines.string()));
 }
 
 }  // namespace
