@@ -67,11 +67,12 @@ struct CaseRecord {
         {};  ///< in place of the bounds of the numerical errors; not in result.h5
 
     /// The numerical error of the velocity efficiency: the one that was studied, else the bound that is known
-    /// beforehand (prepare::numerical_errors). None when there is no mean.
+    /// beforehand (prepare::numerical_errors). None when there is no mean, and for a rigid block, of whose
+    /// contact no bound is known.
     std::optional<double> numerical_error() const;
 
-    /// The half-width of the velocity efficiency for statistics and numerics together. None when one of them
-    /// is unknown or unbounded.
+    /// The half-width of the velocity efficiency for statistics and numerics together, as far as the latter
+    /// are known. None when the statistics are unbounded.
     std::optional<double> whole_half_width() const;
 };
 

@@ -123,7 +123,6 @@ class Convergence(EndToEndTest):
         self.assert_one_line_error(self.call("convergence", self.folder), 2, "not a campaign folder")
         self.assertFalse(self.output.exists(), "nothing was begun")
         self.run_campaign(campaign)
-        self.assert_one_line_error(self.call("compare", self.output, "--budget"), 2, "vibrotrough convergence")
         self.assert_one_line_error(self.call("convergence", self.output, "--output", self.output), 2, "--output")
         (row,) = self.table()
         self.assertIsNone(row["efficiency_dem_numerical_error"])

@@ -52,7 +52,7 @@ class Units(EndToEndTest):
         (result,) = self.results()
         with h5py.File(result) as file:
             mass, case = file["packings"]["mass"][0], file["case"]
-            per_area = mass / (0.015 * 0.015)
+            per_area = mass / (0.015 * 0.018)
             # The stored mass is that of whole numbers of grains of three sizes.
             self.assertAlmostEqual(case["mass_per_area"] / per_area, 1, 1)
             # A layer of 8 mm with 600 kg/m3, in whole grains.
