@@ -48,8 +48,8 @@ double whole_half_width(double statistics, NumericalErrors const& numerics) {
 
 scenario::MeasurementPlan statistics_plan(scenario::Scenario const& s, double half_width) {
     scenario::MeasurementPlan plan = s.measure;
-    double const least = least_share * half_width;
-    plan.half_width = std::sqrt(std::max(least * least, room_for_statistics(s, half_width)));
+    double const room = room_for_statistics(s, half_width), least = least_share * half_width;
+    plan.half_width = room >= least * least ? std::sqrt(room) : half_width;
     return plan;
 }
 

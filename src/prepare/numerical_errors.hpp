@@ -39,8 +39,8 @@ double whole_half_width(double statistics, NumericalErrors const& numerics);
 inline constexpr double largest_numerical_share = 0.8660254037844386;
 
 /// The measurement plan whose half_width is what the numerical errors leave to statistics, so that the whole
-/// is as narrow as the case asks. It is at least half of what the case asks: where the numerical errors are
-/// so large that the whole must be wider, more packings hardly help.
+/// is as narrow as the case asks. Where they leave less than half of it, the case cannot be finished, and its
+/// statistics get all of the half-width, as for a study of differences, in which the errors cancel.
 /// @param half_width  wanted of the whole, in place of measure.half_width
 scenario::MeasurementPlan statistics_plan(scenario::Scenario const& scenario, double half_width);
 

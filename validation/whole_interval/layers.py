@@ -5,7 +5,8 @@ import random
 from typing import Any
 
 SEED, COUNT = 20261124, 40
-SIMULATED = 24  # of these, those that cost least by the program's own forecast, whatever comes out
+FIRST = 3       # were simulated in the order in which they were drawn
+SIMULATED = 24  # the others of these are those that cost least by the program's own forecast, whatever comes out
 BOX = (8, 5)  # length and width of the ordinary box, in diameters: that of `vibrotrough init`
 # What the accurate simulation of a layer changes: the modulus that the program chose, and both lengths of the box.
 STIFFER, LARGER = 16, 2
