@@ -105,8 +105,7 @@ std::string what_numerics_would_take(scenario::Scenario const& s) {
         numerics.total(), numerics.softness, numerics.box, numerics.time_step, s.measure.half_width);
 }
 
-std::string what_it_would_take(store::CaseRecord const& record) {
-    if (!prepare::can_be_finished(record.scenario)) return what_numerics_would_take(record.scenario);
+std::string what_statistics_would_take(store::CaseRecord const& record) {
     auto const needed = measure::packings_needed(record.estimate, wanted_statistics(record.scenario));
     auto const packings = static_cast<int>(record.packings.size());
     if (!needed || *needed <= packings) return "needs longer or more packings";
@@ -114,6 +113,15 @@ std::string what_it_would_take(store::CaseRecord const& record) {
     for (store::PackingRecord const& packing : record.packings) core_time += packing.core_time;
     return fmt::format("needs about {} packings, {} more than it has, which take {:.2g} core-hours", *needed,
                        *needed - packings, core_time / packings * (*needed - packings) / 3600);
+}
+
+std::string what_it_would_take(store::CaseRecord const& record) {
+    scenario::Scenario const& s = record.scenario;
+    auto const& reached = record.estimate.half_width;
+    bool const are_precise = reached && *reached <= wanted_statistics(s).half_width;
+    if (prepare::can_be_finished(s)) return what_statistics_would_take(record);
+    if (are_precise) return what_numerics_would_take(s);
+    return what_statistics_would_take(record) + "; besides, " + what_numerics_would_take(s);
 }
 
 std::string remark_on_mean(store::CaseRecord const& record) {

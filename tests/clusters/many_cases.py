@@ -27,8 +27,9 @@ DRIVER_OPTIONS = ("--quiet", "--accept-failed-probes", "--accept-findings")
 MEASURE = """
 import os, sys
 shown = os.open(sys.argv[1], os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+told = os.open(sys.argv[1] + ".stderr", os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
 process = os.posix_spawn(sys.argv[2], sys.argv[2:], os.environ,
-                         file_actions=[(os.POSIX_SPAWN_DUP2, shown, 1), (os.POSIX_SPAWN_DUP2, shown, 2)])
+                         file_actions=[(os.POSIX_SPAWN_DUP2, shown, 1), (os.POSIX_SPAWN_DUP2, told, 2)])
 os.waitid(os.P_PID, process, os.WEXITED | os.WNOWAIT)  # it has ended but is not forgotten yet: its times are final
 fields = open(f"/proc/{process}/stat").read().rpartition(")")[2].split()
 _, status, usage = os.wait4(process, 0)
@@ -97,7 +98,7 @@ class ManyCases(EndToEndTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         code, ticks, kilobytes = map(int, done.stdout.split())
         output = shown.read_text()
-        self.assertEqual(code, 0, output[-2000:])
+        self.assertEqual(code, 0, output[-2000:] + shown.with_name("shown.stderr").read_text()[-2000:])
         return ticks / os.sysconf("SC_CLK_TCK"), kilobytes / 1024, output
 
     def count_instructions(self, *arguments):

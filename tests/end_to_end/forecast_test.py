@@ -8,8 +8,8 @@ from trough_program import EndToEndTest
 
 # The demo's range of throw numbers, in the order in which the cases run; the first tenth is one case.
 THROW_NUMBERS = [2.0, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.75, 3.0]
-# The whole half-width leaves 0.08 to statistics: the 60 grains are soft, and their box is small.
-PLAN = {"measure.packings": 4, "measure.max_packings": 16, "measure.half_width": 0.15, "measure.max_cycles": 96}
+# The 60 grains are so soft and their box so small that their cases end as not-precise: statistics get all of this.
+PLAN = {"measure.packings": 4, "measure.max_packings": 16, "measure.half_width": 0.06, "measure.max_cycles": 96}
 
 
 class Forecast(EndToEndTest):
@@ -24,7 +24,7 @@ class Forecast(EndToEndTest):
 
     def test_it_is_within_a_factor_of_1_5_after_the_first_tenth(self):
         first = self.write_campaign(PLAN, {"trough.throw_number": THROW_NUMBERS[:1]})
-        self.run_campaign(first)
+        self.run_campaign(first, wanted=1)
         known = self.core_time()
         self.assertEqual(len(known), 1)
         campaign = self.write_campaign(PLAN, {"trough.throw_number": THROW_NUMBERS})
