@@ -181,7 +181,8 @@ void check_numerics(std::vector<Finding>& findings, prepare::PreparedCase const&
     double const wanted = c.scenario.measure.half_width;
     bool const is_box = numerics.box >= numerics.softness;
     std::string const advice = fmt::format(
-        "the case will end as not-precise: {}, or allow a half-width of {:.2g} (validation/whole_interval); "
+        "the case will probably end as not-precise: {}, or allow a half-width of {:.2g} "
+        "(validation/whole_interval); "
         "'vibrotrough convergence' measures these errors",
         is_box ? "lengthen and widen the box" : "stiffen the grains",
         numerics.total() / prepare::largest_numerical_share);

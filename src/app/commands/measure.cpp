@@ -43,6 +43,19 @@ measure::PackingEstimate by_itself(evaluate::HandPacking const& packing,
                                      {plan.confidence, plan.half_width});
 }
 
+/// The bound of the numerical errors; none for a rigid block, of whose contact no bound is known.
+std::optional<double> numerical_error(evaluate::HandRun const& run) {
+    if (run.prepared.scenario.layer.block != scenario::Block::none) return {};
+    return run.prepared.numerics.total();
+}
+
+/// The statistics and the numerics of an interval in words.
+std::string parts_of_interval(evaluate::HandRun const& run) {
+    auto const numerics = numerical_error(run);
+    if (!numerics) return "statistics alone";
+    return fmt::format("statistics {:.4f}, numerics below {:.4f}", *run.estimate.half_width, *numerics);
+}
+
 /// Of the velocity efficiency, for statistics and numerics together.
 std::optional<double> whole_half_width(evaluate::HandRun const& run) {
     if (!run.estimate.half_width) return {};
@@ -81,7 +94,7 @@ void print_json(evaluate::HandRun const& run) {
     Json const json{{"outcome", name_of(run.outcome)},
                     {"efficiency", number(e.mean)},
                     {"efficiency_half_width", number(e.half_width)},
-                    {"efficiency_numerical_error", run.prepared.numerics.total()},
+                    {"efficiency_numerical_error", number(numerical_error(run))},
                     {"efficiency_whole_half_width", number(whole_half_width(run))},
                     {"confidence", run.prepared.scenario.measure.confidence},
                     {"speed_m_per_s", speed(e.mean)},
@@ -126,9 +139,8 @@ void print_text(evaluate::HandRun const& run) {
     std::string const interval =
         !e.mean ? "unknown"
         : e.half_width
-            ? fmt::format("{:.4f} +- {:.4f} ({:g} %: statistics {:.4f}, numerics below {:.4f})", *e.mean,
-                          *whole_half_width(run), 100 * plan.confidence, *e.half_width,
-                          run.prepared.numerics.total())
+            ? fmt::format("{:.4f} +- {:.4f} ({:g} %: {})", *e.mean, *whole_half_width(run),
+                          100 * plan.confidence, parts_of_interval(run))
             : fmt::format(
                   "{:.4f}, with an unbounded interval because one packing does not tell how packings differ",
                   *e.mean);
