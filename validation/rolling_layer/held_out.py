@@ -43,6 +43,12 @@ STIFF: Changes = {"grains.youngs_modulus": None, "solver.rayleigh_fraction": 0.3
 STIFF_LAYERS: dict[str, list[float]] = {
     "6 deep": FEW,
     "16 deep": FEW,
+    "throw number": [2.7],
+    "tan(beta) 0.35": [1.6, 1.9, 2.3],
+    "downhill": [2.3],
+    "uphill": [2.3],
+    "double the grain": FEW,
+    "blocked": [2.3],
 }
 # The laws are judged on free layers within the range that issue and README state.
 JUDGED = (1.25, 2.6)

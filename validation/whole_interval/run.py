@@ -15,7 +15,8 @@ import scipy.stats  # noqa: E402
 
 from campaign_program import Row, campaign_text  # noqa: E402
 from figure_style import COLOURS, plt  # noqa: E402
-from layers import FIRST, SIMULATED, Layer, layers  # noqa: E402
+from layers import (ACCURATE_BOX, ACCURATE_HALF_WIDTH, BOX, COARSE_BOX, COARSER, DEEPER_HALF_WIDTH, FINER, FIRST, SIMULATED,  # noqa: E402
+                    Layer, deeper_layers, layers)
 from validation_case import Floats, ValidationCase  # noqa: E402
 
 INPUTS = ["diameter_mm", "amplitude_mm", "depth", "throw_number", "tan_vibration_angle", "tan_inclination", "friction", "grain_friction",
@@ -36,14 +37,29 @@ def measured(run: ValidationCase, name: str, row: Row) -> tuple[float, list[obje
 
 def simulate(run: ValidationCase, layer: Layer) -> list[object]:
     """Both simulations of a layer: a row of result.csv."""
-    sweep = {"trough.throw_number": [layer.throw_number]}
-    name = f"ordinary-{layer.number}"
-    modulus, ordinary = measured(run, name, run.campaign(name, layer.changes(), sweep)[0])
-    name = f"accurate-{layer.number}"
-    _, accurate = measured(run, name, run.campaign(name, layer.accurate(modulus), sweep)[0])
-    inputs = [layer.diameter, layer.amplitude, layer.depth, layer.throw_number, layer.tan_vibration_angle, layer.tan_inclination,
-              layer.friction, layer.grain_friction, layer.rolling_friction]
-    return [layer.number, *inputs, *ordinary, *accurate]
+    modulus, ordinary = simulated(run, layer, f"ordinary-{layer.number}", layer.changes())
+    _, accurate = simulated(run, layer, f"accurate-{layer.number}", layer.accurate(modulus))
+    return [layer.number, *inputs(layer), *ordinary, *accurate]
+
+
+def simulate_deeper(run: ValidationCase, layer: Layer) -> list[object]:
+    """The three simulations of a deeper layer: a row of deeper.csv."""
+    modulus, ordinary = simulated(run, layer, f"deeper-{layer.number}", layer.with_numerics(BOX, None, DEEPER_HALF_WIDTH))
+    coarse, accurate = (simulated(run, layer, f"{name}-{layer.number}", layer.with_numerics(box, factor * modulus, half_width))[1]
+                        for name, box, factor, half_width in (("deeper-coarse", COARSE_BOX, COARSER, DEEPER_HALF_WIDTH),
+                                                              ("deeper-accurate", ACCURATE_BOX, FINER, ACCURATE_HALF_WIDTH)))
+    return [layer.number, *inputs(layer), *coarse, *ordinary, *accurate]
+
+
+def simulated(run: ValidationCase, layer: Layer, name: str, changes: dict[str, object]) -> tuple[float, list[object]]:
+    """Young's modulus of one simulation, and MEASURED."""
+    return measured(run, name, run.campaign(name, changes, {"trough.throw_number": [layer.throw_number]})[0])
+
+
+def inputs(layer: Layer) -> list[object]:
+    """INPUTS of a layer."""
+    return [layer.diameter, layer.amplitude, layer.depth, layer.throw_number, layer.tan_vibration_angle, layer.tan_inclination,
+            layer.friction, layer.grain_friction, layer.rolling_friction]
 
 
 def check(run: ValidationCase, changes: dict[str, object], throw_number: float) -> dict[str, float]:
@@ -56,16 +72,30 @@ def check(run: ValidationCase, changes: dict[str, object], throw_number: float) 
     return case
 
 
+def cheapest_first(run: ValidationCase, chosen: list[Layer]) -> list[Layer]:
+    """In the order of what the program forecasts that they cost."""
+    return sorted(chosen, key=lambda layer: check(run, layer.changes(), layer.throw_number)["expected_core_hours"])
+
+
 def simulations(run: ValidationCase) -> None:
-    """The layers that were simulated first, and those that will probably cost least, for the table result.csv."""
-    rows = []
+    """The layers that were simulated first, and those that will probably cost least, for result.csv; the deeper ones for deeper.csv.
+
+    The tables are written after each layer: what there is can be judged.
+    """
     first = layers()[:FIRST]
-    cheapest = sorted(layers(), key=lambda layer: check(run, layer.changes(), layer.throw_number)["expected_core_hours"])
-    chosen = first + [layer for layer in cheapest if layer not in first]
+    chosen = first + cheapest_first(run, layers()[FIRST:])
+    rows = []
     for layer in chosen[:1 if run.quick else SIMULATED]:
         rows.append(simulate(run, layer))
-        header = ["layer", *INPUTS, *(f"ordinary_{name}" for name in MEASURED), *(f"accurate_{name}" for name in MEASURED)]
-        run.write_table("result.csv", header, rows)  # after each layer: what there is can be judged
+        run.write_table("result.csv", header("ordinary", "accurate"), rows)
+    rows = []
+    for layer in cheapest_first(run, deeper_layers())[:1 if run.quick else None]:
+        rows.append(simulate_deeper(run, layer))
+        run.write_table("deeper.csv", header("coarse", "ordinary", "accurate"), rows)
+
+
+def header(*simulations_of_a_layer: str) -> list[str]:
+    return ["layer", *INPUTS, *(f"{simulation}_{name}" for simulation in simulations_of_a_layer for name in MEASURED)]
 
 
 def numerics(run: ValidationCase, row: Row) -> float:

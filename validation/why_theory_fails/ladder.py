@@ -50,6 +50,10 @@ RUNGS: dict[str, tuple[Changes, list[float]]] = {
 STIFF: Changes = {"grains.youngs_modulus": None, "solver.rayleigh_fraction": 0.35}
 STIFF_LAYERS: dict[str, list[float]] = {
     "8 deep, free": PAIR,
+    "8 deep, blocked": PAIR,
+    "4 deep, free": [2.25, 2.5, 3.0],
+    "4 deep, blocked": [2.25, 2.5, 3.0],
+    "cubes": [2.25, 2.5, 3.0],
 }
 
 
