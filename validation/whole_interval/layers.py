@@ -18,7 +18,7 @@ ORDINARY_HALF_WIDTH, ACCURATE_HALF_WIDTH = 0.04, 0.02
 # program chose for `ordinary`, `accurate` four times as much: 16 times the modulus and twice both lengths of the box of `coarse`.
 DEEPER_SEED, DEEPER_COUNT = 20261125, 24
 SHALLOWEST, DEEPEST = 4, 12  # diameters
-COARSE_BOX, ACCURATE_BOX = (6, 4), (12, 8)
+COARSE_BOX, ACCURATE_BOX = (6, 4.5), (12, 9)
 COARSER, FINER = 1 / 4, 4
 DEEPER_HALF_WIDTH = 0.05
 
@@ -49,7 +49,7 @@ class Layer:
             changes |= {"grains.rotation": "rolling", "grains.rolling_friction": self.rolling_friction}
         return changes
 
-    def box(self, diameters: tuple[int, int]) -> dict[str, Any]:
+    def box(self, diameters: tuple[float, float]) -> dict[str, Any]:
         """A box of this length and width, in diameters."""
         return {f"layer.{side}": f"{count * self.diameter:g} mm" for side, count in zip(("length", "width"), diameters)}
 
@@ -57,7 +57,7 @@ class Layer:
         """What the layer changes in base.toml, with numerics nearer to their limits than those that the program chose (Pa)."""
         return self.with_numerics((LARGER * BOX[0], LARGER * BOX[1]), STIFFER * chosen_modulus, ACCURATE_HALF_WIDTH)
 
-    def with_numerics(self, box: tuple[int, int], modulus: float | None, half_width: float) -> dict[str, Any]:
+    def with_numerics(self, box: tuple[float, float], modulus: float | None, half_width: float) -> dict[str, Any]:
         """What the layer changes in base.toml, with this box (diameters), Young's modulus (Pa; None: the program chooses) and half-width."""
         return {**self.changes(), **self.box(box), "grains.youngs_modulus": f"{modulus:g} Pa" if modulus else None,
                 "measure.half_width": half_width}
