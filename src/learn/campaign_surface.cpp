@@ -1,7 +1,9 @@
 #include "learn/campaign_surface.hpp"
 
+#include "campaign/state/numerics_results.hpp"
 #include "campaign/state/result_summary.hpp"
 #include "core/error.hpp"
+#include "prepare/numerical_errors.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/reader/keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -105,11 +107,16 @@ std::optional<double> CampaignTheory::efficiency_at(Place const& place) const {
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words) {
     CampaignPoints found{inputs_of(plan, maker, words), {}, {}, 0};
+    auto const studied = campaign::read_case_numerics(plan);
     for (campaign::PlannedCase const& planned : plan.cases) {
         if (!has_words(planned.scenario(), words)) continue;
         auto const place = place_of(planned.scenario(), found.inputs);
         auto const theory = theory_of(*planned.prepared);
         if (!place || !theory) continue;
+        auto const study = studied.find(planned.id);
+        found.numerics = std::max(
+            found.numerics, study != studied.end() ? study->second.error
+                                                   : prepare::numerical_errors(planned.scenario()).total());
         auto const summary = campaign::find_summary(planned);
         if (!summary) {
             ++found.missing;

@@ -25,6 +25,10 @@ struct CampaignPoints {
     std::vector<SurfacePoint> points;  ///< steady cases with an interval
     std::vector<CaseKeptApart> apart;  ///< bistable and unsteady ones, which are never averaged
     int missing = 0;                   ///< cases without a result
+    /// Bound, at 95 %, of the numerical error of the velocity efficiency: the largest of its cases, as
+    /// studied by `convergence` or as known beforehand (prepare::numerical_errors). More cases do not make it
+    /// smaller.
+    double numerics = 0;
 };
 
 /// Velocity efficiencies of the theory over the inputs of a campaign.

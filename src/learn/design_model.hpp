@@ -4,6 +4,7 @@
 #include "theory/drive_search.hpp"
 #include "theory/rolling_layer.hpp"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,8 +33,12 @@ KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<do
 
 /// What a model says of a drive.
 struct ModelEfficiency {
-    double efficiency;  ///< velocity efficiency
-    double sd;          ///< standard deviation of the model's own uncertainty; 0 for an exact theory
+    double efficiency;       ///< velocity efficiency
+    double statistics_sd;    ///< standard deviation of its statistical uncertainty; 0 for an exact theory
+    double numerics_sd = 0;  ///< that of the numerical errors of the simulations on which it rests
+
+    /// Standard deviation of the model's own uncertainty: both together.
+    double sd() const { return std::hypot(statistics_sd, numerics_sd); }
 };
 
 /// A model of the conveying speed, by which a machine can be designed.

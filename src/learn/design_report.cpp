@@ -31,13 +31,21 @@ Json if_known(RiskDesign const& d, double value) {
 }
 
 Json as_json(RiskDesign const& d, ModelForecast const& f) {
+    auto const half_width = [&](double ModelEfficiency::*sd) {
+        return f.efficiency ? Json(deviations_in_half_width * ((*f.efficiency).*sd)) : Json(nullptr);
+    };
     return {{"model", f.model},
             {"median_speed_m_per_s", f.median_speed},
             {"sure_speed_m_per_s", if_known(d, f.sure_speed)},
             {"mass_flow_t_per_h", tonnes_per_hour * f.median_flow},
             {"mass_flow_low_t_per_h", if_known(d, tonnes_per_hour * f.low_flow)},
             {"mass_flow_high_t_per_h", if_known(d, tonnes_per_hour * f.high_flow)},
-            {"probability", if_known(d, f.probability)}};
+            {"probability", if_known(d, f.probability)},
+            {"efficiency", f.efficiency ? Json(f.efficiency->efficiency) : Json(nullptr)},
+            {"efficiency_half_width", half_width(&ModelEfficiency::statistics_sd)},
+            {"numerical_error", half_width(&ModelEfficiency::numerics_sd)},
+            {"efficiency_whole_half_width",
+             f.efficiency ? Json(deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
 }
 
 Json rules_of_thumb(RiskDesign const& d) {
@@ -82,6 +90,18 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
         text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
                             100 * t.confidence);
     return text;
+}
+
+/// Of a model that rests on simulations: its velocity efficiency, and how much of its uncertainty is
+/// statistics and how much numerics. Empty for an exact theory.
+std::string own_uncertainty(ModelForecast const& f) {
+    if (!f.efficiency || f.efficiency->sd() == 0) return "";
+    auto const half_width = [](double sd) { return deviations_in_half_width * sd; };
+    return fmt::format(
+        "\n{}: velocity efficiency {:.3f} +- {:.3f}, of which statistics {:.3f} and numerical errors of the "
+        "simulations {:.3f} (at the median of the friction)\n",
+        f.model, f.efficiency->efficiency, half_width(f.efficiency->sd()),
+        half_width(f.efficiency->statistics_sd), half_width(f.efficiency->numerics_sd));
 }
 
 }  // namespace
@@ -137,6 +157,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
                                               tonnes_per_hour * f.high_flow)),
                             known(fmt::format("{:.1f} %", 100 * f.probability)));
     }
+    for (ModelForecast const& f : d.forecasts) text += own_uncertainty(f);
     double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
     text += fmt::format(
         "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "

@@ -189,7 +189,8 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
                                flow * speeds.exceeded_with(0.025),
                                flow * median,
                                speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
-                               {}});
+                               {},
+                               task.models[i].at(drive, task.friction.median)});
         for (double const share : quantile_shares())
             d.forecasts.back().flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
         d.probability = std::min(d.probability, d.forecasts.back().probability);

@@ -41,6 +41,9 @@ struct ModelForecast {
     double median_flow;          ///< kg/s
     double probability;          ///< that the mass flow is reached
     std::vector<double> flow_quantiles;  ///< kg/s, at the shares of `quantile_shares`
+    /// What the model says of the velocity efficiency at the median of the friction, with its own
+    /// uncertainty; nothing when the material has no steady speed.
+    std::optional<ModelEfficiency> efficiency;
 };
 
 /// 2.5 %, 5 %, ..., 97.5 %: the shares of a distribution below the quantiles of a forecast.

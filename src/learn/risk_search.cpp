@@ -80,7 +80,7 @@ SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t num
                                   : usually_missed;
         // A material that runs away has no speed that could be used.
         d.means.push_back(value ? value->efficiency * drive.trough_speed() : -1e3);
-        d.sds.push_back(drive.trough_speed() * std::hypot(value ? value->sd : 0, missed));
+        d.sds.push_back(drive.trough_speed() * std::hypot(value ? value->sd() : 0, missed));
     }
     return d;
 }

@@ -17,7 +17,6 @@ namespace vibrotrough::learn {
 namespace {
 
 /// 95 % of a normal distribution lie within so many standard deviations.
-constexpr double deviations_in_half_width = 1.959963984540054;
 /// Below this probability extra noise is taken to be real.
 constexpr double significant = 0.01;
 /// A surface whose Q2 is below this does not predict.

@@ -32,6 +32,9 @@ enum class Trend {
     constant,  ///< constant alone, for comparison
 };
 
+/// Standard deviations of a normal distribution in the half-width of its central 95 %.
+inline constexpr double deviations_in_half_width = 1.959963984540054;
+
 /// What the surface says of a place.
 struct SurfaceValue {
     double efficiency;  ///< velocity efficiency of the layer

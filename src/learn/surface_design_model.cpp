@@ -58,10 +58,11 @@ bool varies(std::vector<SurfaceInput> const& inputs, std::string_view group) {
 class SurfaceAtDrives {
   public:
     SurfaceAtDrives(std::shared_ptr<Surface const> surface, CampaignTheory theory,
-                    std::vector<Source> sources)
+                    std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
           theory_(std::move(theory)),
           sources_(std::move(sources)),
+          numerics_(numerics),
           varies_friction_(std::ranges::any_of(sources_, &Source::is_friction)) {
         Place middle;
         for (std::size_t k = 0; k < sources_.size(); ++k) {
@@ -108,7 +109,8 @@ class SurfaceAtDrives {
         auto const theory = theory_at(place, drive, friction);
         if (!theory) return {};
         SurfaceValue const value = surface_->at(place, *theory);
-        return ModelEfficiency{value.efficiency, value.half_width / 1.959964};
+        return ModelEfficiency{value.efficiency, value.half_width / deviations_in_half_width,
+                               numerics_ / deviations_in_half_width};
     }
 
     /// The theory at a place: fast for a plain sinusoid, else by the case itself.
@@ -124,6 +126,7 @@ class SurfaceAtDrives {
     std::shared_ptr<Surface const> surface_;
     CampaignTheory theory_;
     std::vector<Source> sources_;
+    double numerics_;  ///< 95 % bound, in velocity efficiency
     std::optional<scenario::Scenario> scenario_;
     bool is_plain_ = false, varies_friction_;
     std::vector<double> last_asked_;  ///< drive and friction
@@ -179,7 +182,7 @@ void check_friction(std::vector<SurfaceInput> const& inputs, double campaign, Kn
 
 DesignModel surface_design_model(std::shared_ptr<Surface const> surface, CampaignTheory const& theory,
                                  std::map<std::string, double> const& given, KnownFriction const& friction,
-                                 double discrepancy) {
+                                 double numerics, double discrepancy) {
     auto const inputs = surface->inputs();
     if (!varies(inputs, scenario::find_key("trough.frequency")->group)) {
         throw core::InputError(
@@ -189,7 +192,8 @@ DesignModel surface_design_model(std::shared_ptr<Surface const> surface, Campaig
     }
     DesignModel model{
         .name = "the simulated layer", .discrepancy = discrepancy, .remarks = surface->doubts()};
-    auto const drives = std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given));
+    auto const drives =
+        std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given), numerics);
     scenario::Trough const trough = drives->trough();
     check_friction(inputs, trough.friction, friction, model.remarks);
     model.at = [drives](theory::Drive const& drive, double mu) { return drives->at(drive, mu); };

@@ -15,10 +15,11 @@ namespace vibrotrough::learn {
 /// @param theory    of the campaign, with the values of keys that are words
 /// @param given     values of inputs that describe neither the machine nor trough.friction, by key, SI units
 /// @param friction  of the material: a campaign that does not vary trough.friction must have it
+/// @param numerics  CampaignPoints::numerics of the surface's cases
 /// @param discrepancy  standard deviation of what the surface misses of a real layer, in velocity efficiency
 /// @throws core::InputError when an input has no value, or the campaign cannot describe the material
 DesignModel surface_design_model(std::shared_ptr<Surface const> surface, CampaignTheory const& theory,
                                  std::map<std::string, double> const& given, KnownFriction const& friction,
-                                 double discrepancy = 0);
+                                 double numerics, double discrepancy = 0);
 
 }  // namespace vibrotrough::learn

@@ -58,8 +58,12 @@ Place place_from(std::vector<Source> const& sources, std::span<double const> val
 
 class SurfaceModel {
   public:
-    SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources)
-        : surface_(std::move(surface)), theory_(std::move(theory)), sources_(std::move(sources)) {}
+    SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources,
+                 double numerics)
+        : surface_(std::move(surface)),
+          theory_(std::move(theory)),
+          sources_(std::move(sources)),
+          numerics_(numerics) {}
 
     Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
         return place_from(sources_, values, measured);
@@ -72,7 +76,8 @@ class SurfaceModel {
         if (!theory) return {};
         auto const [efficiency, half_width] = surface_->at(at, *theory);
         double const trough_speed = drive_of(measured).trough_speed();
-        return ModelSpeed{efficiency * trough_speed, half_width / 1.959964 * trough_speed, trough_speed};
+        double const sd = std::hypot(half_width, numerics_) / deviations_in_half_width;
+        return ModelSpeed{efficiency * trough_speed, sd * trough_speed, trough_speed};
     }
 
     CampaignTheory const& theory() const { return theory_; }
@@ -81,6 +86,7 @@ class SurfaceModel {
     std::shared_ptr<Surface const> surface_;
     CampaignTheory theory_;
     std::vector<Source> sources_;
+    double numerics_;  ///< 95 % bound, in velocity efficiency
 };
 
 std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
@@ -120,9 +126,11 @@ std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& i
 }
 
 SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseMaker const& maker,
-                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds) {
+                         std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds,
+                         double numerics) {
     auto const inputs = surface->inputs();
-    SurfaceModel const model(std::move(surface), CampaignTheory(maker, inputs, {}), sources_of(inputs, free));
+    SurfaceModel const model(std::move(surface), CampaignTheory(maker, inputs, {}), sources_of(inputs, free),
+                             numerics);
     std::vector<double> middle;
     for (std::string const& name : free) {
         auto const input = std::ranges::find(inputs, name, &SurfaceInput::key);

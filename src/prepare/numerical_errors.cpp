@@ -18,10 +18,6 @@ constexpr double usual_rayleigh_fraction = 0.2;
 /// Least share of the half-width wanted that is left to statistics.
 double const least_share = std::sqrt(1 - largest_numerical_share * largest_numerical_share);
 
-double room_for_statistics(scenario::Scenario const& s, double wanted) {
-    return std::pow(wanted, 2) - std::pow(numerical_errors(s).total(), 2);
-}
-
 }  // namespace
 
 double NumericalErrors::total() const {
@@ -46,10 +42,14 @@ double whole_half_width(double statistics, NumericalErrors const& numerics) {
     return std::hypot(statistics, numerics.total());
 }
 
+std::optional<double> left_for_statistics(double wanted, double numerics) {
+    double const room = wanted * wanted - numerics * numerics, least = least_share * wanted;
+    return room >= least * least ? std::optional(std::sqrt(room)) : std::nullopt;
+}
+
 scenario::MeasurementPlan statistics_plan(scenario::Scenario const& s, double half_width) {
     scenario::MeasurementPlan plan = s.measure;
-    double const room = room_for_statistics(s, half_width), least = least_share * half_width;
-    plan.half_width = room >= least * least ? std::sqrt(room) : half_width;
+    plan.half_width = left_for_statistics(half_width, numerical_errors(s).total()).value_or(half_width);
     return plan;
 }
 
@@ -58,7 +58,7 @@ scenario::MeasurementPlan statistics_plan(scenario::Scenario const& s) {
 }
 
 bool can_be_finished(scenario::Scenario const& s) {
-    return room_for_statistics(s, s.measure.half_width) >= std::pow(least_share * s.measure.half_width, 2);
+    return left_for_statistics(s.measure.half_width, numerical_errors(s).total()).has_value();
 }
 
 }  // namespace vibrotrough::prepare

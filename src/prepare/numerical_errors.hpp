@@ -2,6 +2,8 @@
 
 #include "scenario/model/scenario.hpp"
 
+#include <optional>
+
 /// @file
 /// What is known beforehand of a case's numerical errors, and what they leave of the interval that a campaign
 /// file asks for. validation/whole_interval judges these bounds on layers that were not used to find them.
@@ -37,6 +39,11 @@ double whole_half_width(double statistics, NumericalErrors const& numerics);
 /// The largest share of a half-width wanted that the numerical errors may have, sqrt(3) / 2, so that half of
 /// it is left to statistics: 1 = 3/4 + 1/4.
 inline constexpr double largest_numerical_share = 0.8660254037844386;
+
+/// What numerical errors leave of a half-width to statistics, sqrt(wanted^2 - numerics^2); nothing where this
+/// is less than half of it.
+/// @param numerics  NumericalErrors::total(), or the numerical error that `convergence` found
+std::optional<double> left_for_statistics(double wanted, double numerics);
 
 /// The measurement plan whose half_width is what the numerical errors leave to statistics, so that the whole
 /// is as narrow as the case asks. Where they leave less than half of it, the case cannot be finished, and its

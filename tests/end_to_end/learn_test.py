@@ -40,6 +40,8 @@ class Learn(EndToEndTest):
         one = json.loads(self.predict("throw_number=2.2"))
         self.assertGreater(one["efficiency"], 0)
         self.assertGreater(one["half_width"], 0)
+        self.assertGreater(one["numerical_error"], 0)
+        self.assertAlmostEqual(one["whole_half_width"], math.hypot(one["half_width"], one["numerical_error"]), 9)
         self.assertEqual(one["at"], {"trough.throw_number": 2.2})
         self.assertTrue(one["inside"])
         two = list(csv.DictReader(io.StringIO(self.predict("throw_number=2.2", "trough.throw_number=9", form="--csv"))))
@@ -63,6 +65,7 @@ class Learn(EndToEndTest):
         self.assertEqual(answer.returncode, 1, answer.stderr)
         self.assertIn("not reached", answer.stdout)
         self.assertIn("--budget", answer.stdout)
+        self.assertIn("the numerical errors of the simulations alone may be", answer.stderr)  # which leave no room in 0.01
         self.assertEqual(len(self.results()), 4)  # the start is always simulated
 
     def test_calibration_on_a_campaign(self):

@@ -36,8 +36,9 @@ class SurfaceDesign : public testing::Test {
         surface = std::make_shared<Surface const>(inputs, points);
     }
 
-    DesignModel model(KnownFriction const& friction = normal_friction(0.35, 0.02)) const {
-        return surface_design_model(surface, CampaignTheory(*maker, inputs, {}), {}, friction);
+    DesignModel model(KnownFriction const& friction = normal_friction(0.35, 0.02),
+                      double numerics = 0) const {
+        return surface_design_model(surface, CampaignTheory(*maker, inputs, {}), {}, friction, numerics);
     }
 
     std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"trough.friction", 0.2, 0.6}};
@@ -59,9 +60,24 @@ TEST_F(SurfaceDesign, IsTheSurfaceAtTheDrive) {
     double const theory = *CampaignTheory(*maker, inputs, {}).efficiency_at({gamma, 0.4});
     EXPECT_NEAR(found->efficiency, surface->at({gamma, 0.4}, theory).efficiency, 1e-9);
     EXPECT_NEAR(found->efficiency, theory + 0.1, 0.01);
-    EXPECT_GT(found->sd, 0);
+    EXPECT_GT(found->sd(), 0);
+    EXPECT_EQ(found->numerics_sd, 0);
     EXPECT_LE(model().excess(drive), 0);
     EXPECT_GT(model().excess({2 * frequency, 0.006, beta, 0}), 0);
+}
+
+// The numerical errors of the simulations are part of what the model is unsure of: sd^2 = statistics^2 +
+// (numerics / 1.96)^2, and so the speed that is reached with 95 % is lower.
+TEST_F(SurfaceDesign, IsAsUnsureAsItsSimulations) {
+    double const frequency = std::sqrt(1.8 * 9.81 / (0.006 * 0.5)) / (2 * std::numbers::pi);
+    theory::Drive const drive{frequency, 0.006, std::numbers::pi / 6, 0};
+    KnownFriction const friction = normal_friction(0.35, 0.02);
+    auto const alone = model(friction).at(drive, 0.4), found = model(friction, 0.0588).at(drive, 0.4);
+    ASSERT_TRUE(alone && found);
+    EXPECT_EQ(found->efficiency, alone->efficiency);
+    EXPECT_EQ(found->statistics_sd, alone->statistics_sd);
+    EXPECT_NEAR(found->numerics_sd, 0.03, 1e-5);
+    EXPECT_NEAR(found->sd(), std::hypot(alone->sd(), 0.03), 1e-5);
 }
 
 // The design stays on the machine that was simulated, and within its range.
@@ -87,7 +103,7 @@ TEST_F(SurfaceDesign, WhatDoesNotFitIsRefused) {
     auto const refused = [&](std::map<std::string, double> const& given, KnownFriction const& friction,
                              char const* words) {
         try {
-            surface_design_model(surface, CampaignTheory(*maker, inputs, {}), given, friction);
+            surface_design_model(surface, CampaignTheory(*maker, inputs, {}), given, friction, 0);
             ADD_FAILURE() << words;
         } catch (core::InputError const& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(words));

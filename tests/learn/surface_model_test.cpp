@@ -60,7 +60,7 @@ class SurfaceModelTest : public testing::Test {
 // v = eta omega r cos(beta), with eta of the layer.
 TEST_F(SurfaceModelTest, SpeedOfTheLayer) {
     MeasuredSpeed const m = setting(1.5);
-    auto const answer = surface_model(surface, *maker, {"trough.friction"}, {m})(std::array{0.35}, m);
+    auto const answer = surface_model(surface, *maker, {"trough.friction"}, {m}, 0)(std::array{0.35}, m);
     ASSERT_TRUE(answer);
     double const eta = *CampaignTheory(*maker, inputs, {}).efficiency_at({1.5, 0.35}) + difference(1.5, 0.35);
     double const trough_speed = 2 * std::numbers::pi * m.frequency * 0.006 * std::cos(30 * degree);
@@ -73,7 +73,7 @@ TEST_F(SurfaceModelTest, SpeedOfTheLayer) {
 // Speeds of the layer at mu = 0.35 give this friction back; the theory alone does not explain them.
 TEST_F(SurfaceModelTest, CalibrationFindsTheFriction) {
     std::vector<MeasuredSpeed> speeds{setting(1.1), setting(1.5), setting(1.9)};
-    SpeedModel const model = surface_model(surface, *maker, {"trough.friction"}, speeds);
+    SpeedModel const model = surface_model(surface, *maker, {"trough.friction"}, speeds, 0);
     for (MeasuredSpeed& m : speeds) {
         double const gamma = std::pow(2 * std::numbers::pi * m.frequency, 2) * 0.003 / 9.81;
         double const eta =
@@ -101,7 +101,7 @@ TEST_F(SurfaceModelTest, WhatDoesNotFitIsRefused) {
     auto const refused = [&](std::vector<std::string> const& free, MeasuredSpeed const& m,
                              char const* words) {
         try {
-            surface_model(surface, *maker, free, {m});
+            surface_model(surface, *maker, free, {m}, 0);
             ADD_FAILURE() << words;
         } catch (core::InputError const& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(words));

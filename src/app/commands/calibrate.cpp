@@ -49,7 +49,8 @@ OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& ma
                        CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
     auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
-    learn::SpeedModel const model = learn::surface_model(surface, maker, options.shared.free, speeds);
+    learn::SpeedModel const model =
+        learn::surface_model(surface, maker, options.shared.free, speeds, points.numerics);
     auto const parameters = options.shared.parameters(learn::surface_parameters(points.inputs));
     return {surface, learn::calibrate(model, parameters, speeds, options.shared.settings())};
 }

@@ -107,7 +107,7 @@ learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction con
     learn::CampaignPoints points = learn::campaign_points(plan, maker, given.words);
     auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
     return learn::surface_design_model(surface, learn::CampaignTheory(maker, points.inputs, given.words),
-                                       given.numbers, known, discrepancy);
+                                       given.numbers, known, points.numerics, discrepancy);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "app/progress_log.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "prepare/numerical_errors.hpp"
 
 #include <memory>
 
@@ -45,14 +46,34 @@ std::string describe(learn::LearnStatus const& s, std::vector<learn::SurfaceInpu
         s.quality.q2, s.quality.covered, s.quality.points, s.core_time / 3600, s.core_time_to_go / 3600);
 }
 
+/// What is wanted of the whole, and what the numerical errors of the simulations leave of it.
+struct Whole {
+    double half_width;  ///< --half-width
+    double numerics;    ///< learn::CampaignPoints::numerics
+
+    /// What is left for statistics; nothing when it is too little.
+    std::optional<double> left() const { return prepare::left_for_statistics(half_width, numerics); }
+};
+
 /// Says how learning ended. @return the exit code
-int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, std::string const& folder) {
-    bool const reached = learn::Learner::has_reached(status, goal);
+int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, Whole const& whole,
+             std::string const& folder) {
+    bool const is_learnt = learn::Learner::has_reached(status, goal), reached = is_learnt && whole.left();
     if (reached) {
-        fmt::print("the surface is known to +- {:g} everywhere in the domain\n", goal.half_width);
+        fmt::print(
+            "the surface is known to +- {:g} everywhere in the domain: statistics {:.4f} at most, numerical "
+            "errors of the simulations {:.4f}\n",
+            whole.half_width, status.certainty.at_worst.half_width, whole.numerics);
+    } else if (is_learnt) {
+        fmt::print(
+            "not reached: the statistics are as asked ({:.4f} at most), but the numerical errors of the "
+            "simulations alone may be {:.4f}, which is too much for +- {:g}; stiffer grains and a larger box "
+            "make them smaller ('vibrotrough check' shows them)\n",
+            status.certainty.at_worst.half_width, whole.numerics, whole.half_width);
     } else if (status.certainty.at_worst.half_width > goal.half_width) {
         fmt::print(
-            "not reached: the largest half-width is {:.4f} instead of {:g}, and no further step is "
+            "not reached: the largest half-width of the statistics is {:.4f} instead of {:.4g}, and no "
+            "further step is "
             "possible; raise --budget, or what a case may have (measure.max_packings, measure.max_cycles)\n",
             status.certainty.at_worst.half_width, goal.half_width);
     } else if (status.quality.points < status.least_points) {
@@ -75,6 +96,15 @@ int run_learn(LearnArguments const& options) {
     if (ready.is_interrupted) return interrupted;
     if (!options.batch) goal.batch = usual_batch(options.shared.jobs, ready.plan);
     scenario::CaseMaker const maker(options.shared.campaign_file);
+    Whole const whole{goal.half_width, learn::campaign_points(ready.plan, maker).numerics};
+    goal.half_width = whole.left().value_or(whole.half_width);
+    if (!whole.left()) {
+        tell(
+            "learn: the numerical errors of the simulations alone may be {:.4f}, which is too much for "
+            "--half-width {:g}; its statistics are learnt to that, and stiffer grains or a larger box are "
+            "needed for the rest\n",
+            whole.numerics, whole.half_width);
+    }
     learn::Learner learner(ready.plan, maker, goal);
     auto wanted = learn::read_wanted_half_widths(ready.plan.folder);
     for (campaign::PlannedCase const& planned : ready.plan.cases)
@@ -90,7 +120,7 @@ int run_learn(LearnArguments const& options) {
         auto const steps =
             learn::Learner::has_reached(status, goal) ? std::vector<learn::LearnStep>{} : learner.choose();
         if (steps.empty() || !take_steps(steps, ready.plan, wanted))
-            return conclude(status, goal, core::shell_word(ready.plan.folder));
+            return conclude(status, goal, whole, core::shell_word(ready.plan.folder));
     }
 }
 
@@ -101,9 +131,10 @@ void add_learn(CLI::App& program, int& exit_code) {
     CLI::App* const command = program.add_subcommand(
         "learn", "Learn the velocity efficiency over a domain with the least core-hours");
     options->shared.add_to(*command);
-    command->add_option(
-        "--half-width", options->half_width,
-        "Largest half-width of the 95 % interval wanted anywhere in the domain, for example 0.03");
+    command->add_option("--half-width", options->half_width,
+                        "Largest half-width of the 95 % interval wanted anywhere in the domain, statistics "
+                        "and numerical errors "
+                        "together, for example 0.05");
     command->add_option("--budget", options->budget,
                         "Core time of all simulations together, for example \"4 core-hours\"");
     command->add_option("--batch", options->batch,
@@ -114,7 +145,8 @@ simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), an
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
 there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
 often as they should, and there are at least ten points for each input; or when the budget allows no further step. It
-then says why the goal was not reached.
+then says why the goal was not reached. The half-width holds statistics and the bound of the numerical errors of the
+cases together; what the latter leave of it is what the statistics are learnt to.
 
 Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
 what is to go. Ctrl-C stops cleanly, and the same command continues.
@@ -127,7 +159,7 @@ Exit codes:
   130  interrupted
 
 Example:
-  vibrotrough learn domain.toml --half-width 0.03 --budget "4 core-hours" --output runs/domain)");
+  vibrotrough learn domain.toml --half-width 0.05 --budget "4 core-hours" --output runs/domain)");
     command->callback([options, &exit_code] { exit_code = run_learn(*options); });
 }
 

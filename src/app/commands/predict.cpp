@@ -7,6 +7,7 @@
 #include "learn/campaign_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -68,10 +69,13 @@ struct Prediction {
     std::vector<learn::SurfaceInput> inputs;
     learn::Place place;
     learn::SurfaceValue value;
+    double numerics;  ///< bound of the numerical error of the campaign's cases, 95 %
     double theory;
     bool is_inside;
     std::string remark;  ///< why it should not be used, or only with care; empty otherwise
     learn::SurfaceQuality quality;
+
+    double whole_half_width() const { return std::hypot(value.half_width, numerics); }
 };
 
 learn::Place numbers_at(std::map<std::string, scenario::Content> const& values,
@@ -136,9 +140,14 @@ class Predictor {
         bool is_inside = true;
         for (std::size_t k = 0; k < place.size(); ++k)
             is_inside = is_inside && place[k] >= points.inputs[k].low && place[k] <= points.inputs[k].high;
-        return {points.inputs,    place,     surface.at(place, *efficiency),
-                *efficiency,      is_inside, remarks(surface, points, place, is_inside),
-                surface.quality()};
+        return {.inputs = points.inputs,
+                .place = place,
+                .value = surface.at(place, *efficiency),
+                .numerics = points.numerics,
+                .theory = *efficiency,
+                .is_inside = is_inside,
+                .remark = remarks(surface, points, place, is_inside),
+                .quality = surface.quality()};
     }
 
   private:
@@ -163,6 +172,8 @@ Json as_json(Prediction const& p) {
     return {{"at", at},
             {"efficiency", p.value.efficiency},
             {"half_width", p.value.half_width},
+            {"numerical_error", p.numerics},
+            {"whole_half_width", p.whole_half_width()},
             {"efficiency_theory", p.theory},
             {"inside", p.is_inside},
             {"remark", p.remark},
@@ -173,17 +184,21 @@ Json as_json(Prediction const& p) {
 
 void print_csv(std::vector<Prediction> const& predictions) {
     for (learn::SurfaceInput const& input : predictions.front().inputs) fmt::print("{},", input.key);
-    fmt::print("efficiency,half_width,efficiency_theory,inside\n");
+    fmt::print("efficiency,half_width,numerical_error,whole_half_width,efficiency_theory,inside\n");
     for (Prediction const& p : predictions) {
         for (double const value : p.place) fmt::print("{},", value);
-        fmt::print("{},{},{},{}\n", p.value.efficiency, p.value.half_width, p.theory, p.is_inside ? 1 : 0);
+        fmt::print("{},{},{},{},{},{}\n", p.value.efficiency, p.value.half_width, p.numerics,
+                   p.whole_half_width(), p.theory, p.is_inside ? 1 : 0);
     }
 }
 
 void print_text(Prediction const& p) {
     for (std::size_t k = 0; k < p.place.size(); ++k) fmt::print("{} = {:g}  ", p.inputs[k].key, p.place[k]);
-    fmt::print("\nvelocity efficiency  {:.3f} +- {:.3f} (theory {:.3f})\n", p.value.efficiency,
-               p.value.half_width, p.theory);
+    fmt::print(
+        "\nvelocity efficiency  {:.3f} +- {:.3f}, of which statistics {:.3f} and numerical errors {:.3f} "
+        "(theory "
+        "{:.3f})\n",
+        p.value.efficiency, p.whole_half_width(), p.value.half_width, p.numerics, p.theory);
     fmt::print(
         "surface              {} points, Q2 = {:.3f}, {} of {} left-out points within their 95 % intervals\n",
         p.quality.points, p.quality.q2, p.quality.covered, p.quality.points);
@@ -226,8 +241,10 @@ void add_predict(CLI::App& program, int& exit_code) {
                       "Leave the theory out of the surface, to see how much it helps");
     command->footer(
         R"(Fits a Gaussian process to the cases that have a result: the theory is its trend, and only the difference between
-layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval. Q2 tells
-how well each case is predicted from all others (1: perfectly, 0: no better than the mean). Cases that are bistable or
+layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval, and the
+two parts of it: statistics (half_width in JSON and CSV), and the bound of the numerical errors of the cases
+(numerical_error, the largest of them: soft grains, a small box, the time step), which more cases do not make smaller.
+Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is predicted from all others (1: perfectly, 0: no better than the mean). Cases that are bistable or
 not steady are not part of the surface, and a place near them is marked.
 
 A key may be written without its section where no other varied key has the same name. Quantities have units as in the
