@@ -18,6 +18,9 @@ from validation_case import ValidationCase
 from vibrotrough import File, open_result
 
 FOLDER = pathlib.Path(__file__).resolve().parent
+# `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta).
+COLUMNS = ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width", "gradient", "overlap", "packings",
+           "cycles", "mode", "outcome", "modulus_MPa"]
 START = 20  # cycles of start-up that the profiles across and along leave out
 
 
@@ -41,29 +44,32 @@ def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.P
 
 
 def measure(run: ValidationCase) -> None:
-    grid(run, "result.csv", ["free_1.25_to_2", "free", "blocked", "cube"])
-    grid(run, "noise.csv", ["noise"])
+    rows = described_cases(run, ["free_1.25_to_2", "free", "blocked", "cube"])
+    stiff = {place(row): row for row in described_cases(run, ["stiff_0.25", "stiff_0.5"])}
+    run.write_table("soft.csv", COLUMNS, [row for row in rows if place(row) in stiff])
+    run.write_table("result.csv", COLUMNS, [stiff.get(place(row), row) for row in rows])
+    run.write_table("noise.csv", COLUMNS, described_cases(run, ["noise"]))
     walls(run)
     surface(run)
     stiffness(run)
     shake_test(run)
 
 
-def grid(run: ValidationCase, table: str, names: list[str]) -> None:
-    """A row per case; `gradient` is the upper third's velocity less the lower third's, in omega r cos(beta)."""
-    rows = []
-    for name in names:
-        for row, _, result in cases_of(run, name):
-            rows.append(described(row, result))
-    run.write_table(table, ["grains", "tan_inclination", "tan_vibration_angle", "throw_number", "efficiency", "half_width",
-                            "gradient", "overlap", "packings", "cycles", "mode", "outcome"], rows)
+def described_cases(run: ValidationCase, names: list[str]) -> list[list[str]]:
+    """A row per case of these campaigns."""
+    return [described(row, result) for name in names for row, _, result in cases_of(run, name)]
+
+
+def place(row: list[str]) -> tuple[str, ...]:
+    """Which layer a row describes: the first of COLUMNS."""
+    return tuple(row[:4])
 
 
 def described(row: Row, result: File | None) -> list[str]:
     inputs = [f"{math.tan(math.radians(float(row[name]))):.4g}" for name in ("inclination_deg", "vibration_angle_deg")]
     inputs.append(f"{float(row['throw_number']):.4g}")
     if result is None:
-        return ["", *inputs, "", "", "", "", "", "", "", row["outcome"]]
+        return ["", *inputs, "", "", "", "", "", "", "", row["outcome"], ""]
     shape = str(result["case/grain_shape"])
     grains = shape if shape != "sphere" else str(result["case/grain_rotation"])
     means = " ".join(f"{value:.4f}" for value in result["packings/efficiency"])
@@ -73,7 +79,7 @@ def described(row: Row, result: File | None) -> list[str]:
     overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
     eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency_dem", "efficiency_dem_half_width")]
     return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["mode_layer"],
-            row["outcome"]]
+            row["outcome"], f"{float(result['case/grain_youngs_modulus']) / 1e6:g}"]
 
 
 def walls(run: ValidationCase) -> None:

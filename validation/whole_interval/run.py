@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Iterable
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -14,6 +15,7 @@ import numpy as np  # noqa: E402
 import scipy.stats  # noqa: E402
 
 from campaign_program import Row, campaign_text  # noqa: E402
+from differences import Difference, between_boxes, between_moduli  # noqa: E402
 from figure_style import COLOURS, plt  # noqa: E402
 from layers import (ACCURATE_BOX, ACCURATE_HALF_WIDTH, BOX, COARSE_BOX, COARSER, DEEPER_HALF_WIDTH, FINER, FIRST, SIMULATED,  # noqa: E402
                     Layer, deeper_layers, layers)
@@ -98,24 +100,18 @@ def header(*simulations_of_a_layer: str) -> list[str]:
     return ["layer", *INPUTS, *(f"{simulation}_{name}" for simulation in simulations_of_a_layer for name in MEASURED)]
 
 
-def numerics(run: ValidationCase, row: Row) -> float:
-    """The program's bound of the numerical errors of an ordinary simulation."""
-    layer = layers()[int(row["layer"]) - 1]
-    return check(run, layer.changes() | {"grains.youngs_modulus": f"{row['ordinary_modulus_Pa']} Pa"}, layer.throw_number)["numerical_error"]
-
-
 def least_covered(count: int) -> int:
     """The fewest of so many layers that an interval of 95 % covers in nineteen of twenty studies."""
     return int(scipy.stats.binom.ppf(0.05, count, 0.95))
 
 
-def draw(run: ValidationCase, differences: Floats, statistics: Floats, bounds: Floats, accurate: Floats) -> None:
+def draw(run: ValidationCase, differences: Floats, statistics: Floats, bounds: Floats) -> None:
     figure, axes = plt.subplots(figsize=(7, 3.6))
     places = np.arange(len(differences))
     axes.axhline(0, color="#999999", linewidth=0.8)
-    axes.errorbar(places, np.zeros(len(places)), yerr=np.sqrt(statistics**2 + bounds**2 + accurate**2), color="#bbbbbb", linestyle="none",
+    axes.errorbar(places, np.zeros(len(places)), yerr=np.hypot(statistics, bounds), color="#bbbbbb", linestyle="none",
                   capsize=4, linewidth=5, label="statistics and numerics of both simulations")
-    axes.errorbar(places, np.zeros(len(places)), yerr=np.sqrt(statistics**2 + accurate**2), color="#777777", linestyle="none", capsize=4,
+    axes.errorbar(places, np.zeros(len(places)), yerr=statistics, color="#777777", linestyle="none", capsize=4,
                   label="statistics of both simulations")
     axes.plot(places, differences, color=COLOURS[0], marker="o", linestyle="none", label="ordinary less accurate")
     axes.set_xlabel("layer, in the order of the table")
@@ -126,32 +122,75 @@ def draw(run: ValidationCase, differences: Floats, statistics: Floats, bounds: F
 
 
 def judge(run: ValidationCase) -> None:
+    """The layers of section 2."""
     rows = run.table("result.csv")
-
-    def column(name: str) -> Floats:
-        return np.array([float(row[name]) for row in rows])
-
-    accurate, accurate_width = column("accurate_efficiency"), column("accurate_half_width")
-    if run.control:  # of the next layer
-        accurate, accurate_width = np.roll(accurate, -1), np.roll(accurate_width, -1)
-    differences, statistics = column("ordinary_efficiency") - accurate, column("ordinary_half_width")
-    bounds = np.array([numerics(run, row) for row in rows])
-    covered = np.abs(differences) <= np.sqrt(statistics**2 + bounds**2 + accurate_width**2)
-    alone = np.abs(differences) <= np.sqrt(statistics**2 + accurate_width**2)
-    run.between("layers that the whole interval covers", int(np.sum(covered)), least_covered(len(rows)), len(rows),
-                f"of {len(rows)}; 95 % covers fewer in one of twenty studies")
-    sizes = [float(np.sqrt(np.mean(values**2))) for values in (differences, bounds, np.hypot(statistics, accurate_width))]
-    run.follows("summary.csv", SUMMARY, [[len(rows), int(np.sum(covered)), int(np.sum(alone)), f"{np.mean(differences):.4f}",
-                                          f"{np.max(np.abs(differences)):.4f}", *(f"{size:.4f}" for size in sizes),
-                                          f"{min(column('depth')):g}", f"{max(column('depth')):g}"]])
-    run.finding("the bounds are not too wide: the whole interval covers at most 98 %", bool(np.mean(covered) <= 0.98),
-                f"{np.sum(covered)} of {len(rows)}")
-    run.finding("statistics alone cover less than 93 %", bool(np.mean(alone) < 0.93), f"{np.sum(alone)} of {len(rows)}")
+    found = [compared(run, layers()[int(row["layer"]) - 1], row, "ordinary", accurate) for row, accurate in beside_accurate(run, rows)]
+    differences, statistics, bounds = (np.array(values) for values in zip(*((one.difference, one.statistics, one.bound()) for one in found)))
+    covered, alone = sum(one.is_covered() for one in found), sum(abs(one.difference) <= one.statistics for one in found)
+    judged(run, "layers that the whole interval covers", found)
+    sizes = [float(np.sqrt(np.mean(values**2))) for values in (differences, bounds, statistics)]
+    depths = [float(row["depth"]) for row in rows]
+    run.follows("summary.csv", SUMMARY, [[len(rows), covered, alone, f"{np.mean(differences):.4f}", f"{np.max(np.abs(differences)):.4f}",
+                                          *(f"{size:.4f}" for size in sizes), f"{min(depths):g}", f"{max(depths):g}"]])
+    run.finding("the bounds are not too wide: the whole interval covers at most 98 %", covered <= 0.98 * len(rows), f"{covered} of {len(rows)}")
+    run.finding("statistics alone cover less than 93 %", alone < 0.93 * len(rows), f"{alone} of {len(rows)}")
     run.finding("the numerical errors are as large as their bounds: their rms is at least a third of that of the bounds",
                 sizes[0] >= sizes[1] / 3, f"rms difference {sizes[0]:.4f}, mean {np.mean(differences):+.4f}, rms bound {sizes[1]:.4f}, "
                 f"rms half-width of the statistics of both {sizes[2]:.4f}")
+    judge_deeper(run, found)
     if not run.control:
-        draw(run, differences, statistics, bounds, accurate_width)
+        draw(run, differences, statistics, bounds)
+
+
+def judge_deeper(run: ValidationCase, shallow: list[Difference]) -> None:
+    """The layers of section 4, the choice of a tighter bound of the box, and how often the whole interval holds altogether."""
+    rows = run.table("deeper.csv")
+    coarse, ordinary = ([compared(run, deeper_layers()[int(row["layer"]) - 1], row, name, accurate) for row, accurate in beside_accurate(run, rows)]
+                        for name in ("coarse", "ordinary"))
+    judged(run, "deeper layers, coarse: covered", coarse)
+    judged(run, "deeper layers, ordinary: covered", ordinary)
+    is_odd = [int(row["layer"]) % 2 == 1 for row in rows]
+    known = [*between_boxes(), *shallow, *(one for one, odd in zip(coarse + ordinary, is_odd * 2) if odd)]
+    factor = next(tenths / 10 for tenths in range(11) if sum(one.is_covered(tenths / 10) for one in known) >= 0.95 * len(known) or tenths == 10)
+    others = [one for one, odd in zip(coarse + ordinary, is_odd * 2) if not odd]
+    run.finding("the factor of the box's bound that the layers with odd numbers choose holds for those with even numbers",
+                sum(one.is_covered(factor) for one in others) >= least_covered(len(others)),
+                f"{factor:g}; {sum(one.is_covered(factor) for one in others)} of {len(others)} of the latter")
+    groups: dict[str, list[Difference]] = {}
+    for one in (*between_moduli(), *between_boxes(), *shallow, *ordinary, *coarse):
+        groups.setdefault(one.study, []).append(one)
+    everything = [one for group in groups.values() for one in group]
+    table = [[study, len(group), sum(one.is_covered() for one in group), sum(abs(one.difference) <= one.statistics for one in group),
+              f"{rms(one.difference for one in group):.4f}", f"{rms(one.statistics for one in group):.4f}", f"{rms(one.bound() for one in group):.4f}"]
+             for study, group in [*groups.items(), ("all", everything)]]
+    run.follows("coverage.csv", ["study", "differences", "covered", "by_statistics", "rms", "rms_statistics", "rms_bound"], table)
+    if not run.control:
+        share = sum(one.is_covered() for one in everything) / len(everything)
+        run.finding("statistics and numerics together cover 93 to 98 % of all differences that are stored", 0.93 <= share <= 0.98,
+                    f"{100 * share:.1f} % of {len(everything)}")
+
+
+def beside_accurate(run: ValidationCase, rows: list[Row]) -> list[tuple[Row, Row]]:
+    """Each row with the one that has its accurate simulation: itself, but the next one in the negative control."""
+    return list(zip(rows, rows[1:] + rows[:1] if run.control else rows))
+
+
+def compared(run: ValidationCase, layer: Layer, row: Row, name: str, accurate: Row) -> Difference:
+    """A simulation of a layer beside the accurate one, with the program's bounds of its numerical errors."""
+    modulus = float(row[f"{name}_modulus_Pa"])
+    bounds = check(run, layer.with_numerics(COARSE_BOX if name == "coarse" else BOX, modulus, DEEPER_HALF_WIDTH), layer.throw_number)
+    efficiency, half_width = ([float(one[f"{of}_{what}"]) for one, of in ((row, name), (accurate, "accurate"))] for what in ("efficiency", "half_width"))
+    study = f"section {2 if 'coarse_efficiency' not in row else 4}, {name}"
+    return Difference(study, efficiency[0] - efficiency[1], math.hypot(*half_width), bounds["softness_error"], bounds["box_error"], bounds["time_step_error"])
+
+
+def judged(run: ValidationCase, what: str, found: list[Difference]) -> None:
+    run.between(what, sum(one.is_covered() for one in found), least_covered(len(found)), len(found),
+                f"of {len(found)}; 95 % covers fewer in one of twenty studies")
+
+
+def rms(values: Iterable[float]) -> float:
+    return float(np.sqrt(np.mean(np.square(list(values)))))
 
 
 def main() -> None:

@@ -1,7 +1,9 @@
 """What the interval that was asked for costs, against a careful user.
 
 The careful user writes plain decks by hand: five packings, each settled for itself and started at rest, 60 cycles, the first ten
-dropped, Student's t over the five means. The program is then asked for the half-width that the user reached in each case, with
+dropped, Student's t over the five means. The user takes the grains as stiff as the program chooses for a half-width of 0.05, and knows
+the same bounds of the numerical errors, so that both are asked for the same whole: the root of the sum of squares of these bounds and
+of the statistics that the user reached. The program is then asked for the half-width that the user reached in each case, with
 one campaign for all cases. Both run one engine at a time on the same machine in the same minutes, case by case in turn where that
 is possible; the processor time of the engines is compared, settling included.
 
@@ -63,6 +65,15 @@ class PrecisionBench(unittest.TestCase):
         path.write_text(text)
         return path
 
+    def with_numerics(self, points):
+        """The points with the modulus that the program chooses, and the bound of the numerical errors of each."""
+        found = subprocess.run([PROGRAM, "check", str(self.campaign(points, "half_width = 0.05")), "--json"], capture_output=True, text=True)
+        cases = json.loads(found.stdout)["cases"]
+        print(f"grains of {min(case['youngs_modulus_pa'] for case in cases):.3g} to {max(case['youngs_modulus_pa'] for case in cases):.3g} Pa; bounds of "
+              f"the numerical errors {min(case['numerical_error'] for case in cases):.3f} to {max(case['numerical_error'] for case in cases):.3f}", flush=True)
+        points = [dict(point, **{"grains.youngs_modulus": f"{case['youngs_modulus_pa']:g} Pa"}) for point, case in zip(points, cases)]
+        return points, [case["numerical_error"] for case in cases]
+
     def make_plain(self, folder):
         """A deck as written by hand: it starts at rest and runs for 60 cycles. Those of `vibrotrough deck` are the program's first round."""
         deck = folder / "in.liggghts"
@@ -100,10 +111,10 @@ class PrecisionBench(unittest.TestCase):
         return found
 
     def ours(self, name, points, half_widths):
-        wanted = [dict(point, **{"measure.half_width": max(width, 1e-4)}) for point, width in zip(points, half_widths)]
+        wanted = [dict(point, **{"measure.half_width": math.hypot(width, error)}) for point, width, error in zip(points, half_widths, self.numerics)]
         campaign = self.campaign(wanted, "packings = 4")
         output = self.folder / f"runs-{name.split()[0]}"
-        done, seconds = timed(PROGRAM, "run", str(campaign), "--output", str(output), "--jobs", "1", "--quiet")
+        done, seconds = timed(PROGRAM, "run", str(campaign), "--output", str(output), "--jobs", "1", "--quiet", "--accept-findings")
         self.assertIn(done.returncode, (0, 1), done.stderr)
         table = json.loads(subprocess.run([PROGRAM, "compare", str(output), "--json"], capture_output=True, text=True).stdout)
         for row in table:
@@ -128,7 +139,7 @@ class PrecisionBench(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         every = [{"trough.throw_number": gamma, "trough.tan_vibration_angle": tangent} for gamma in THROW_NUMBERS for tangent in TANGENTS]
-        points = every[:: max(1, len(every) // CASES)][:CASES]
+        points, self.numerics = self.with_numerics(every[:: max(1, len(every) // CASES)][:CASES])
         # The engine is probed beforehand: it is probed once for all campaigns.
         subprocess.run([PROGRAM, "probe-engine"], capture_output=True)
         self.settling = 0.0
