@@ -103,8 +103,7 @@ std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
 std::vector<StoredFile> files_of_case(campaign::Plan const& plan, campaign::PlannedCase const& planned) {
     Collection collection(plan.folder);
     std::string const folder = "cases/" + planned.id + "/";
-    for (char const* name : {"scenario.toml", "current_id.txt", "result.h5", "failure.json"})
-        collection.add(folder + name);
+    for (char const* name : {"scenario.toml", "result.h5", "failure.json"}) collection.add(folder + name);
     for (scenario::NamedFile const& file : named_files(planned.scenario()))
         collection.add(folder + file.name);
     std::vector<int> const packings = started_packings(planned);

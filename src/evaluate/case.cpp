@@ -13,23 +13,15 @@ measure::Start start_of(int packing) {
     return packing % 2 == 1 ? measure::Start::below : measure::Start::above;
 }
 
-namespace {
-
-core::Outcome outcome_by(measure::CaseEstimate const& estimate, bool is_precise) {
-    if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
-    if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
-    return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
-}
-
-}  // namespace
-
 core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario) {
     constexpr double rounding = 1 + 1e-12;  // the policy ends a case by the squares of the same numbers
     double const wanted = rounding * scenario.measure.half_width;
     bool const is_precise =
         estimate.half_width &&
         prepare::whole_half_width(*estimate.half_width, prepare::numerical_errors(scenario)) <= wanted;
-    return outcome_by(estimate, is_precise);
+    if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
+    if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
+    return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
 }
 
 measure::Precision wanted_statistics(scenario::Scenario const& scenario) {
@@ -69,26 +61,6 @@ void add_estimate(store::CaseRecord& record) {
     record.estimate.mean.reset();
     record.estimate.half_width.reset();
 }
-
-}  // namespace
-
-void correct_outcome(store::CaseRecord& record) {
-    if (record.outcome != core::Outcome::finished) return;
-    bool const is_precise =
-        record.estimate.half_width && *record.estimate.half_width <= record.scenario.measure.half_width;
-    record.outcome = outcome_by(record.estimate, is_precise);
-    if (record.outcome == core::Outcome::finished || record.estimate.deviation) return;
-    // Version 0.1 did not store the deviation of a packing, from which the packings needed follow.
-    double sum = 0, squares = 0;
-    for (store::PackingRecord const& packing : record.packings) {
-        sum += packing.estimate.mean;
-        squares += packing.estimate.mean * packing.estimate.mean;
-    }
-    auto const n = static_cast<double>(record.packings.size());
-    if (n > 1) record.estimate.deviation = std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1));
-}
-
-namespace {
 
 std::string in_words(std::optional<measure::Branch> const& branch) {
     if (!branch) return "unknown";

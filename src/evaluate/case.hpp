@@ -18,10 +18,6 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenar
 /// The precision wanted of the packings' statistics, see prepare::statistics_plan().
 measure::Precision wanted_statistics(scenario::Scenario const& scenario);
 
-/// Corrects the outcome of a result of version 0.1, which called a case finished when each of its packings
-/// was precise, however much they differed.
-void correct_outcome(store::CaseRecord& record);
-
 /// What more a case would take that is not precise, or the branches of one that is bistable or slow: one line
 /// for people, empty for other outcomes. Also why the contacts at the floor are not known although
 /// measure.rolling asks for them.

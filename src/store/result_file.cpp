@@ -67,8 +67,6 @@ void read_packings(Hdf5MemoryFileReader const& file, std::vector<PackingRecord>&
     Hdf5Table const table = file.table("packings", Rank::array);
     packings.resize(table.rows());
     for (PackingValue const& value : packing_values()) read_column(table, value, packings);
-    if (table.has("core_time")) return;
-    for (PackingRecord& packing : packings) packing.core_time = packing.wall_time;
 }
 
 /// Reads the columns of all tables of a packing.
@@ -97,7 +95,6 @@ measure::CaseEstimate read_case_values(Hdf5MemoryFileReader const& file) {
     from_stored(table.values<double>("efficiency").front(), estimate.mean);
     from_stored(table.values<double>("efficiency_half_width").front(), estimate.half_width);
     estimate.packings = table.values<int>("packings").front();
-    if (!table.has("packing_deviation")) return estimate;  // of version 0.1
     auto const number = [&](char const* name) {
         std::optional<double> value;
         from_stored(table.values<double>(name).front(), value);

@@ -90,7 +90,7 @@ struct PackingValue {
                  Field<PackingRecord, std::optional<double>>, Field<PackingRecord, std::string>,
                  Field<PackingRecord, measure::Verdict>>
         field;
-    bool may_be_missing = false;  ///< files of version 0.1 do not have it
+    bool may_be_missing = false;  ///< files of 0.2.0 that were written before it was added do not have it
 };
 
 /// The length of a series of n cycles.

@@ -109,19 +109,6 @@ TEST_F(Assemble, SaysWhenTheLayerIsNotSteady) {
     EXPECT_FALSE(record.estimate.mean);
 }
 
-// Version 0.1 called a case finished when each of its packings was precise.
-TEST_F(Assemble, CorrectsTheOutcomeOfOlderResults) {
-    write_packings(cycles(60, around(0.5)), cycles(60, around(0.6)));
-    store::CaseRecord record = assembled();
-    record.outcome = core::Outcome::finished;
-    evaluate::correct_outcome(record);
-    EXPECT_EQ(record.outcome, core::Outcome::not_precise);
-    record.outcome = core::Outcome::finished;
-    record.estimate.half_width = scenario.measure.half_width;
-    evaluate::correct_outcome(record);
-    EXPECT_EQ(record.outcome, core::Outcome::finished);
-}
-
 TEST_F(Assemble, SaysWhereItComesFrom) {
     write_packings(cycles(30, around(0.5)), cycles(30, around(0.5)));
     store::CaseRecord const record = assembled();

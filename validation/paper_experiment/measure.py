@@ -46,7 +46,7 @@ def whole_cases(run: ValidationCase, name: str) -> Iterator[tuple[Row, pathlib.P
 def measure(run: ValidationCase) -> None:
     rows = described_cases(run, ["free_1.25_to_2", "free", "blocked", "cube"])
     stiff = {place(row): row for row in described_cases(run, ["stiff_0.25", "stiff_0.5"])}
-    run.write_table("soft.csv", COLUMNS, [row for row in rows if place(row) in stiff])
+    run.write_table("soft.csv", [*COLUMNS[:4], *(f"soft_{name}" for name in COLUMNS[4:])], [row for row in rows if place(row) in stiff])
     run.write_table("result.csv", COLUMNS, [stiff.get(place(row), row) for row in rows])
     run.write_table("noise.csv", COLUMNS, described_cases(run, ["noise"]))
     walls(run)

@@ -53,7 +53,6 @@ STIFF_LAYERS: dict[str, list[float]] = {
     "8 deep, blocked": PAIR,
     "4 deep, free": [2.25, 2.5, 3.0],
     "4 deep, blocked": [2.25, 2.5, 3.0],
-    "cubes": [2.25, 2.5, 3.0],
 }
 
 

@@ -1,6 +1,5 @@
 #include "campaign/execute/settled_packings.hpp"
 
-#include "campaign/state/older_cases.hpp"
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -107,30 +106,13 @@ SettledPackings::SettledPackings(boost::asio::io_context& context, engine::Engin
 
 SettledPackings::~SettledPackings() = default;
 
-/// packings/<key>, or the folder in which an older version of the program settled the same packing: its name
-/// is the hash that the old program computed from the files in it.
-fs::path SettledPackings::place_of(deck::Deck const& deck, std::string const& key) {
-    std::error_code missing;
-    if (fs::is_directory(folder_ / key, missing)) return folder_ / key;
-    if (!older_) {
-        older_.emplace();
-        for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-            auto const files = deck::read_files(entry.path(), deck.settle_files);
-            if (older_packing_key(files, engine_.version) != entry.path().filename().string()) continue;
-            older_->emplace(packing_key({files, {}}, engine_.version), entry.path());
-        }
-    }
-    auto const found = older_->find(key);
-    return found == older_->end() ? folder_ / key : found->second;
-}
-
 void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready) {
     std::string const key = packing_key(deck, engine_.version);
     if (auto const found = settling_.find(key); found != settling_.end()) {
         found->second->waiting.push_back(std::move(ready));
         return;
     }
-    if (fs::path const place = place_of(deck, key); is_whole(place, deck)) {
+    if (fs::path const place = folder_ / key; is_whole(place, deck)) {
         boost::asio::post(context_, [ready = std::move(ready), restart = place / deck::settled_file] {
             ready({{}, {}, 0, restart});
         });
@@ -154,8 +136,8 @@ void SettledPackings::remove_leftovers() {
     std::vector<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        // 12 hexadecimal digits, machine and process number; "making" and no machine up to version 0.1.
-        static std::regex const name("[0-9a-f]{12}\\.(making|settling)-(.+-)?[0-9]+");
+        // 12 hexadecimal digits, machine and process number.
+        static std::regex const name("[0-9a-f]{12}\\.settling-.+-[0-9]+");
         if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
     }
     for (fs::path const& leftover : leftovers) {

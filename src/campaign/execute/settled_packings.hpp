@@ -49,15 +49,12 @@ class SettledPackings {
 
   private:
     struct Settling;
-    std::filesystem::path place_of(deck::Deck const& deck, std::string const& key);
     void ended(std::string const& key, engine::ExitStatus status);
 
     boost::asio::io_context& context_;
     engine::Engine const& engine_;
     std::filesystem::path folder_;
     std::map<std::string, std::unique_ptr<Settling>> settling_;
-    /// Folders of packings that an older version of the program settled, by today's key; read once.
-    std::optional<std::map<std::string, std::filesystem::path>> older_;
 };
 
 /// The key of a deck's settled packing: 12 hexadecimal digits.

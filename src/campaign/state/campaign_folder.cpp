@@ -1,6 +1,5 @@
 #include "campaign/state/campaign_folder.hpp"
 
-#include "campaign/state/older_cases.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -24,6 +23,19 @@ using Json = nlohmann::ordered_json;
 /// What is frozen in a folder: names of files and their contents.
 using FrozenFiles = std::map<std::string, std::string>;
 
+bool is_whole(Json const& facts) {
+    return facts.is_object() && facts.contains("program") && facts.value("version", Json()).is_string();
+}
+
+/// Version 0.1 of this program did not keep the digests of what it froze, and its cases have other ids.
+void refuse_version_0_1(Json const& facts, fs::path const& folder) {
+    if (!is_whole(facts) || facts.contains("frozen")) return;
+    throw core::InputError(fmt::format(
+        "{} is a campaign of version 0.1 of this program, which this version does not read any more; "
+        "read it with version 0.2.0, or run its campaign file in another folder",
+        folder.string()));
+}
+
 /// engine.json, if this program wrote it; null when there is none.
 /// @throws core::InputError when something else has this name
 Json read_frozen_facts(fs::path const& folder) {
@@ -34,7 +46,10 @@ Json read_frozen_facts(fs::path const& folder) {
         json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
     } catch (core::MissingError const&) {
     }
-    if (json.is_object() && json.contains("program") && json.contains("version")) return json;
+    if (is_whole(json)) {
+        refuse_version_0_1(json, folder);
+        return json;
+    }
     throw core::InputError(
         fmt::format("{} is not a file of this program, or is damaged, and would be replaced; move it away, "
                     "or choose another "
@@ -60,7 +75,6 @@ void refuse_edited_files(fs::path const& folder, FrozenFiles const& files, Json 
         auto const before = content_before(folder / name);
         if (!before || *before == content) continue;
         bool const is_own = !facts.is_null();
-        if (is_own && !facts.contains("frozen")) continue;  // up to version 0.1
         Json const known = is_own ? facts["frozen"].value(name, Json::array()) : Json::array();
         if (std::ranges::find(known, Json(core::sha256_hex(*before))) != known.end()) continue;
         fs::path const path = folder / name;
@@ -173,8 +187,6 @@ void write_scenario(scenario::Scenario const& scenario, fs::path const& folder) 
 }
 
 void write_case_files(PlannedCase const& planned) {
-    // First: when the deck and the scenario are written again, they no longer prove the old id.
-    if (planned.id != planned.current_id) write_current_id(planned.folder, planned.current_id);
     write_scenario(planned.scenario(), planned.folder);
 }
 
@@ -229,9 +241,10 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
             folder.string()));
     }
     scenario::Campaign campaign = scenario::read_campaign(folder / "campaign.toml");
-    use_frozen_templates(
-        folder, Json::parse(core::read_file(folder / "engine.json", core::largest_note), nullptr, false),
-        campaign.cases);
+    Json const facts =
+        Json::parse(core::read_file(folder / "engine.json", core::largest_note), nullptr, false);
+    refuse_version_0_1(facts, folder);
+    use_frozen_templates(folder, facts, campaign.cases);
     return campaign;
 }
 
@@ -248,7 +261,7 @@ engine::Engine read_engine(fs::path const& folder) {
         auto const json = nlohmann::json::parse(core::read_file(folder / "engine.json", core::largest_note));
         engine::Engine engine{core::bytes_of_utf8(json.at("program").get<std::string>()),
                               json.at("version").get<std::string>()};
-        engine.binary_sha256 = json.value("binary_sha256", std::string());  // not up to version 0.1
+        engine.binary_sha256 = json.value("binary_sha256", std::string());
         return engine;
     } catch (nlohmann::json::exception const&) {
         throw core::InputError(fmt::format("{} is damaged; run the campaign again after removing this file",

@@ -62,7 +62,6 @@ std::optional<store::CaseRecord> read_whole_result(PlannedCase const& planned) {
     if (!fs::is_regular_file(planned.result_file(), missing)) return {};
     try {
         store::CaseRecord record = store::read_result(planned.result_file());
-        evaluate::correct_outcome(record);
         if (record.id == planned.id) return record;
     } catch (core::Error const&) {
         // Damaged: the case is as good as not run, and will be run.

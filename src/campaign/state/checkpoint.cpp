@@ -65,14 +65,9 @@ std::string digest_of_drive(std::string const& content) {
     return core::sha256_hex(deck::commands_of(content));
 }
 
-/// Whether the checkpoint was made with the commands of this deck. Up to version 0.1 the seal held a digest
-/// of the deck with its comments, which is compared with the file that it was made from.
-bool belongs_to(Json const& seal, fs::path const& folder, std::string const& drive) {
-    if (seal.contains("commands_sha256")) return seal.at("commands_sha256") == digest_of_drive(drive);
-    std::string const before =
-        deck::for_one_rank(core::read_file(folder / deck::drive_file, core::largest_note));
-    return seal.at("deck_sha256") == core::sha256_hex(before) &&
-           deck::commands_of(before) == deck::commands_of(drive);
+/// Whether the checkpoint was made with the commands of this deck.
+bool belongs_to(Json const& seal, std::string const& drive) {
+    return seal.at("commands_sha256") == digest_of_drive(drive);
 }
 
 std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
@@ -105,7 +100,7 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
                                     seal.at("wall_time"),
                                     seal.value("core_time", seal.at("wall_time").get<double>())};
         bool const known =
-            checkpoint_cycle(checkpoint.file) && belongs_to(seal, folder, drive) &&
+            checkpoint_cycle(checkpoint.file) && belongs_to(seal, drive) &&
             seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
         if (known && has_row(core::read_file(folder / "cycles.csv"),
                              static_cast<long>(checkpoint.cycle) * steps_per_cycle))

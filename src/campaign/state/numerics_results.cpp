@@ -25,7 +25,7 @@ constexpr int schema_version = 1;
 
 evaluate::StudyResult result_of(Plan const& plan, scenario::Scenario const& scenario) {
     std::string const id = case_id(prepare::prepare_case(scenario), plan.engine_version);
-    auto const planned = std::ranges::find(plan.cases, id, &PlannedCase::current_id);
+    auto const planned = std::ranges::find(plan.cases, id, &PlannedCase::id);
     if (planned == plan.cases.end()) return {id, {}, {}, "not part of the study"};
     if (auto const record = read_whole_result(*planned)) {
         if (record->outcome == core::Outcome::not_steady)

@@ -1,7 +1,6 @@
 #include "campaign/state/plan.hpp"
 
 #include "campaign/state/added_cases.hpp"
-#include "campaign/state/older_cases.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "deck/commands.hpp"
@@ -41,20 +40,13 @@ class Planner {
   public:
     void add(Scenarios const& scenarios, std::string const& engine_version) {
         for (auto& [prepared, id] : identify(scenarios, engine_version)) {
-            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}, id});
+            if (ids_.insert(id).second) cases_.push_back({id, std::move(prepared), {}});
         }
     }
 
-    /// The cases with their folders. Where a case has none under its id, an older folder may hold it.
-    std::deque<PlannedCase> place(fs::path const& folder, std::string const& engine_version) {
-        OlderCases older(folder, engine_version, ids_);
-        for (PlannedCase& planned : cases_) {
-            // Older programs had frames of the first packing only.
-            bool const can_be_older = frame_toml(planned.scenario().output).empty();
-            auto id = can_be_older ? older.find(planned.current_id, *planned.prepared) : std::nullopt;
-            if (id) planned.id = std::move(*id);
-            planned.folder = folder / "cases" / planned.id;
-        }
+    /// The cases with their folders.
+    std::deque<PlannedCase> place(fs::path const& folder) {
+        for (PlannedCase& planned : cases_) planned.folder = folder / "cases" / planned.id;
         return std::move(cases_);
     }
 
@@ -82,8 +74,7 @@ Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
     Planner planner;
     planner.add(campaign.cases, engine_version);
     planner.add(read_added_cases(folder), engine_version);
-    Plan plan{campaign.name,  folder,        engine_version, planner.place(folder, engine_version),
-              campaign.files, campaign.swept};
+    Plan plan{campaign.name, folder, engine_version, planner.place(folder), campaign.files, campaign.swept};
     for (PlannedCase& planned : plan.cases) planned.label = swept_label(planned.scenario(), plan.swept);
     return plan;
 }
@@ -92,7 +83,7 @@ PlannedCase plan_case(scenario::Scenario const& scenario, fs::path const& folder
                       std::string const& engine_version) {
     Planner planner;
     planner.add(Scenarios{scenario}, engine_version);
-    return planner.place(folder, engine_version).front();
+    return planner.place(folder).front();
 }
 
 std::size_t count_left_aside(Plan const& plan) {

@@ -20,9 +20,6 @@ struct PlannedCase {
     std::string id;
     std::shared_ptr<prepare::PreparedCase const> prepared;  ///< everything that follows from the scenario
     std::filesystem::path folder;                           ///< that holds it
-    /// The id that the case would have in a new folder. It differs from `id` only for cases that an older
-    /// version of the program began (older_cases.hpp).
-    std::string current_id;
     /// What distinguishes it from the other cases, such as "throw_number 2, layer.height 12 mm"; empty when
     /// nothing is swept.
     std::string label = {};
@@ -69,8 +66,7 @@ struct Plan {
 
 /// Works out the cases' ids and folders below `folder`: those of the campaign file, and after them those that
 /// a policy has added (added_cases.hpp). The same case always has the same id, whatever the campaign's name
-/// and its other cases; a case that an older version of the program has begun in this folder keeps the id
-/// that it has there.
+/// and its other cases.
 /// @throws core::InputError when a case cannot be divided into time steps
 Plan make_plan(scenario::Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
@@ -79,7 +75,7 @@ Plan make_plan(scenario::Campaign const& campaign, std::filesystem::path const& 
 PlannedCase plan_case(scenario::Scenario const& scenario, std::filesystem::path const& folder,
                       std::string const& engine_version);
 
-/// The case's id in new folders. @throws as make_plan
+/// The case's id. @throws as make_plan
 std::string case_id(prepare::PreparedCase const& prepared, std::string const& engine_version);
 
 /// Number of case folders that do not belong to the plan: of an earlier version of the campaign file.
