@@ -92,6 +92,15 @@ Json packing_json(PackingRecord const& packing) {
     return values;
 }
 
+PackingRecord summary_of_packing(PackingRecord const& packing) {
+    PackingRecord summary{};
+    for (PackingValue const& value : packing_values()) {
+        if (!is_long(value))
+            std::visit([&](auto const& field) { field(summary) = field(packing); }, value.field);
+    }
+    return summary;
+}
+
 PackingRecord packing_from(Json const& values) {
     PackingRecord packing{};
     std::size_t at = 0;
@@ -125,7 +134,22 @@ CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) 
 }  // namespace
 
 CaseRecord summary_of(CaseRecord const& record) {
-    return unpack_summary(pack_summary(record), record.scenario);
+    CaseRecord summary{};
+    summary.scenario = record.scenario;
+    for (CaseFact const& fact : case_facts())
+        std::visit([&](auto const& field) { field(summary) = field(record); }, fact.field);
+    measure::CaseEstimate const& e = record.estimate;
+    summary.estimate = {.mean = e.mean,
+                        .half_width = e.half_width,
+                        .packings = e.packings,
+                        .correlation_time = e.correlation_time,
+                        .deviation = e.deviation,
+                        .deviation_within = e.deviation_within,
+                        .below = e.below,
+                        .above = e.above};
+    for (PackingRecord const& packing : record.packings)
+        summary.packings.push_back(summary_of_packing(packing));
+    return summary;
 }
 
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {

@@ -199,17 +199,4 @@ std::string not_covered(EnginePlan const& plan) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string engine_toml(EnginePlan const& plan) {
-    std::string text;
-    if (plan.contact != ContactModel::hertz) text += fmt::format("contact = \"{}\"\n", name_of(plan.contact));
-    if (plan.cohesion > 0) text += fmt::format("cohesion = \"{} J/m3\"\n", plan.cohesion);
-    if (plan.extra) text += fmt::format("extra = \"{}\"\n", plan.extra->file.name);
-    if (plan.templates) {
-        std::vector<std::string> names;
-        for (NamedFile const& file : plan.templates->files) names.push_back('"' + file.name + '"');
-        text += fmt::format("templates = [{}]\n", fmt::join(names, ", "));
-    }
-    return text.empty() ? text : "[engine]\n" + text + "\n";
-}
-
 }  // namespace vibrotrough::scenario

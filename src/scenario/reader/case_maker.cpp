@@ -28,7 +28,7 @@ CaseMaker::CaseMaker(std::filesystem::path const& campaign_file)
 Scenario CaseMaker::make(std::map<std::string, Content> const& values) const {
     CaseValues all = text_.base;
     for (auto const& [key, value] : values) set_value(all, key, {value, {}});
-    return make_scenario(text_.name, all, file_, source_);
+    return make_scenario(all, file_, source_);
 }
 
 std::string CaseMaker::full_key(std::string const& name) const {

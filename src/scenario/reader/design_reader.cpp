@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::size_t most_points = 100'000;
 
-/// Whether a key can be varied: it has a single value and is not the name of the campaign.
-bool can_vary(Key const& key) {
-    return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
-           has_words(key);
-}
-
 /// Reads the sections that vary keys by lists of points, and the exclusions.
 class DesignReader {
   public:

@@ -103,8 +103,7 @@ class CampaignFileReader {
     }
 
     static bool is_section(std::string_view name) {
-        return std::ranges::any_of(
-            all_keys(), [&](Key const& key) { return key.path.substr(0, key.path.find('.')) == name; });
+        return std::ranges::any_of(all_keys(), [&](Key const& key) { return section_of(key) == name; });
     }
 
     void read_section(toml::key const& name, toml::node const& node) {
@@ -163,7 +162,7 @@ class CampaignFileReader {
         if (key.kind == KeyKind::name) {
             read_name(key, where, node);
         } else {
-            result_.base[path] = {read_content(key, node, file_), where};
+            result_.base[key.path] = {read_content(key, node, file_), where};
         }
     }
 
@@ -179,6 +178,7 @@ class CampaignFileReader {
                              key.range));
         }
         result_.name = name;
+        result_.base[key.path] = {name, where};
     }
 
     /// A swept key may be written in quotes ("trough.friction" = ...) or as a dotted key (trough.friction =
@@ -269,7 +269,7 @@ class CampaignFileReader {
     }
 
     bool given(std::string_view path) const {
-        return (path == "campaign.name" && !result_.name.empty()) || result_.base.contains(path) ||
+        return result_.base.contains(path) ||
                std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; }) ||
                std::ranges::any_of(result_.lists, [&](PointList const& list) {
                    return std::ranges::find(list.keys, path) != list.keys.end();
@@ -284,7 +284,7 @@ class CampaignFileReader {
             if (given(other.path)) return;
             names.push_back(last_name(other.path));
         }
-        std::string const section(key.path.substr(0, key.path.find('.')));
+        std::string const section(section_of(key));
         auto const found = sections_.find(section);
         Position const where = found == sections_.end() ? Position{} : found->second;
         std::string wrong =

@@ -146,18 +146,6 @@ Position position_of(toml::source_region const& source) {
     return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
 }
 
-bool has_words(Key const& key) {
-    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
-}
-
-std::string_view last_name(std::string_view path) {
-    return path.substr(path.rfind('.') + 1);
-}
-
-std::string write_instead(Key const& key) {
-    return fmt::format("write {} = {}", last_name(key.path), key.example);
-}
-
 Content read_content(Key const& key, toml::node const& node, std::string const& file) {
     ValueReader const reader(key, file);
     switch (key.kind) {

@@ -12,15 +12,6 @@ namespace vibrotrough::scenario {
 /// Line and column at which a node of the campaign file begins.
 Position position_of(toml::source_region const& source);
 
-/// Whether the values of a key are words, which have no order: a choice or the name of a file.
-bool has_words(Key const& key);
-
-/// The last part of a key's path, without its sections.
-std::string_view last_name(std::string_view path);
-
-/// What to write for a key, such as 'write amplitude = "6 mm"'.
-std::string write_instead(Key const& key);
-
 /// A value of the campaign file as its key requires it: numbers in SI units, words, or a list of either.
 /// @param file  names the campaign file in errors
 /// @throws core::InputError when the value has the wrong type, unit or range
