@@ -96,7 +96,7 @@ bool is_swept(Column const& column, scenario::SweptKeys const& swept) {
 }
 
 std::optional<Value> swept_value(scenario::Scenario const& scenario, Key const& key) {
-    auto const value = key.in_case.get(scenario);
+    auto const value = key.access.get(scenario);
     if (!value) return {};
     if (auto const* const word = std::get_if<std::string>(&*value)) return *word;
     auto const* const number = std::get_if<double>(&*value);

@@ -11,8 +11,8 @@ namespace vibrotrough::learn {
 
 inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
-/// The key with this path if it says how the machine is set: amplitude, angles and speed of the drive, each of
-/// which can be given by several keys. Otherwise nullptr.
+/// The key with this path if it says how the machine is set: amplitude, angles and speed of the drive, each
+/// of which can be given by several keys. Otherwise nullptr.
 scenario::Key const* machine_key(std::string_view path);
 
 /// The value of a machine key at a drive, in SI units.

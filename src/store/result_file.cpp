@@ -242,7 +242,7 @@ std::string names_of(scenario::SweptKeys const& swept) {
 
 /// The values of a swept key, NaN or an empty text where a case has none.
 Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases) {
-    auto const value_of = [&](CaseRecord const& one) { return key.in_case.get(one.scenario); };
+    auto const value_of = [&](CaseRecord const& one) { return key.access.get(one.scenario); };
     if (has_words(key)) {
         return stored_values(cases, [&](CaseRecord const& one) {
             auto const value = value_of(one);

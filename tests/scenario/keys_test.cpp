@@ -43,12 +43,12 @@ TEST(Keys, ExamplesAreInRange) {
 // A row says where its value is: in a case or among the settings of a run, never in both.
 TEST(Keys, EveryRowHasItsPlace) {
     for (scenario::Key const& key : scenario::all_keys()) {
-        EXPECT_TRUE(key.in_case.get != nullptr && key.in_case.set != nullptr) << key.path;
-        EXPECT_TRUE(key.set_run == nullptr) << key.path;
+        EXPECT_TRUE(key.access.get != nullptr && key.access.set != nullptr) << key.path;
+        EXPECT_TRUE(key.access.set_run == nullptr) << key.path;
     }
     for (scenario::Key const& key : scenario::run_keys()) {
-        EXPECT_TRUE(key.in_case.get == nullptr && key.in_case.set == nullptr) << key.path;
-        EXPECT_TRUE(key.set_run != nullptr) << key.path;
+        EXPECT_TRUE(key.access.get == nullptr && key.access.set == nullptr) << key.path;
+        EXPECT_TRUE(key.access.set_run != nullptr) << key.path;
     }
 }
 
@@ -61,7 +61,7 @@ TEST(Keys, WhatIsSetIsGot) {
         if (!can_vary(key) || key.kind == scenario::KeyKind::file) continue;
         std::string const point = fmt::format("[[points]]\n\"{}\" = {}\n", key.path, key.example);
         scenario::Scenario const s = scenario::parse_campaign(base + point, "c.toml").cases.front();
-        scenario::Content const got = *key.in_case.get(s);
+        scenario::Content const got = *key.access.get(s);
         if (has_words(key)) {
             EXPECT_EQ('"' + std::get<std::string>(got) + '"', key.example) << key.path;
             continue;
@@ -79,7 +79,7 @@ TEST(Keys, WhatIsSetIsGot) {
 TEST(Keys, WordsBeginWithTheirDefault) {
     for (scenario::Key const& key : scenario::all_keys()) {
         if (!has_words(key) || !key.group.empty()) continue;
-        auto const value = key.in_case.get(scenario::Scenario{});
+        auto const value = key.access.get(scenario::Scenario{});
         EXPECT_EQ(value ? std::get<std::string>(*value) : "none", default_text(key)) << key.path;
     }
 }

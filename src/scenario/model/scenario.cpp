@@ -1,25 +1,18 @@
 #include "scenario/model/scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::scenario {
 
 std::string_view name_of(Block block) {
-    switch (block) {
-        case Block::none:
-            return "none";
-        case Block::point:
-            return "point";
-        case Block::plate:
-            return "plate";
-    }
-    throw std::invalid_argument("no such block");
+    constexpr std::array<std::string_view, 3> names{"none", "point", "plate"};
+    return names.at(static_cast<std::size_t>(block));
 }
 
 double angular_frequency(Trough const& trough) {

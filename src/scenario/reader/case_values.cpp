@@ -90,9 +90,9 @@ Scenario with_values(CaseValues const& values, std::string const& file, FileSour
     Scenario scenario{};
     for (Key const& key : all_keys()) {
         if (auto const given = values.find(key.path); given != values.end()) {
-            key.in_case.set(scenario, {key, given->second.content, {file, given->second.where}, source});
+            key.access.set(scenario, {key, given->second.content, {file, given->second.where}, source});
         } else if (auto const* number = std::get_if<double>(&key.if_missing)) {
-            key.in_case.set(scenario, {key, Content(*number), {file, {}}, source});
+            key.access.set(scenario, {key, Content(*number), {file, {}}, source});
         }
     }
     return scenario;

@@ -8,9 +8,9 @@
 
 namespace vibrotrough::scenario {
 
-/// The value of one key on its way into a case or into the settings of a run: InCase::set and Key::set_run
-/// take it. The accessors throw std::bad_variant_access for other kinds of values. All arguments must outlive
-/// it.
+/// The value of one key on its way into a case or into the settings of a run: KeyAccess::set and
+/// KeyAccess::set_run take it. The accessors throw std::bad_variant_access for other kinds of values. All
+/// arguments must outlive it.
 class GivenValue {
   public:
     /// @param where   of the key or its value, for errors

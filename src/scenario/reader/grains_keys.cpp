@@ -15,19 +15,22 @@ void set_shape(Grains& grains, GivenValue const& v) {
                                   "write the header x,y,z,radius and one sphere per line");
 }
 
+bool has_a_law(Scenario const& s) {
+    return s.grains.size_law != SizeLaw::listed;
+}
+
 constexpr std::array rows_of_grains{
     Key{"grains.diameter", quantity, "m", 1e-6, 1, "1 um to 1 m", "size of the grains", required, "\"3 mm\"",
         "d, mean diameter; of a clump, the diameter of the sphere that has its volume; of the log-normal "
         "law, the median",
-        field<&Scenario::grains, &Grains::diameter>.written_if(
-            [](Scenario const& s) { return s.grains.size_law != SizeLaw::listed; })},
+        field<&Scenario::grains, &Grains::diameter>.written_if(has_a_law)},
     Key{"grains.diameters", quantities, "m", 1e-6, 1, "1 um to 1 m each, up to 100", "size of the grains",
         required, "[\"2 mm\", \"3 mm\"]", "list of diameters, used with number_fractions or mass_fractions",
-        InCase{[](Scenario const& s) { return content_of(s.grains.diameters); },
-               [](Scenario& s, GivenValue const& v) {
-                   s.grains.diameters = v.numbers();
-                   s.grains.size_law = SizeLaw::listed;
-               }}},
+        KeyAccess{[](Scenario const& s) { return content_of(s.grains.diameters); },
+                  [](Scenario& s, GivenValue const& v) {
+                      s.grains.diameters = v.numbers();
+                      s.grains.size_law = SizeLaw::listed;
+                  }}},
     Key{"grains.number_fractions", numbers, "", 0, 1e9, "above 0 each", "", optional, "[0.3, 0.7]",
         "shares of the listed diameters by number, scaled so that their sum is 1",
         field<&Scenario::grains, &Grains::number_fractions>},
@@ -36,24 +39,22 @@ constexpr std::array rows_of_grains{
         field<&Scenario::grains, &Grains::mass_fractions>},
     Key{"grains.diameter_spread", number, "", 0, 0.5, "0 to 0.5", "", 0.0, "0.1",
         "s, width of the size distribution, see size_law",
-        field<&Scenario::grains, &Grains::diameter_spread>.written_if(
-            [](Scenario const& s) { return s.grains.size_law != SizeLaw::listed; })},
+        field<&Scenario::grains, &Grains::diameter_spread>.written_if(has_a_law)},
     Key{"grains.size_law", choice, "", 0, 0, "three-classes, uniform or lognormal", "", optional,
         "\"three-classes\"",
         "distribution by number; three-classes: 1-s, 1 and 1+s times d in equal shares; uniform: all "
         "diameters between 1-s and 1+s times d; lognormal: ln(d) is normal with standard deviation s",
-        field<&Scenario::grains, &Grains::size_law>.written_if(
-            [](Scenario const& s) { return s.grains.size_law != SizeLaw::listed; })},
+        field<&Scenario::grains, &Grains::size_law>.written_if(has_a_law)},
     Key{"grains.density", quantity, "kg/m3", 1, 3e4, "1 to 30000 kg/m3", "density of the grains", required,
         "\"1400 kg/m3\"", "density of the grains' material", field<&Scenario::grains, &Grains::density>},
     Key{"grains.bulk_density", quantity, "kg/m3", 0.58, 17400, "0.58 to 17400 kg/m3", "density of the grains",
         required, "\"800 kg/m3\"",
         "density of the settled layer with its voids; the grains' density is this divided by the solid "
         "fraction of a settled layer, 0.58",
-        InCase{
+        KeyAccess{
             [](Scenario const& s) { return content_of(bulk_density(s.grains)); },
             [](Scenario& s, GivenValue const& v) { s.grains.density = v.number() / settled_solid_fraction; }}
-            .never_written()},
+            .written_if(never)},
     Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", optional, "\"50 MPa\"",
         "Young's modulus of grains and trough; if it is left out, each case gets the lowest one that is "
         "stiff "
@@ -75,9 +76,9 @@ constexpr std::array rows_of_grains{
         "\"cube\"",
         "spheres, or rigid clumps of 8 spheres (cube), 3 spheres (rod) or the spheres of a file (columns "
         "x,y,z,radius, scaled to d)",
-        InCase{[](Scenario const& s) { return content_of(s.grains.shape); },
-               [](Scenario& s, GivenValue const& v) { set_shape(s.grains, v); }}
-            .written_if([](Scenario const& s) { return is_clump(s.grains); })},
+        KeyAccess{[](Scenario const& s) { return content_of(s.grains.shape); },
+                  [](Scenario& s, GivenValue const& v) { set_shape(s.grains, v); }}
+            .unless_default()},
 
     Key{"layer.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", required,
         "\"36 mm\"", "length of the periodic box along the trough", field<&Scenario::layer, &Layer::length>},
@@ -86,8 +87,8 @@ constexpr std::array rows_of_grains{
         field<&Scenario::layer, &Layer::width>},
     Key{"layer.height", quantity, "m", 1e-6, 10, "at least one diameter", "height of the layer", required,
         "\"12 mm\"", "height of the layer at rest",
-        InCase{[](Scenario const& s) { return content_of(layer_height(s)); },
-               [](Scenario& s, GivenValue const& v) { s.layer.height = v.number(); }}
+        KeyAccess{[](Scenario const& s) { return content_of(layer_height(s)); },
+                  [](Scenario& s, GivenValue const& v) { s.layer.height = v.number(); }}
             .written_if([](Scenario const& s) { return s.layer.block == Block::none && s.layer.height; })},
     Key{"layer.grains", integer, "", 1, 1e7, "1 to 10000000", "height of the layer", required, "600",
         "number of grains", field<&Scenario::layer, &Layer::grains>.written_if([](Scenario const& s) {

@@ -13,69 +13,65 @@
 
 namespace vibrotrough::scenario {
 
+template <typename Type>
+constexpr bool is_optional_member = false;  ///< Whether a member is an optional one.
+template <typename Type>
+constexpr bool is_optional_member<std::optional<Type>> = true;  ///< It is.
+
 /// A member as the value of a key; none for an optional member without value and an empty list.
 template <typename Member>
 std::optional<Content> content_of(Member const& member) {
-    if constexpr (std::is_enum_v<Member>) {
+    if constexpr (is_optional_member<Member>) {
+        return member ? content_of(*member) : std::nullopt;
+    } else if constexpr (std::is_enum_v<Member>) {
         return Content(std::string(name_of(member)));
     } else if constexpr (std::is_arithmetic_v<Member>) {
         return Content(static_cast<double>(member));
-    } else {
+    } else if constexpr (std::is_same_v<Member, std::string>) {
         return Content(member);
+    } else {
+        return member.empty() ? std::nullopt : std::optional<Content>(member);
     }
 }
 
+/// Puts the value of a key into a member. For an enum it is the enumerator with this name: the reader has
+/// checked that the word is one of the key's, and name_of() throws when there is no further enumerator.
 template <typename Member>
-std::optional<Content> content_of(std::optional<Member> const& member) {
-    return member ? content_of(*member) : std::nullopt;
-}
-
-template <typename Element>
-std::optional<Content> content_of(std::vector<Element> const& list) {
-    return list.empty() ? std::nullopt : std::optional<Content>(list);
-}
-
-/// Puts the value of a key into a member.
-inline void take(double& member, GivenValue const& value) {
-    member = value.number();
-}
-inline void take(int& member, GivenValue const& value) {
-    member = value.whole();
-}
-inline void take(bool& member, GivenValue const& value) {
-    member = value.number() != 0;
-}
-inline void take(std::string& member, GivenValue const& value) {
-    member = value.word();
-}
-inline void take(std::vector<double>& member, GivenValue const& value) {
-    member = value.numbers();
-}
-
-template <typename Member>
-void take(std::optional<Member>& member, GivenValue const& value) {
-    take(member.emplace(), value);
-}
-
-/// The enumerator with this name. Its numbers begin at 0 without a gap, and the reader has checked that the
-/// word is one of the key's; name_of() throws if no enumerator has this name.
-template <typename Member>
-requires std::is_enum_v<Member>
 void take(Member& member, GivenValue const& value) {
-    int number = 0;
-    while (name_of(static_cast<Member>(number)) != value.word()) ++number;
-    member = static_cast<Member>(number);
+    if constexpr (is_optional_member<Member>) {
+        take(member.emplace(), value);
+    } else if constexpr (std::is_enum_v<Member>) {
+        int number = 0;
+        while (name_of(static_cast<Member>(number)) != value.word()) ++number;
+        member = static_cast<Member>(number);
+    } else if constexpr (std::is_same_v<Member, bool>) {
+        member = value.number() != 0;
+    } else if constexpr (std::is_same_v<Member, int>) {
+        member = value.whole();
+    } else if constexpr (std::is_same_v<Member, double>) {
+        member = value.number();
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+        member = value.word();
+    } else {
+        member = value.numbers();
+    }
 }
 
 /// A key whose value is a member of a case: field<&Scenario::trough, &Trough::friction> is
 /// scenario.trough.friction.
 template <auto... members>
-constexpr InCase field{[](Scenario const& s) { return content_of((s.*....*members)); },
-                       [](Scenario& s, GivenValue const& value) { take((s.*....*members), value); }};
+constexpr KeyAccess field{[](Scenario const& s) { return content_of((s.*....*members)); },
+                          [](Scenario& s, GivenValue const& value) { take((s.*....*members), value); }};
 
-/// The same for a key of [run] and RunSettings: Key::set_run.
+/// The same for a key of [run], whose value is a member of RunSettings.
 template <auto... members>
-constexpr auto run_field = +[](RunSettings& s, GivenValue const& value) { take((s.*....*members), value); };
+constexpr KeyAccess run_field{
+    .set_run = [](RunSettings& s, GivenValue const& value) { take((s.*....*members), value); }};
+
+/// The condition of a key that to_toml() never writes, because another key of its group says the same.
+inline bool never(Scenario const&) {
+    return false;
+}
 
 /// A file that a key names, read once for all cases.
 /// @param known   the files that were read for other cases

@@ -80,7 +80,8 @@ std::string key_schema() {
     for (Key const& key : run_keys()) add(root, key);
     root["definitions"]["varied"] = table_of(std::move(varied));
     Json const varied_keys{{"$ref", "#/definitions/varied"}};
-    for (char const* section : {"sweep", "zip", "sample", "domain"}) root["properties"][section] = varied_keys;
+    for (char const* section : {"sweep", "zip", "sample", "domain"})
+        root["properties"][section] = varied_keys;
     for (char const* section : {"points", "exclude"})
         root["properties"][section] = {{"type", "array"}, {"items", varied_keys}};
     root["properties"]["points_from"] = table_of({{"file", {{"type", "string"}}}});

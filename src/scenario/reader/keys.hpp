@@ -41,8 +41,9 @@ enum class KeyNeed {
 /// What holds when a key is not given: its default value in SI units, or whether it is needed.
 using IfMissing = std::variant<KeyNeed, double>;
 
-/// How the value of a key gets out of a case and into it. key_fields.hpp makes it from pointers to members.
-struct InCase {
+/// How the value of a key gets out of a case or the settings of a run, and into them. key_fields.hpp makes it
+/// from pointers to members.
+struct KeyAccess {
     /// What a case has for the key: given, derived or the default. None when the case has nothing of the
     /// kind, such as a friction of side walls without side walls.
     std::optional<Content> (*get)(Scenario const&) = nullptr;
@@ -51,13 +52,15 @@ struct InCase {
     void (*set)(Scenario&, GivenValue const&) = nullptr;
     /// Whether to_toml() writes the value that a case has; null stands for always.
     bool (*is_written)(Scenario const&) = nullptr;
+    /// Whether to_toml() leaves the value out when it is the key's default.
+    bool is_left_out_by_default = false;
+    /// Puts a given value into the settings of a run, for keys of [run]. The others have get() and set().
+    void (*set_run)(RunSettings&, GivenValue const&) = nullptr;
 
     /// The same for a key that to_toml() writes only under a condition.
-    constexpr InCase written_if(bool (*condition)(Scenario const&)) const { return {get, set, condition}; }
-    /// The same for a key that to_toml() never writes, because another key of its group says the same.
-    constexpr InCase never_written() const {
-        return written_if([](Scenario const&) { return false; });
-    }
+    constexpr KeyAccess written_if(bool (*condition)(Scenario const&)) const { return {get, set, condition}; }
+    /// The same for a key that to_toml() writes only with another value than the default.
+    constexpr KeyAccess unless_default() const { return {get, set, is_written, true}; }
 };
 
 /// One key of the campaign file: what it means, how it is written, what is allowed, and where its value is in
@@ -74,9 +77,7 @@ struct Key {
     IfMissing if_missing;      ///< for a key without group; keys in a group are `required`
     std::string_view example;  ///< what to write to the right of the equals sign
     std::string_view meaning;  ///< its description in the reference
-    InCase in_case;            ///< empty for a key of [run]
-    /// Puts a given value into the settings of a run; null for a key that describes cases.
-    void (*set_run)(RunSettings&, GivenValue const&) = nullptr;
+    KeyAccess access;          ///< how its value is read and written
 };
 
 /// Whether a case is complete without this key (if the key is not in a group).

@@ -84,8 +84,7 @@ constexpr std::array rows_of_plans{
     Key{"measure.rolling", truth, "", 0, 1, "true or false", "", 0.0, "true",
         "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
         "which forces and torques; for layers of spheres without side walls",
-        field<&Scenario::measure, &MeasurementPlan::rolling>.written_if(
-            [](Scenario const& s) { return s.measure.rolling; })},
+        field<&Scenario::measure, &MeasurementPlan::rolling>.unless_default()},
 
     Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
         "frames per cycle that the first packing writes for ParaView; 0 writes none",
@@ -95,7 +94,7 @@ constexpr std::array rows_of_plans{
         field<&Scenario::output, &OutputPlan::checkpoint_cycles>},
     Key{"output.frame_packings", packings, "", 1, 1000, "numbers from 1 to 1000, or \"all\"", "", optional,
         "[1, 2]", "packings that write the frames, by their numbers; without it, the first one",
-        InCase{frame_packings_of, set_frame_packings, lists_frame_packings}},
+        KeyAccess{frame_packings_of, set_frame_packings, lists_frame_packings}},
     Key{"output.contacts", truth, "", 0, 1, "true or false", "", 0.0, "true",
         "also write the contacts between grains and with the trough into the frames, with their forces; for "
         "layers of spheres",
@@ -112,27 +111,25 @@ constexpr std::array rows_of_plans{
     Key{"engine.contact", choice, "", 0, 0, "hertz or hooke", "", optional, "\"hooke\"",
         "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
         "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact",
-        field<&Scenario::engine, &EnginePlan::contact>.written_if(
-            [](Scenario const& s) { return s.engine.contact != ContactModel::hertz; })},
+        field<&Scenario::engine, &EnginePlan::contact>.unless_default()},
     Key{"engine.cohesion", quantity, "J/m3", 0, 1e9, "0 to 1e9 J/m3", "", 0.0, "\"50 kJ/m3\"",
         "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
         "times the area of their contact",
-        field<&Scenario::engine, &EnginePlan::cohesion>.written_if(
-            [](Scenario const& s) { return s.engine.cohesion > 0; })},
+        field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
     Key{"engine.extra", file, "", 0, 0, "none or a .liggghts file in the same folder", "", optional,
         "\"rotor.liggghts\"",
         "commands of LIGGGHTS that the decks run as well; they can do anything, so that 'run' shows them and "
         "refuses unless --allow-extra is given",
-        InCase{[](Scenario const& s) {
-                   return content_of(std::string(s.engine.extra ? s.engine.extra->file.name : "none"));
-               },
-               [](Scenario& s, GivenValue const& v) { set_extra(s.engine, v); }}
-            .written_if([](Scenario const& s) { return s.engine.extra != nullptr; })},
+        KeyAccess{[](Scenario const& s) {
+                      return content_of(std::string(s.engine.extra ? s.engine.extra->file.name : "none"));
+                  },
+                  [](Scenario& s, GivenValue const& v) { set_extra(s.engine, v); }}
+            .unless_default()},
     Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
         optional, "[\"contact.mustache\"]",
         "templates of the decks that replace those of input_templates; like extra they need --allow-extra. "
         "'run --templates DIR' takes them from a folder instead",
-        InCase{templates_of, set_templates}},
+        KeyAccess{templates_of, set_templates}},
 };
 
 }  // namespace

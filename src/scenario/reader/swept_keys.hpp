@@ -16,7 +16,8 @@ namespace vibrotrough::scenario {
 /// lists by name. The keys are those of all_keys() and live as long as the program.
 using SweptKeys = std::vector<Key const*>;
 
-/// What a case has for the key of all_keys() with this path, see InCase::get. None when there is no such key.
+/// What a case has for the key of all_keys() with this path, see KeyAccess::get. None when there is no such
+/// key.
 std::optional<Content> key_value(Scenario const& scenario, std::string_view path);
 
 /// key_value() if it is a number, in SI units.

@@ -68,6 +68,24 @@ std::optional<Content> waveform_of(Scenario const& s) {
     return s.trough.waveform ? content_of(s.trough.waveform->file.name) : std::nullopt;
 }
 
+/// Whether the user gave another number than this one of the drive.
+template <auto number>
+bool lacks(Scenario const& s) {
+    return !(s.trough.given.*number);
+}
+
+/// The tangent of an angle of the trough, which is kept as it was given.
+template <auto angle, auto tangent>
+constexpr KeyAccess tangent_of{
+    [](Scenario const& s) {
+        return content_of((s.trough.given.*tangent).value_or(std::tan(s.trough.*angle)));
+    },
+    [](Scenario& s, GivenValue const& v) {
+        s.trough.*angle = std::atan(v.number());
+        s.trough.given.*tangent = v.number();
+    },
+    [](Scenario const& s) { return (s.trough.given.*tangent).has_value(); }};
+
 constexpr std::array rows_of_trough{
     Key{"campaign.name", name, "", 1, 100, "1 to 100 letters, digits, '.', '_' or '-'", "", required,
         "\"pvc-horizontal\"", "name of the campaign", field<&Scenario::campaign>},
@@ -76,50 +94,32 @@ constexpr std::array rows_of_trough{
         required, "\"0 deg\"",
         "alpha, angle between trough and horizontal, positive if the trough rises in the conveying "
         "direction",
-        field<&Scenario::trough, &Trough::inclination>.written_if(
-            [](Scenario const& s) { return !s.trough.given.tan_inclination; })},
+        field<&Scenario::trough, &Trough::inclination>.written_if(lacks<&GivenDrive::tan_inclination>)},
     Key{"trough.tan_inclination", number, "", -1, 1, "-1 to 1", "inclination", required, "-0.05",
-        "tan(alpha)",
-        InCase{[](Scenario const& s) {
-                   return content_of(s.trough.given.tan_inclination.value_or(std::tan(s.trough.inclination)));
-               },
-               [](Scenario& s, GivenValue const& v) {
-                   s.trough.inclination = std::atan(v.number());
-                   s.trough.given.tan_inclination = v.number();
-               }}
-            .written_if([](Scenario const& s) { return s.trough.given.tan_inclination.has_value(); })},
+        "tan(alpha)", tangent_of<&Trough::inclination, &GivenDrive::tan_inclination>},
     Key{"trough.vibration_angle", quantity, "radian", 0, 89 / radian, "0 to 89 deg", "vibration angle",
         required, "\"30 deg\"", "beta, angle between the direction of vibration and the trough",
         field<&Scenario::trough, &Trough::vibration_angle>.written_if(
-            [](Scenario const& s) { return !s.trough.given.tan_vibration_angle; })},
+            lacks<&GivenDrive::tan_vibration_angle>)},
     Key{"trough.tan_vibration_angle", number, "", 0, 57, "0 to 57", "vibration angle", required, "0.5",
-        "tan(beta)",
-        InCase{[](Scenario const& s) {
-                   return content_of(
-                       s.trough.given.tan_vibration_angle.value_or(std::tan(s.trough.vibration_angle)));
-               },
-               [](Scenario& s, GivenValue const& v) {
-                   s.trough.vibration_angle = std::atan(v.number());
-                   s.trough.given.tan_vibration_angle = v.number();
-               }}
-            .written_if([](Scenario const& s) { return s.trough.given.tan_vibration_angle.has_value(); })},
+        "tan(beta)", tangent_of<&Trough::vibration_angle, &GivenDrive::tan_vibration_angle>},
     Key{"trough.amplitude", quantity, "m", 1e-6, 1, "1 um to 1 m", "amplitude", required, "\"6 mm\"",
         "r, amplitude in the direction of vibration (half the stroke)",
         field<&Scenario::trough, &Trough::amplitude>},
     Key{"trough.stroke", quantity, "m", 2e-6, 2, "2 um to 2 m", "amplitude", required, "\"12 mm\"",
         "2 r, distance between the ends of the vibration, twice the amplitude",
-        InCase{[](Scenario const& s) { return content_of(2 * s.trough.amplitude); },
-               [](Scenario& s, GivenValue const& v) { s.trough.amplitude = v.number() / 2; }}
-            .never_written()},
+        KeyAccess{[](Scenario const& s) { return content_of(2 * s.trough.amplitude); },
+                  [](Scenario& s, GivenValue const& v) { s.trough.amplitude = v.number() / 2; }}
+            .written_if(never)},
     Key{"trough.throw_number", number, "", 1e-3, 50, "0.001 to 50", "speed of the drive", required, "2.0",
         "throw number Gamma = omega^2 r sin(beta) / (g cos(alpha))",
-        InCase{[](Scenario const& s) { return content_of(throw_number(s.trough)); },
-               [](Scenario& s, GivenValue const& v) { s.trough.given.throw_number = v.number(); }}
+        KeyAccess{[](Scenario const& s) { return content_of(throw_number(s.trough)); },
+                  [](Scenario& s, GivenValue const& v) { s.trough.given.throw_number = v.number(); }}
             .written_if([](Scenario const& s) { return s.trough.given.throw_number.has_value(); })},
     Key{"trough.machine_number", number, "", 1e-3, 1000, "0.001 to 1000", "speed of the drive", required,
         "4.0", "machine number K = omega^2 r / g",
-        InCase{[](Scenario const& s) { return content_of(machine_number(s.trough)); },
-               [](Scenario& s, GivenValue const& v) { s.trough.given.machine_number = v.number(); }}
+        KeyAccess{[](Scenario const& s) { return content_of(machine_number(s.trough)); },
+                  [](Scenario& s, GivenValue const& v) { s.trough.given.machine_number = v.number(); }}
             .written_if([](Scenario const& s) {
                 return !s.trough.given.throw_number && s.trough.given.machine_number;
             })},
@@ -139,23 +139,22 @@ constexpr std::array rows_of_trough{
         field<&Scenario::trough, &Trough::side_wall_friction>},
     Key{"trough.width", quantity, "m", 1e-3, 100, "1 mm to 100 m", "", optional, "\"300 mm\"",
         "width of the real trough, for its mass flow in t/h; with side walls it is layer.width",
-        InCase{[](Scenario const& s) { return content_of(trough_width(s)); },
-               [](Scenario& s, GivenValue const& v) { s.trough.width = v.number(); }}
+        KeyAccess{[](Scenario const& s) { return content_of(trough_width(s)); },
+                  [](Scenario& s, GivenValue const& v) { s.trough.width = v.number(); }}
             .written_if([](Scenario const& s) { return s.trough.width.has_value(); })},
     Key{"trough.along_phase", quantity, "radian", -180 / radian, 180 / radian, "-180 to 180 deg", "", 0.0,
         "\"20 deg\"",
         "phase of the motion along the trough, x = r cos(beta) sin(omega t + along_phase); makes the drive "
         "elliptical",
-        field<&Scenario::trough, &Trough::along_phase>.written_if(
-            [](Scenario const& s) { return s.trough.along_phase != 0; })},
+        field<&Scenario::trough, &Trough::along_phase>.unless_default()},
     Key{"trough.harmonics", texts, "", 0, 0, "orders 2 to 100, ratios -10 to 10", "", optional,
         "[\"25, 0.2, 0 deg\"]",
         "order, ratio and phase of further parts of the drive's acceleration; the ratio is to the "
         "fundamental (Eq. 22)",
-        InCase{harmonics_of, set_harmonics}},
+        KeyAccess{harmonics_of, set_harmonics}},
     Key{"trough.waveform", file, "", 0, 0, "a .csv file in the same folder", "", optional, "\"measured.csv\"",
         "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
-        InCase{waveform_of, set_waveform}},
+        KeyAccess{waveform_of, set_waveform}},
 };
 
 }  // namespace

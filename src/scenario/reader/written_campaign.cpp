@@ -47,16 +47,18 @@ void add_line(std::string& text, std::string_view name, Key const& key, Content 
     text += '\n';
 }
 
-/// The value that to_toml() writes for a key.
-std::optional<Content> written_value(Key const& key, Scenario const& scenario) {
-    bool const is_left_out = key.in_case.is_written != nullptr && !key.in_case.is_written(scenario);
-    return is_left_out ? std::nullopt : key.in_case.get(scenario);
-}
-
 bool is_default(Key const& key, Content const& value) {
     if (auto const* const word = std::get_if<std::string>(&value)) return *word == default_text(key);
     auto const* const number = std::get_if<double>(&value);
     return number != nullptr && key.if_missing == IfMissing(*number);
+}
+
+/// The value that to_toml() writes for a key.
+std::optional<Content> written_value(Key const& key, Scenario const& scenario) {
+    if (key.access.is_written != nullptr && !key.access.is_written(scenario)) return {};
+    auto value = key.access.get(scenario);
+    if (value && key.access.is_left_out_by_default && is_default(key, *value)) value.reset();
+    return value;
 }
 
 }  // namespace
@@ -90,11 +92,8 @@ std::string frame_toml(Scenario const& scenario) {
 WrittenKeys keys_of(Scenario const& scenario) {
     WrittenKeys keys;
     for (Key const& key : all_keys()) {
-        auto value = written_value(key, scenario);
-        if (!value && can_vary(key) && is_optional(key)) {
-            value = key.in_case.get(scenario);
-            if (value && !is_default(key, *value)) value.reset();
-        }
+        bool const has_default = key.access.is_left_out_by_default && can_vary(key);
+        auto value = has_default ? key.access.get(scenario) : written_value(key, scenario);
         if (value) keys.emplace(key.path, *std::move(value));
     }
     return keys;
