@@ -22,7 +22,9 @@ void add_keys(CLI::App& program, int& exit_code) {
 
 Examples:
   vibrotrough keys | less
-  vibrotrough keys --schema > keys.json     # then write '#:schema keys.json' above the campaign file)");
+  vibrotrough keys --schema > keys.json
+
+An editor finds the schema by the line '#:schema keys.json' at the top of the campaign file.)");
     command->callback([schema, &exit_code] {
         fmt::print("{}", *schema ? scenario::key_schema() : scenario::key_reference());
         exit_code = all_well;
