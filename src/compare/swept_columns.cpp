@@ -20,16 +20,12 @@ struct Heading {
 constexpr std::array headings{Heading{"machine_number", "K", ""}, Heading{"amplitude_m", "r", "mm"},
                               Heading{"stroke_mm", "stroke", "mm"}};
 
-bool is_word(Key const& key) {
-    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
-}
-
 /// A function that stands for the type of a column of Row::swept.
 template <typename Type>
 constexpr auto nothing = +[](Row const&) -> std::optional<Type> { return {}; };
 
 Column::Function type_of(Key const& key) {
-    if (is_word(key)) return nothing<std::string>;
+    if (has_words(key)) return nothing<std::string>;
     if (key.kind == KeyKind::integer) return nothing<int>;
     return nothing<double>;
 }
@@ -53,7 +49,7 @@ Column column_of(Key const& key, int place) {
             .unit = unit_of(key),
             .value = type_of(key),
             .meaning = key.meaning,
-            .format = is_word(key) || key.kind == KeyKind::integer ? "{}" : "{:.6g}",
+            .format = has_words(key) || key.kind == KeyKind::integer ? "{}" : "{:.6g}",
             .position = first_position + place,
             .terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1),
                                      .subheading = subheading_of(key),
@@ -100,7 +96,7 @@ bool is_swept(Column const& column, scenario::SweptKeys const& swept) {
 }
 
 std::optional<Value> swept_value(scenario::Scenario const& scenario, Key const& key) {
-    auto const value = scenario::key_value(scenario, key.path);
+    auto const value = key.access.get(scenario);
     if (!value) return {};
     if (auto const* const word = std::get_if<std::string>(&*value)) return *word;
     auto const* const number = std::get_if<double>(&*value);

@@ -1,6 +1,7 @@
 #include "evaluate/case.hpp"
 
 #include "evaluate/layer.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "prepare/numerical_errors.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/reader/keys.hpp"
-#include "scenario/reader/written_campaign.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,6 @@
 
 namespace vibrotrough::learn {
 namespace {
-
-bool is_word(std::string const& key) {
-    auto const kind = scenario::find_key(key)->kind;
-    return kind == scenario::KeyKind::choice || kind == scenario::KeyKind::file;
-}
 
 /// Whether the words of a case are those asked for.
 bool has_words(scenario::Scenario const& scenario, std::map<std::string, scenario::Content> const& words) {
@@ -42,7 +37,7 @@ std::vector<SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMa
                                     std::map<std::string, scenario::Content> const& words) {
     std::vector<SurfaceInput> inputs;
     for (std::string const& key : maker.varied_keys()) {
-        if (is_word(key)) {
+        if (scenario::has_words(*scenario::find_key(key))) {
             if (words.contains(key)) continue;
             throw core::InputError(fmt::format(
                 "the campaign varies {}, whose values are words; say for which one, for example --at "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/reader/keys.hpp"
 #include "theory/drive_search.hpp"
 
 #include <numbers>
@@ -10,13 +11,11 @@ namespace vibrotrough::learn {
 
 inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 
-/// An input of a campaign that says how the machine is set, and its value at a drive in SI units.
-struct MachineKey {
-    std::string_view key;                   ///< path in the campaign file
-    double (*value)(theory::Drive const&);  ///< at a drive
-};
+/// The key with this path if it says how the machine is set: amplitude, angles and speed of the drive, each
+/// of which can be given by several keys. Otherwise nullptr.
+scenario::Key const* machine_key(std::string_view path);
 
-/// The machine key with this path, or nullptr.
-MachineKey const* machine_key(std::string_view key);
+/// The value of a machine key at a drive, in SI units.
+double value_at(scenario::Key const& key, theory::Drive const& drive);
 
 }  // namespace vibrotrough::learn

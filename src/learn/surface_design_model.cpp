@@ -19,7 +19,7 @@ constexpr char const* friction_key = "trough.friction";
 
 /// Where an input of the surface comes from: the drive, the friction, or the user.
 struct Source {
-    MachineKey const* machine;
+    scenario::Key const* machine;
     bool is_friction;
     double value;  ///< given by the user
 };
@@ -28,7 +28,7 @@ std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
                                std::map<std::string, double> const& given) {
     std::vector<Source> sources;
     for (SurfaceInput const& input : inputs) {
-        MachineKey const* const machine = machine_key(input.key);
+        scenario::Key const* const machine = machine_key(input.key);
         bool const is_friction = input.key == friction_key;
         auto const found = given.find(input.key);
         if (machine == nullptr && !is_friction && found == given.end()) {
@@ -92,7 +92,7 @@ class SurfaceAtDrives {
         for (std::size_t k = 0; k < sources_.size(); ++k) {
             if (sources_[k].machine == nullptr) continue;
             SurfaceInput const& input = surface_->inputs()[k];
-            double const value = sources_[k].machine->value(drive), width = input.high - input.low;
+            double const value = value_at(*sources_[k].machine, drive), width = input.high - input.low;
             most = std::max({most, (value - input.high) / width, (input.low - value) / width});
         }
         return most;
@@ -102,7 +102,7 @@ class SurfaceAtDrives {
     std::optional<ModelEfficiency> compute(theory::Drive const& drive, double friction) {
         Place place;
         for (Source const& source : sources_) {
-            place.push_back(source.machine != nullptr ? source.machine->value(drive)
+            place.push_back(source.machine != nullptr ? value_at(*source.machine, drive)
                             : source.is_friction      ? friction
                                                       : source.value);
         }

@@ -44,7 +44,7 @@ void check_machine(scenario::Scenario const& scenario, MeasuredSpeed const& m) {
 /// Where each input of the surface comes from: a free parameter, or the measurement.
 struct Source {
     std::optional<std::size_t> parameter;
-    MachineKey const* machine;
+    scenario::Key const* machine;
 };
 
 Place place_from(std::vector<Source> const& sources, std::span<double const> values,
@@ -52,7 +52,7 @@ Place place_from(std::vector<Source> const& sources, std::span<double const> val
     Place place;
     for (Source const& source : sources)
         place.push_back(source.parameter ? values[*source.parameter]
-                                         : source.machine->value(drive_of(measured)));
+                                         : value_at(*source.machine, drive_of(measured)));
     return place;
 }
 
@@ -96,7 +96,7 @@ std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
         auto const found = std::ranges::find(free, input.key);
         if (found != free.end()) {
             sources.push_back({static_cast<std::size_t>(found - free.begin()), nullptr});
-        } else if (MachineKey const* const machine = machine_key(input.key)) {
+        } else if (scenario::Key const* const machine = machine_key(input.key)) {
             sources.push_back({{}, machine});
         } else {
             throw core::InputError(fmt::format(

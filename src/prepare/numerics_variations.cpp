@@ -1,5 +1,7 @@
 #include "prepare/numerics_variations.hpp"
 
+#include "scenario/reader/keys.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -8,33 +10,32 @@
 namespace vibrotrough::prepare {
 namespace {
 
-// The ranges of the keys (scenario/reader/keys.cpp).
-constexpr double stiffest = 1e12;              // Pa
-constexpr double least_fraction = 0.01;        // of the Rayleigh time
-constexpr double stiffest_block = 10'000;      // solver.block_stiffness
-constexpr double most_grains = 10'000'000;     // layer.grains
 constexpr double contact_order = -2.0 / 5;     // of overlaps at impact and contact times in E
 constexpr double modulus_factors[] = {4, 16};  // coarseness 0.57 and 0.33
 constexpr double block_factors[] = {2, 4};     // coarseness 1/2 and 1/4
 
 struct SettingNames {
-    std::string_view name, title, key, unit;
+    std::string_view name, title, key;
 };
 
 SettingNames names_of(NumericalSetting setting) {
     switch (setting) {
         case NumericalSetting::youngs_modulus:
-            return {"youngs_modulus", "Young's modulus", "grains.youngs_modulus", "Pa"};
+            return {"youngs_modulus", "Young's modulus", "grains.youngs_modulus"};
         case NumericalSetting::time_step:
-            return {"time_step", "time step", "solver.rayleigh_fraction", "1"};
+            return {"time_step", "time step", "solver.rayleigh_fraction"};
         case NumericalSetting::length:
-            return {"length", "length of the box", "layer.length", "m"};
+            return {"length", "length of the box", "layer.length"};
         case NumericalSetting::width:
-            return {"width", "width of the box", "layer.width", "m"};
+            return {"width", "width of the box", "layer.width"};
         case NumericalSetting::block_stiffness:
-            return {"block_stiffness", "stiffness of the block", "solver.block_stiffness", "1"};
+            return {"block_stiffness", "stiffness of the block", "solver.block_stiffness"};
     }
     throw std::invalid_argument("no such numerical setting");
+}
+
+scenario::Key const& row_of(NumericalSetting setting) {
+    return *scenario::find_key(names_of(setting).key);
 }
 
 /// How the energy density of sjkr goes with Young's modulus for the same attraction. The pull-off force of a
@@ -49,7 +50,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
     VariedSetting varied{NumericalSetting::youngs_modulus, given, 1};
     for (double const factor : modulus_factors) {
         double const modulus = factor * given;
-        if (modulus > stiffest) continue;
+        if (modulus > row_of(NumericalSetting::youngs_modulus).most) continue;
         scenario::Scenario stiff = s;
         stiff.grains.youngs_modulus = modulus;
         stiff.engine.cohesion *= std::pow(factor, cohesion_exponent(s.engine));
@@ -63,7 +64,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
 VariedSetting vary_time_step(PreparedCase const& c) {
     double const fraction = c.time.rayleigh_fraction;
     VariedSetting varied{NumericalSetting::time_step, fraction, {}};
-    if (fraction / 2 < least_fraction) {
+    if (fraction / 2 < row_of(NumericalSetting::time_step).least) {
         varied.left_out = fmt::format("it is {:.2g} of the Rayleigh time already", fraction);
         return varied;
     }
@@ -76,7 +77,7 @@ VariedSetting vary_time_step(PreparedCase const& c) {
 /// Twice the size of the box with the same height of the layer.
 VariedSetting vary_box(scenario::Scenario const& s, NumericalSetting setting, double scenario::Layer::*size) {
     VariedSetting varied{setting, s.layer.*size, {}};
-    if (2.0 * s.layer.grains > most_grains) {
+    if (2.0 * s.layer.grains > scenario::find_key("layer.grains")->most) {
         varied.left_out = "the layer would have more grains than the key allows";
         return varied;
     }
@@ -93,7 +94,7 @@ std::vector<VariedSetting> vary_block(PreparedCase const& c) {
     for (double const factor : block_factors) {
         scenario::Scenario stiff = s;
         stiff.solver.block_stiffness *= factor;
-        if (stiff.solver.block_stiffness <= stiffest_block)
+        if (stiff.solver.block_stiffness <= row_of(NumericalSetting::block_stiffness).most)
             stiffness.variations.push_back({stiff.solver.block_stiffness, 1 / factor, stiff});
     }
     if (stiffness.variations.empty()) stiffness.left_out = "it is as stiff as the key allows";
@@ -124,7 +125,8 @@ std::string_view key_of(NumericalSetting setting) {
 }
 
 std::string_view unit_of(NumericalSetting setting) {
-    return names_of(setting).unit;
+    std::string_view const unit = row_of(setting).unit;
+    return unit.empty() ? "1" : unit;
 }
 
 std::vector<VariedSetting> vary_numerics(PreparedCase const& c) {

@@ -239,9 +239,8 @@ std::string names_of(scenario::SweptKeys const& swept) {
 
 /// The values of a swept key, NaN or an empty text where a case has none.
 Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases) {
-    auto const value_of = [&](CaseRecord const& one) { return key_value(one.scenario, key.path); };
-    bool const is_text = key.kind == scenario::KeyKind::choice || key.kind == scenario::KeyKind::file;
-    if (is_text) {
+    auto const value_of = [&](CaseRecord const& one) { return key.access.get(one.scenario); };
+    if (has_words(key)) {
         return stored_values(cases, [&](CaseRecord const& one) {
             auto const value = value_of(one);
             return value ? std::get<std::string>(*value) : std::string();

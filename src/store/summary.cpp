@@ -83,6 +83,15 @@ void from_json(Json const& json, measure::Verdict& value) {
     value = static_cast<measure::Verdict>(number);
 }
 
+/// Applies a function to the pointer to each member of an estimate that a summary holds.
+template <typename Function>
+void for_estimate(Function const& function) {
+    using E = measure::CaseEstimate;
+    auto const all = [&](auto... members) { (function(members), ...); };
+    all(&E::mean, &E::half_width, &E::packings, &E::deviation, &E::deviation_within, &E::correlation_time,
+        &E::below, &E::above);
+}
+
 Json packing_json(PackingRecord const& packing) {
     Json values = Json::array();
     for (PackingValue const& value : packing_values()) {
@@ -90,6 +99,15 @@ Json packing_json(PackingRecord const& packing) {
         std::visit([&](auto const& field) { values.push_back(to_json(field(packing))); }, value.field);
     }
     return values;
+}
+
+PackingRecord summary_of_packing(PackingRecord const& packing) {
+    PackingRecord summary{};
+    for (PackingValue const& value : packing_values()) {
+        if (!is_long(value))
+            std::visit([&](auto const& field) { field(summary) = field(packing); }, value.field);
+    }
+    return summary;
 }
 
 PackingRecord packing_from(Json const& values) {
@@ -110,14 +128,8 @@ CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) 
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { from_json(facts.at(at++), field(record)); }, fact.field);
     Json const& estimate = summary.at(1);
-    from_json(estimate.at(0), record.estimate.mean);
-    from_json(estimate.at(1), record.estimate.half_width);
-    from_json(estimate.at(2), record.estimate.packings);
-    from_json(estimate.at(3), record.estimate.deviation);
-    from_json(estimate.at(4), record.estimate.deviation_within);
-    from_json(estimate.at(5), record.estimate.correlation_time);
-    from_json(estimate.at(6), record.estimate.below);
-    from_json(estimate.at(7), record.estimate.above);
+    at = 0;
+    for_estimate([&](auto member) { from_json(estimate.at(at++), record.estimate.*member); });
     for (Json const& packing : summary.at(2)) record.packings.push_back(packing_from(packing));
     return record;
 }
@@ -125,18 +137,22 @@ CaseRecord record_from(Json const& summary, scenario::Scenario const& scenario) 
 }  // namespace
 
 CaseRecord summary_of(CaseRecord const& record) {
-    return unpack_summary(pack_summary(record), record.scenario);
+    CaseRecord summary{};
+    summary.scenario = record.scenario;
+    for (CaseFact const& fact : case_facts())
+        std::visit([&](auto const& field) { field(summary) = field(record); }, fact.field);
+    for_estimate([&](auto member) { summary.estimate.*member = record.estimate.*member; });
+    for (PackingRecord const& packing : record.packings)
+        summary.packings.push_back(summary_of_packing(packing));
+    return summary;
 }
 
 std::vector<std::uint8_t> pack_summary(CaseRecord const& record) {
-    Json facts = Json::array(), packings = Json::array();
+    Json facts = Json::array(), estimate = Json::array(), packings = Json::array();
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { facts.push_back(to_json(field(record))); }, fact.field);
     for (PackingRecord const& packing : record.packings) packings.push_back(packing_json(packing));
-    Json estimate = Json::array({to_json(record.estimate.mean), to_json(record.estimate.half_width),
-                                 to_json(record.estimate.packings), to_json(record.estimate.deviation),
-                                 record.estimate.deviation_within, record.estimate.correlation_time,
-                                 to_json(record.estimate.below), to_json(record.estimate.above)});
+    for_estimate([&](auto member) { estimate.push_back(to_json(record.estimate.*member)); });
     std::vector<std::uint8_t> const cbor =
         Json::to_cbor(Json::array({std::move(facts), std::move(estimate), std::move(packings)}));
     std::string const digest = digest_of(cbor);

@@ -46,6 +46,21 @@ TEST_F(ResultSummary, ReadsEachResultOnce) {
     EXPECT_TRUE(record->packings[0].series.x.empty()) << "a summary has no cycles";
 }
 
+// What a record is cut down to is what its file gives back, and nothing of it needs the file.
+TEST_F(ResultSummary, IsTheSameFromTheRecordAndFromItsFile) {
+    auto const whole = store::read_result(planned.result_file());
+    ASSERT_FALSE(whole.packings[0].deck.empty());
+    store::CaseRecord const cut = store::summary_of(whole);
+    EXPECT_EQ(store::pack_summary(cut), store::pack_summary(whole));
+    auto const read = store::unpack_summary(store::pack_summary(whole), whole.scenario);
+    EXPECT_EQ(cut.estimate.discarded, read.estimate.discarded);
+    EXPECT_EQ(cut.estimate.drift, read.estimate.drift);
+    for (store::CaseRecord const* const one : {&cut, &read}) {
+        EXPECT_TRUE(one->packings[0].series.x.empty() && one->packings[0].efficiency.empty());
+        EXPECT_TRUE(one->packings[0].deck.empty() && one->scenario_toml.empty());
+    }
+}
+
 TEST_F(ResultSummary, AQueryWritesNothing) {
     ASSERT_TRUE(find_summary(planned));
     EXPECT_FALSE(fs::exists(file));

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import tomllib
 import unittest
 
 import h5py
@@ -35,6 +36,18 @@ class Units(EndToEndTest):
                 self.assertEqual(json.loads(checked.stdout)["errors"], 0)
                 self.assert_one_line_error(self.call("init", kind, cwd=self.folder), 2, "is not overwritten")
         self.assert_one_line_error(self.call("init", "cement", cwd=self.folder), 2, "pellets")
+
+    def test_editors_know_the_keys_of_the_files_of_init(self):
+        done = self.call("keys", "--schema")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        sections = json.loads(done.stdout)["properties"]
+        for kind in KINDS:
+            self.call("init", kind, cwd=self.folder)
+            for name, keys in tomllib.loads((self.folder / f"{kind}.toml").read_text()).items():
+                with self.subTest(kind=kind, section=name):
+                    self.assertIn(name, sections)
+                    if "properties" in sections[name]:
+                        self.assertLessEqual(set(keys), set(sections[name]["properties"]))
 
     def test_a_file_of_init_gives_tonnes_per_hour(self):
         """m' = v m / (L W) times 300 mm; the layer is that of the file in kg, m and s."""

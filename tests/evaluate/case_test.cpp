@@ -2,6 +2,7 @@
 
 #include "campaign/campaign_folder.hpp"
 #include "core/error.hpp"
+#include "scenario/reader/written_campaign.hpp"
 #include "store/result_file.hpp"
 
 #include <gmock/gmock.h>

@@ -5,6 +5,7 @@
 #include "core/temporary_folder.hpp"
 #include "prepare/clump.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <cstdint>
 #include <cstdlib>

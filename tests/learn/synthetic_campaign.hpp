@@ -4,6 +4,7 @@
 #include "core/temporary_folder.hpp"
 #include "learn/learner.hpp"
 #include "scenario/example_campaign.hpp"
+#include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/result_file.hpp"
 #include "store/sample_record.hpp"

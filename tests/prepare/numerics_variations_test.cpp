@@ -24,7 +24,7 @@ VariedSetting const& find(std::vector<VariedSetting> const& all, NumericalSettin
 TEST(NumericsVariations, EachChangesOneKey) {
     PreparedCase const base = prepared(example_campaign);
     std::vector<scenario::Scenario> all{base.scenario};
-    std::vector<std::string> keys{""};
+    std::vector<std::string_view> keys{""};
     for (VariedSetting const& setting : vary_numerics(base)) {
         EXPECT_TRUE(setting.left_out.empty());
         for (NumericalVariation const& one : setting.variations) {
@@ -38,7 +38,7 @@ TEST(NumericsVariations, EachChangesOneKey) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(to_toml(read[i]), to_toml(all[i]));
         auto const names = scenario::differing_keys({keys_of(read[0]), keys_of(read[i])});
-        EXPECT_EQ(names, i == 0 ? std::set<std::string>{} : std::set{keys[i]});
+        EXPECT_EQ(names, i == 0 ? std::set<std::string_view>{} : std::set{keys[i]});
     }
 }
 

@@ -4,6 +4,7 @@
 #include "prepare/prepared_case.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "example_campaign.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -4,6 +4,7 @@
 #include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <cmath>
@@ -71,6 +72,7 @@ TEST_F(CaseMakerTest, NumbersAndWordsOfACase) {
     EXPECT_DOUBLE_EQ(*number_of(scenario, "trough.tan_vibration_angle"),
                      std::tan(scenario.trough.vibration_angle));
     EXPECT_EQ(*word_of(scenario, "grains.shape"), "sphere");
+    EXPECT_EQ(*word_of(scenario, "engine.contact"), "hertz");
     EXPECT_FALSE(number_of(scenario, "grains.shape"));
     EXPECT_FALSE(word_of(scenario, "layer.height"));
     EXPECT_FALSE(number_of(scenario, "no.such_key"));

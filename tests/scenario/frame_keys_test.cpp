@@ -1,4 +1,5 @@
 #include "example_campaign.hpp"
+#include "scenario/reader/written_campaign.hpp"
 #include "single_case.hpp"
 
 #include <gmock/gmock.h>

@@ -3,6 +3,7 @@
 #include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -2,14 +2,20 @@
 
 #include "core/atomic_file.hpp"
 #include "core/quantity.hpp"
+#include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/key_schema.hpp"
 
-#include <set>
+#include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace vibrotrough {
 namespace {
+
+using nlohmann::literals::operator""_json_pointer;
 
 // The table of keys in src/scenario/README.md is the one that the program prints.
 TEST(Keys, ReadmeHoldsTheReference) {
@@ -32,6 +38,71 @@ TEST(Keys, ExamplesAreInRange) {
         EXPECT_GE(value, key.least) << key.path;
         EXPECT_LE(value, key.most) << key.path;
     }
+}
+
+// A row says where its value is: in a case or among the settings of a run, never in both.
+TEST(Keys, EveryRowHasItsPlace) {
+    for (scenario::Key const& key : scenario::all_keys()) {
+        EXPECT_TRUE(key.access.get != nullptr && key.access.set != nullptr) << key.path;
+        EXPECT_TRUE(key.access.set_run == nullptr) << key.path;
+    }
+    for (scenario::Key const& key : scenario::run_keys()) {
+        EXPECT_TRUE(key.access.get == nullptr && key.access.set == nullptr) << key.path;
+        EXPECT_TRUE(key.access.set_run != nullptr) << key.path;
+    }
+}
+
+// What is put into a case comes out of it again: get() undoes set(), also where a key shares its member with
+// others of its group. Keys that name files are in the tests of these files.
+TEST(Keys, WhatIsSetIsGot) {
+    std::string const base = with("rolling_friction = 0.0", "rotation = \"rolling\"\nrolling_friction = 0.2",
+                                  with("diameter_spread = 0.1", "diameter_spread = 0"));
+    for (scenario::Key const& key : scenario::all_keys()) {
+        if (!can_vary(key) || key.kind == scenario::KeyKind::file) continue;
+        std::string const point = fmt::format("[[points]]\n\"{}\" = {}\n", key.path, key.example);
+        scenario::Scenario const s = scenario::parse_campaign(base + point, "c.toml").cases.front();
+        scenario::Content const got = *key.access.get(s);
+        if (has_words(key)) {
+            EXPECT_EQ('"' + std::get<std::string>(got) + '"', key.example) << key.path;
+            continue;
+        }
+        std::string const example(key.example);
+        double const given =
+            key.kind == scenario::KeyKind::quantity
+                ? core::parse_quantity(example.substr(1, example.size() - 2), std::string(key.unit))
+                : std::stod(example);
+        EXPECT_NEAR(std::get<double>(got), given, 1e-14 * std::abs(given)) << key.path;
+    }
+}
+
+// The members begin with what the reference calls the default of a word: nothing else sets it.
+TEST(Keys, WordsBeginWithTheirDefault) {
+    for (scenario::Key const& key : scenario::all_keys()) {
+        if (!has_words(key) || !key.group.empty()) continue;
+        auto const value = key.access.get(scenario::Scenario{});
+        EXPECT_EQ(value ? std::get<std::string>(*value) : "none", default_text(key)) << key.path;
+    }
+}
+
+// Editors know every key where it is written, and those that can be varied in the sections that vary them.
+TEST(Keys, TheSchemaHasEveryKey) {
+    auto const schema = nlohmann::json::parse(scenario::key_schema());
+    std::vector<scenario::Key> all(scenario::all_keys().begin(), scenario::all_keys().end());
+    all.insert(all.end(), scenario::run_keys().begin(), scenario::run_keys().end());
+    for (scenario::Key const& key : all) {
+        std::string place = "/properties/" + std::string(key.path);
+        for (auto dot = place.find('.'); dot != place.npos; dot = place.find('.'))
+            place.replace(dot, 1, "/properties/");
+        nlohmann::json::json_pointer const pointer(place);
+        ASSERT_TRUE(schema.contains(pointer)) << place;
+        EXPECT_TRUE(schema.at(pointer).contains("description")) << place;
+    }
+    auto const& varied = schema.at("definitions").at("varied").at("properties");
+    EXPECT_TRUE(varied.contains("grains.rotation"));
+    EXPECT_FALSE(varied.contains("campaign.name") || varied.contains("trough.harmonics"));
+    EXPECT_EQ(schema.at("/properties/grains/properties/rotation/enum"_json_pointer),
+              (nlohmann::json{"free", "rolling", "blocked"}));
+    EXPECT_EQ(schema.at("/properties/sweep/$ref"_json_pointer), "#/definitions/varied");
 }
 
 TEST(Keys, ChoicesAreTheWordsOfTheRange) {

@@ -2,6 +2,7 @@
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "scenario/reader/keys.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 #include "sample_record.hpp"
+#include "scenario/reader/written_campaign.hpp"
 #include "store/hdf5_memory_file.hpp"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenario/reader/written_campaign.hpp"
 #include "store/case_record.hpp"
 #include "store/schema.hpp"
 

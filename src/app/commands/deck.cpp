@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "deck/deck_folder.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <filesystem>
 #include <map>

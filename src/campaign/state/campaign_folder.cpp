@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/text.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
 #include <map>

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
@@ -110,14 +109,6 @@ Json read_list(fs::path const& campaign_folder) {
                     path.string()));
 }
 
-/// The number at the beginning of a value as TOML ("0.006 m" in quotes, or 0.23), if it is one.
-std::optional<double> leading_number(std::string const& value) {
-    char const* const begin = value.c_str() + (value.starts_with('"') || value.starts_with('\'') ? 1 : 0);
-    char* end = nullptr;
-    double const found = std::strtod(begin, &end);
-    return end == begin ? std::nullopt : std::optional(found);
-}
-
 /// Distances between the cases of a plan in the keys in which they differ.
 class CaseSpace {
   public:
@@ -147,22 +138,24 @@ class CaseSpace {
         double least = std::numeric_limits<double>::infinity(), most = -least;
     };
 
-    void add(std::string const& name, std::string const& value) {
+    void add(std::string_view name, scenario::Content const& value) {
         Range& range = ranges_[name];
-        if (auto const known = leading_number(value)) {
-            range.least = std::min(range.least, *known);
-            range.most = std::max(range.most, *known);
+        if (auto const* const number = std::get_if<double>(&value)) {
+            range.least = std::min(range.least, *number);
+            range.most = std::max(range.most, *number);
         }
     }
 
-    static double difference(std::string const& one, std::string const& other, Range const& range) {
+    static double difference(scenario::Content const& one, scenario::Content const& other,
+                             Range const& range) {
         if (one == other) return 0;
-        auto const a = leading_number(one), b = leading_number(other);
+        auto const* const a = std::get_if<double>(&one);
+        auto const* const b = std::get_if<double>(&other);
         return a && b && range.most > range.least ? (*a - *b) / (range.most - range.least) : 1;
     }
 
     std::vector<scenario::WrittenKeys> keys_;
-    std::map<std::string, Range> ranges_;
+    std::map<std::string_view, Range> ranges_;
 };
 
 }  // namespace

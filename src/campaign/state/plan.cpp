@@ -4,6 +4,7 @@
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "deck/commands.hpp"
+#include "scenario/reader/written_campaign.hpp"
 
 #include <set>
 
@@ -62,7 +63,7 @@ std::string case_id(prepare::PreparedCase const& prepared, std::string const& en
     // The packings differ by their seeds and by how they start, so that the first, at rest, stands for all.
     std::string const commands = deck::digest_of_commands(deck::make_deck(prepared, {1}).files);
     // Frames of other packings than the first are not in these commands.
-    std::string const frames = frame_toml(prepared.scenario.output);
+    std::string const frames = frame_toml(prepared.scenario);
     return core::sha256_hex(fmt::format("{}\n{}\npackings {} confidence {} half_width {}\n{}", engine_version,
                                         commands, measure.packings, measure.confidence, measure.half_width,
                                         frames))

@@ -76,7 +76,9 @@ std::optional<FoundSummary> find_summary(PlannedCase const& planned, Trust trust
     if (auto record = read_file(planned, *stamp, trust)) return FoundSummary{std::move(*record), false};
     auto const whole = read_whole_result(planned);
     if (!whole) return {};
-    return FoundSummary{store::unpack_summary(store::pack_summary(*whole), planned.scenario()), true};
+    FoundSummary found{store::summary_of(*whole), true};
+    found.record.scenario = planned.scenario();  // with the files that result.h5 only names
+    return found;
 }
 
 bool is_summary_of_result(PlannedCase const& planned, store::CaseRecord const& summary) {

@@ -145,13 +145,8 @@ std::string* add_line(ExtraLines& extra, std::string* place, std::string_view te
 }  // namespace
 
 std::string_view name_of(ContactModel model) {
-    switch (model) {
-        case ContactModel::hertz:
-            return "hertz";
-        case ContactModel::hooke:
-            return "hooke";
-    }
-    throw std::invalid_argument("no such contact model");
+    constexpr std::array<std::string_view, 2> names{"hertz", "hooke"};
+    return names.at(static_cast<std::size_t>(model));
 }
 
 std::shared_ptr<ExtraLines const> read_extra_lines(NamedFile file) {
@@ -197,19 +192,6 @@ std::string not_covered(EnginePlan const& plan) {
         for (NamedFile const& file : plan.templates->files) parts.push_back("template " + file.name);
     }
     return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::string engine_toml(EnginePlan const& plan) {
-    std::string text;
-    if (plan.contact != ContactModel::hertz) text += fmt::format("contact = \"{}\"\n", name_of(plan.contact));
-    if (plan.cohesion > 0) text += fmt::format("cohesion = \"{} J/m3\"\n", plan.cohesion);
-    if (plan.extra) text += fmt::format("extra = \"{}\"\n", plan.extra->file.name);
-    if (plan.templates) {
-        std::vector<std::string> names;
-        for (NamedFile const& file : plan.templates->files) names.push_back('"' + file.name + '"');
-        text += fmt::format("templates = [{}]\n", fmt::join(names, ", "));
-    }
-    return text.empty() ? text : "[engine]\n" + text + "\n";
 }
 
 }  // namespace vibrotrough::scenario

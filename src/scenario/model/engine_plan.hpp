@@ -58,7 +58,4 @@ struct EnginePlan {
 /// cohesion sjkr"; empty when it covers everything that these keys ask for.
 std::string not_covered(EnginePlan const& plan);
 
-/// The section [engine] of the case as a campaign file; empty when all is as by default.
-std::string engine_toml(EnginePlan const& plan);
-
 }  // namespace vibrotrough::scenario

@@ -3,6 +3,7 @@
 #include "core/csv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -120,29 +121,13 @@ std::vector<Sphere> read_spheres(std::string_view text) {
 }  // namespace
 
 std::string_view name_of(Rotation rotation) {
-    switch (rotation) {
-        case Rotation::free:
-            return "free";
-        case Rotation::rolling:
-            return "rolling";
-        case Rotation::blocked:
-            return "blocked";
-    }
-    throw std::invalid_argument("no such rotation");
+    constexpr std::array<std::string_view, 3> names{"free", "rolling", "blocked"};
+    return names.at(static_cast<std::size_t>(rotation));
 }
 
 std::string_view name_of(SizeLaw law) {
-    switch (law) {
-        case SizeLaw::three_classes:
-            return "three-classes";
-        case SizeLaw::uniform:
-            return "uniform";
-        case SizeLaw::lognormal:
-            return "lognormal";
-        case SizeLaw::listed:
-            return "listed";
-    }
-    throw std::invalid_argument("no such size law");
+    constexpr std::array<std::string_view, 4> names{"three-classes", "uniform", "lognormal", "listed"};
+    return names.at(static_cast<std::size_t>(law));
 }
 
 std::vector<SizeClass> size_classes(Grains const& grains) {

@@ -91,10 +91,6 @@ bool writes_frames(OutputPlan const& output, int packing);
 /// How many of the packings 1 to `packings` write frames.
 int packings_with_frames(OutputPlan const& output, int packings);
 
-/// The lines "frame_packings = ..." and "contacts = true" of a campaign file, with their ends; empty when
-/// there are no frames, or only those of the first packing without contacts.
-std::string frame_toml(OutputPlan const& output);
-
 /// Numerical settings, on which the results should depend as little as possible.
 struct SolverPlan {
     double rayleigh_fraction = 0.2;  ///< upper bound of time step / Rayleigh time of the smallest grain
@@ -137,11 +133,6 @@ std::optional<double> trough_width(Scenario const& scenario);
 
 /// Height of the layer at rest, m: as given, otherwise from the number of grains and settled_solid_fraction.
 double layer_height(Scenario const& scenario);
-
-/// The case as a campaign file of its own, in SI units with as many digits as needed: the same scenario
-/// always gives the same text, and reading the text gives the same scenario. The text only names the files of
-/// shape, waveform, extra lines and templates; named_files() returns them.
-std::string to_toml(Scenario const& scenario);
 
 /// The files that the scenario names: shape, waveform, extra lines and templates, if it has
 /// them.

@@ -59,7 +59,7 @@ Campaign parse_campaign(std::string_view text, std::string const& name, FileSour
     std::size_t const count = count_cases(parsed, name);
     for (std::size_t index = 0; index < count; ++index) {
         CaseValues const values = pick(parsed, index);
-        Scenario scenario = make_scenario(parsed.name, values, name, source);
+        Scenario scenario = make_scenario(values, name, source);
         if (is_excluded(scenario, values, parsed.exclusions)) {
             ++campaign.excluded;
         } else {

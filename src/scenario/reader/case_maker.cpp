@@ -1,13 +1,11 @@
 #include "scenario/reader/case_maker.hpp"
 
 #include "core/atomic_file.hpp"
-#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +26,7 @@ CaseMaker::CaseMaker(std::filesystem::path const& campaign_file)
 Scenario CaseMaker::make(std::map<std::string, Content> const& values) const {
     CaseValues all = text_.base;
     for (auto const& [key, value] : values) set_value(all, key, {value, {}});
-    return make_scenario(text_.name, all, file_, source_);
+    return make_scenario(all, file_, source_);
 }
 
 std::string CaseMaker::full_key(std::string const& name) const {
@@ -47,20 +45,7 @@ std::string CaseMaker::full_key(std::string const& name) const {
 }
 
 Content CaseMaker::read_value(std::string const& key, std::string const& text) const {
-    Key const& known = *find_key(key);
-    auto const number = core::csv_number(text, ',', core::CsvNumbers::finite);
-    try {
-        if (!has_words(known) && number) {
-            bool const whole = known.kind == KeyKind::integer && *number == std::round(*number);
-            if (whole) return read_content(known, toml::value<std::int64_t>(std::llround(*number)), "");
-            return read_content(known, toml::value<double>(*number), "");
-        }
-        return read_content(known, toml::value<std::string>(text), "");
-    } catch (core::InputError const& error) {
-        std::string const message = error.what();
-        auto const start = message.find(key);
-        throw core::InputError(start == std::string::npos ? message : message.substr(start));
-    }
+    return read_plain_content(*find_key(key), text);
 }
 
 }  // namespace vibrotrough::scenario

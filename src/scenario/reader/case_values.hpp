@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace vibrotrough::scenario {
@@ -25,28 +24,14 @@ struct FilePosition {
     Position where;         ///< in that file
 };
 
-/// The value to the right of an equals sign: a number in SI units, a word, or a list of either, depending on
-/// the kind of the key.
-using Content = std::variant<double, std::string, std::vector<double>, std::vector<std::string>>;
-
-/// A value and its position in the campaign file. The accessors throw std::bad_variant_access for other
-/// kinds.
+/// A value and its position in the campaign file.
 struct Value {
     Content content;  ///< the value itself
     Position where;   ///< of the key
-
-    /// The value of a quantity, a number or an integer, in SI units.
-    double number() const { return std::get<double>(content); }
-    /// The value of a choice or a file.
-    std::string const& word() const { return std::get<std::string>(content); }
-    /// The value of a list of quantities or numbers, in SI units.
-    std::vector<double> const& numbers() const { return std::get<std::vector<double>>(content); }
-    /// The value of a list of texts.
-    std::vector<std::string> const& words() const { return std::get<std::vector<std::string>>(content); }
 };
 
-/// The given values of one case by the path of their key.
-using CaseValues = std::map<std::string, Value, std::less<>>;
+/// The given values of one case by the path of their key, as the table of keys holds it.
+using CaseValues = std::map<std::string_view, Value>;
 
 /// Reports a mistake in the campaign file.
 /// @throws core::InputError of one line: file:line:column, key, what is wrong, what to write instead
@@ -70,12 +55,10 @@ struct FileSource {
 };
 
 /// Puts one case together and finds the mistakes that show only when several keys are seen together.
-/// @param campaign  name of the campaign
-/// @param values    every required key, or one of each group
-/// @param file      names the campaign file in errors
+/// @param values  every required key, or one of each group
+/// @param file    names the campaign file in errors
 /// @throws core::InputError as throw_at
 /// @throws core::MissingError when a file that the case names cannot be read
-Scenario make_scenario(std::string const& campaign, CaseValues const& values, std::string const& file,
-                       FileSource const& source);
+Scenario make_scenario(CaseValues const& values, std::string const& file, FileSource const& source);
 
 }  // namespace vibrotrough::scenario

@@ -74,11 +74,11 @@ double DomainAxis::at(double fraction) const {
 }
 
 void set_value(CaseValues& values, std::string const& key, Value const& value) {
-    std::string_view const group = find_key(key)->group;
-    if (!group.empty()) {
-        std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == group; });
+    Key const& known = *find_key(key);
+    if (!known.group.empty()) {
+        std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == known.group; });
     }
-    values[key] = value;
+    values[known.path] = value;
 }
 
 std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {

@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::size_t most_points = 100'000;
 
-/// Whether a key can be varied: it has a single value and is not the name of the campaign.
-bool can_vary(Key const& key) {
-    return key.kind == KeyKind::quantity || key.kind == KeyKind::number || key.kind == KeyKind::integer ||
-           has_words(key);
-}
-
 /// Reads the sections that vary keys by lists of points, and the exclusions.
 class DesignReader {
   public:
@@ -50,12 +44,11 @@ class DesignReader {
         throw_at({file_, position_of(source)}, key, wrong, instead);
     }
 
-    Key const& known_key(std::string_view path, toml::source_region const& source) const {
-        Key const* const key = find_key(path);
-        if (key != nullptr && can_vary(*key)) return *key;
-        std::string_view const nearest = nearest_key(path);
-        fail(source, core::printable(path, 60), key ? "this key cannot be varied" : "unknown key",
-             nearest.empty() || key ? "vary a physical input" : fmt::format("did you mean {}?", nearest));
+    Key const& varied_key(std::string_view path, toml::source_region const& source) const {
+        constexpr std::string_view advice = "vary a physical input";
+        Key const& key = known_key(path, {file_, position_of(source)}, advice);
+        if (!can_vary(key)) fail(source, path, "this key cannot be varied", advice);
+        return key;
     }
 
     void add(PointList list) {
@@ -81,7 +74,7 @@ class DesignReader {
         std::vector<std::string> keys;
         std::vector<Value> point;
         for (auto const& [name, node] : table) {
-            Key const& key = known_key(name.str(), name.source());
+            Key const& key = varied_key(name.str(), name.source());
             keys.emplace_back(name.str());
             point.push_back({read_content(key, node, file_), position_of(name.source())});
         }
@@ -96,7 +89,7 @@ class DesignReader {
     void read_exclusion(toml::table const& table) {
         Exclusion exclusion;
         for (auto const& [name, node] : table) {
-            Key const& key = known_key(name.str(), name.source());
+            Key const& key = varied_key(name.str(), name.source());
             Condition condition{std::string(name.str()), {}, {}, {}, position_of(name.source())};
             toml::table const* const bounds = node.as_table();
             if (bounds == nullptr) {
@@ -126,7 +119,7 @@ class DesignReader {
         PointList list;
         list.where = position_of(table.source());
         for (auto const& [name, node] : table) {
-            Key const& key = known_key(name.str(), name.source());
+            Key const& key = varied_key(name.str(), name.source());
             toml::array const* const values = node.as_array();
             if (values == nullptr || values->size() > most_points)
                 fail(node.source(), name.str(), "is not a list of at most 100000 values", "write [a, b, c]");
@@ -162,7 +155,7 @@ class DesignReader {
         std::vector<DomainAxis> ranges;
         for (auto const& [name, node] : table) {
             if (std::ranges::find(others, name.str()) != others.end()) continue;
-            Key const& key = known_key(name.str(), name.source());
+            Key const& key = varied_key(name.str(), name.source());
             auto const [low, high] = read_range(key, name, node);
             ranges.push_back({std::string(name.str()), low, high});
         }
@@ -265,23 +258,12 @@ class DesignReader {
     }
 
     /// The value in a cell, which holds what would be to the right of an equals sign, without quotes.
-    Content read_cell(std::string const& file, Position where, Key const& key,
-                      std::string const& cell) const {
-        // Infinities pass here: the check of the key's range refuses them with better advice.
-        std::optional<double> const number = core::csv_number(cell, ',', core::CsvNumbers::any);
-        bool const integral = number && std::abs(*number) < 1e15 && *number == std::round(*number);
+    static Content read_cell(std::string const& file, Position where, Key const& key,
+                             std::string const& cell) {
         try {
-            if (key.kind == KeyKind::integer && integral)
-                return read_content(key, toml::value<std::int64_t>(std::llround(*number)), file_);
-            if (number && !has_words(key)) return read_content(key, toml::value<double>(*number), file_);
-            return read_content(key, toml::value<std::string>(cell), file_);
+            return read_plain_content(key, cell);
         } catch (core::InputError const& error) {
-            // The value has no position in the campaign file; its position in the CSV file replaces it.
-            std::string const message = error.what();
-            std::string const prefix = file_ + ":1:1: ";
-            throw core::InputError(
-                fmt::format("{}:{}: {}", file, where.line,
-                            message.substr(message.starts_with(prefix) ? prefix.size() : 0)));
+            throw core::InputError(fmt::format("{}:{}: {}", file, where.line, error.what()));
         }
     }
 

@@ -73,6 +73,8 @@ unsigned line_nested_too_deeply(std::string_view text) {
     return 0;
 }
 
+constexpr std::string_view key_advice = "see 'vibrotrough keys' for all keys";
+
 /// Reads a campaign file.
 class CampaignFileReader {
   public:
@@ -103,8 +105,15 @@ class CampaignFileReader {
     }
 
     static bool is_section(std::string_view name) {
-        return std::ranges::any_of(
-            all_keys(), [&](Key const& key) { return key.path.substr(0, key.path.find('.')) == name; });
+        return std::ranges::any_of(all_keys(), [&](Key const& key) { return section_of(key) == name; });
+    }
+
+    static std::vector<std::string_view> sections_of_keys() {
+        std::vector<std::string_view> names;
+        for (Key const& key : all_keys()) {
+            if (names.empty() || names.back() != section_of(key)) names.push_back(section_of(key));
+        }
+        return names;
     }
 
     void read_section(toml::key const& name, toml::node const& node) {
@@ -123,9 +132,9 @@ class CampaignFileReader {
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             fail(where, core::printable(name.str(), 60), "unknown section",
-                 "the sections are campaign, trough, grains, layer, measure, output, solver, engine, sweep, "
-                 "zip, "
-                 "points, points_from, sample, domain, exclude and run");
+                 fmt::format("the sections are {}, sweep, zip, points, points_from, sample, domain, exclude "
+                             "and run",
+                             fmt::join(sections_of_keys(), ", ")));
         }
         if (!node.is_table()) {
             fail(where, name.str(), "is a section, not a key",
@@ -141,16 +150,8 @@ class CampaignFileReader {
         }
     }
 
-    Key const& known_key(std::string const& path, Position where) const {
-        if (Key const* key = find_key(path)) return *key;
-        std::string_view const nearest = nearest_key(path);
-        fail(where, core::printable(path, 60), "unknown key",
-             nearest.empty() ? "see 'vibrotrough keys' for all keys"
-                             : fmt::format("did you mean {}?", nearest));
-    }
-
     void read_key(std::string const& path, Position where, toml::node const& node) {
-        Key const& key = known_key(path, where);
+        Key const& key = known_key(path, {file_, where}, key_advice);
         if (!key.group.empty()) {
             for (auto const& [other, value] : result_.base) {
                 if (find_key(other)->group != key.group) continue;
@@ -163,7 +164,7 @@ class CampaignFileReader {
         if (key.kind == KeyKind::name) {
             read_name(key, where, node);
         } else {
-            result_.base[path] = {read_content(key, node, file_), where};
+            result_.base[key.path] = {read_content(key, node, file_), where};
         }
     }
 
@@ -179,6 +180,7 @@ class CampaignFileReader {
                              key.range));
         }
         result_.name = name;
+        result_.base[key.path] = {name, where};
     }
 
     /// A swept key may be written in quotes ("trough.friction" = ...) or as a dotted key (trough.friction =
@@ -194,7 +196,7 @@ class CampaignFileReader {
     }
 
     void read_axis(std::string const& path, Position where, toml::node const& node) {
-        Key const& key = known_key(path, where);
+        Key const& key = known_key(path, {file_, where}, key_advice);
         if (key.kind == KeyKind::name) fail(where, path, "a name cannot be swept", "sweep a physical input");
         if (key.kind == KeyKind::quantities || key.kind == KeyKind::numbers || key.kind == KeyKind::texts ||
             key.kind == KeyKind::packings) {
@@ -269,7 +271,7 @@ class CampaignFileReader {
     }
 
     bool given(std::string_view path) const {
-        return (path == "campaign.name" && !result_.name.empty()) || result_.base.contains(path) ||
+        return result_.base.contains(path) ||
                std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; }) ||
                std::ranges::any_of(result_.lists, [&](PointList const& list) {
                    return std::ranges::find(list.keys, path) != list.keys.end();
@@ -284,7 +286,7 @@ class CampaignFileReader {
             if (given(other.path)) return;
             names.push_back(last_name(other.path));
         }
-        std::string const section(key.path.substr(0, key.path.find('.')));
+        std::string const section(section_of(key));
         auto const found = sections_.find(section);
         Position const where = found == sections_.end() ? Position{} : found->second;
         std::string wrong =

@@ -4,49 +4,81 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vibrotrough::scenario {
 
-/// The values of one case with the defaults of the keys that are not given, and errors that point to the line
-/// at which a key was given. All arguments must outlive it.
-class GivenValues {
+/// The value of one key on its way into a case or into the settings of a run: KeyAccess::set and
+/// KeyAccess::set_run take it. The accessors throw std::bad_variant_access for other kinds of values. All
+/// arguments must outlive it.
+class GivenValue {
   public:
-    /// @param file    names the campaign file in errors
-    /// @param source  where the files are that the case names
-    GivenValues(CaseValues const& values, std::string const& file, FileSource const& source)
-        : values_(values), file_(file), source_(source) {}
+    /// @param where   of the key or its value, for errors
+    /// @param source  where the files are that the value names
+    GivenValue(Key const& key, Content const& content, FilePosition where, FileSource const& source)
+        : key_(key), content_(content), where_(where), source_(source) {}
 
-    /// The value of a key, or nullptr when it is not given.
-    Value const* find(std::string_view key) const;
-    /// The number given for a key, or its default. Numbers are in SI units.
-    double number(std::string_view key) const;
+    /// The value of a quantity or a number, in SI units; 1 for true, 0 for false.
+    double number() const { return std::get<double>(content_); }
     /// number() of a key whose values are whole numbers.
-    int integer(std::string_view key) const;
-    /// The word given for a key, or the first of its words.
-    std::string word(std::string_view key) const;
-    /// The file that a key names: one of the given files, or read from the folder of the campaign file.
+    int whole() const;
+    /// The value of a choice, a file or another text.
+    std::string const& word() const { return std::get<std::string>(content_); }
+    /// The value of a list of quantities or numbers, in SI units.
+    std::vector<double> const& numbers() const { return std::get<std::vector<double>>(content_); }
+    /// The value of a list of texts.
+    std::vector<std::string> const& words() const { return std::get<std::vector<std::string>>(content_); }
+    /// Whether the value is a word where it might also be a list.
+    bool is_word() const { return std::holds_alternative<std::string>(content_); }
+
+    /// A file that the value names: one of the given files, or read from the folder of the campaign file.
     /// @throws core::InputError when there is no such file or it is larger than 1 MiB
-    NamedFile named_file(std::string_view key) const { return named_file(key, word(key)); }
-    /// One of several files that a key names. @throws as named_file(key)
-    NamedFile named_file(std::string_view key, std::string const& name) const;
-    /// Shapes, waveforms and extra lines that were read for other cases.
+    NamedFile file(std::string const& name) const;
+    /// The files that were read for other cases.
     FilesRead& files_read() const { return *source_.read; }
+    /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
+    [[noreturn]] void fail(std::string_view wrong, std::string_view instead) const;
+    /// The same for a text that is not allowed.
+    /// @param allowed  what is; empty: the range in the row of the key
+    [[noreturn]] void refuse(std::string_view text, std::string_view allowed = "") const;
+
+  private:
+    Key const& key_;
+    Content const& content_;
+    FilePosition where_;
+    FileSource const& source_;
+};
+
+/// The keys that are given for one case, for the checks of several keys: whether a key is given, and errors
+/// that point to its line. All arguments must outlive it.
+class GivenKeys {
+  public:
+    /// @param file  names the campaign file in errors
+    GivenKeys(CaseValues const& values, std::string const& file) : values_(values), file_(file) {}
+
+    /// Whether the key is given.
+    bool has(std::string_view key) const { return values_.contains(key); }
     /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
     [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view instead) const;
 
   private:
     CaseValues const& values_;
     std::string const& file_;
-    FileSource const& source_;
 };
 
-/// The trough of a case. @throws core::InputError
-Trough read_trough(GivenValues const& given);
+/// What to write instead of a waveform that is wrong.
+inline constexpr std::string_view waveform_advice =
+    "write the header time_s,x_m,z_m and evenly spaced samples of one cycle";
 
-/// The grains of a case. @throws core::InputError
-Grains read_grains(GivenValues const& given);
+/// Works out what follows from several keys of the trough, and checks that they go together.
+/// @param scenario  all keys are set
+/// @throws core::InputError
+void complete_trough(Scenario& scenario, GivenKeys const& given);
 
-/// What a case asks of the engine. @throws core::InputError
-EnginePlan read_engine_plan(GivenValues const& given);
+/// The same for the grains. @throws core::InputError
+void complete_grains(Scenario& scenario, GivenKeys const& given);
+
+/// The same for the layer, whose number of grains follows from its height. @throws core::InputError
+void complete_layer(Scenario& scenario, GivenKeys const& given);
 
 }  // namespace vibrotrough::scenario

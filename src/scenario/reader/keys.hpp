@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -7,6 +8,14 @@
 #include <vector>
 
 namespace vibrotrough::scenario {
+
+struct RunSettings;
+struct Scenario;
+class GivenValue;
+
+/// The value to the right of an equals sign: a number in SI units, a word, or a list of either, depending on
+/// the kind of the key.
+using Content = std::variant<double, std::string, std::vector<double>, std::vector<std::string>>;
 
 /// How the value of a key is written.
 enum class KeyKind {
@@ -32,8 +41,31 @@ enum class KeyNeed {
 /// What holds when a key is not given: its default value in SI units, or whether it is needed.
 using IfMissing = std::variant<KeyNeed, double>;
 
-/// One key of the campaign file: what it means, how it is written and what is allowed. The table of all
-/// keys is the single source for reading, for errors and for the reference in README.md.
+/// How the value of a key gets out of a case or the settings of a run, and into them. key_fields.hpp makes it
+/// from pointers to members.
+struct KeyAccess {
+    /// What a case has for the key: given, derived or the default. None when the case has nothing of the
+    /// kind, such as a friction of side walls without side walls.
+    std::optional<Content> (*get)(Scenario const&) = nullptr;
+    /// Puts a given or default value into a case. What follows from several keys is worked out when all are
+    /// set (given_values.hpp).
+    void (*set)(Scenario&, GivenValue const&) = nullptr;
+    /// Whether to_toml() writes the value that a case has; null stands for always.
+    bool (*is_written)(Scenario const&) = nullptr;
+    /// Whether to_toml() leaves the value out when it is the key's default.
+    bool is_left_out_by_default = false;
+    /// Puts a given value into the settings of a run, for keys of [run]. The others have get() and set().
+    void (*set_run)(RunSettings&, GivenValue const&) = nullptr;
+
+    /// The same for a key that to_toml() writes only under a condition.
+    constexpr KeyAccess written_if(bool (*condition)(Scenario const&)) const { return {get, set, condition}; }
+    /// The same for a key that to_toml() writes only with another value than the default.
+    constexpr KeyAccess unless_default() const { return {get, set, is_written, true}; }
+};
+
+/// One key of the campaign file: what it means, how it is written, what is allowed, and where its value is in
+/// a case or among the settings of a run. The table of all keys is the single source for reading, writing,
+/// sweeps, errors, the reference in README.md and the schema for editors.
 struct Key {
     std::string_view path;     ///< "section.name"
     KeyKind kind;              ///< how its value is written
@@ -45,15 +77,35 @@ struct Key {
     IfMissing if_missing;      ///< for a key without group; keys in a group are `required`
     std::string_view example;  ///< what to write to the right of the equals sign
     std::string_view meaning;  ///< its description in the reference
+    KeyAccess access;          ///< how its value is read and written
 };
 
 /// Whether a case is complete without this key (if the key is not in a group).
 bool is_optional(Key const& key);
 
+/// Whether the values of a key are words, which have no order: a choice or the name of a file.
+bool has_words(Key const& key);
+
+/// Whether a key can be varied: it has a single value and is not the name of the campaign.
+bool can_vary(Key const& key);
+
+/// The section of a key, such as "trough".
+std::string_view section_of(Key const& key);
+
+/// The last part of a key's path, without its sections.
+std::string_view last_name(std::string_view path);
+
+/// What to write for a key, such as 'write amplitude = "6 mm"'.
+std::string write_instead(Key const& key);
+
+/// What is written when a key is not given, such as "0" or "free"; "none" for nothing. Only for optional
+/// keys.
+std::string default_text(Key const& key);
+
 /// The words of a choice: "a, b or c" is {a, b, c}.
 std::vector<std::string_view> choices(Key const& key);
 
-/// All keys that describe cases, in the order of the reference.
+/// All keys that describe cases, in the order of the reference and of to_toml().
 std::span<Key const> all_keys();
 
 /// The keys of the sections [run] and [run.slurm], which set how a campaign is run and do not change its

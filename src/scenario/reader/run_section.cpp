@@ -1,6 +1,7 @@
 #include "scenario/reader/run_section.hpp"
 
 #include "core/text.hpp"
+#include "scenario/reader/key_fields.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
@@ -14,38 +15,6 @@ namespace vibrotrough::scenario {
 namespace {
 
 using enum KeyNeed;
-
-constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm"},
-    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
-        "how often a packing is run again after an outcome for which the table of outcomes allows it"},
-    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "2",
-        "MPI ranks of each engine; chosen from the number of grains if not given"},
-    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
-        "largest wall-clock time of a packing, after which its outcome is time-limit; no limit if not given"},
-    Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
-        optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given"},
-    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
-        optional, "\"granular\"", "account to which the computing time is charged"},
-    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional,
-        "\"12 hours\"", "wall-clock time requested for a packing, rounded up to whole minutes"},
-    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
-        "memory requested for a packing; 1 GB is 1024 MB"},
-    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
-        "largest number of packings of one array that run at the same time"},
-    Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
-        "several packings are simulated one after the other in one task, so that it takes about this many "
-        "minutes, for "
-        "sites that refuse short tasks; one packing per task if not given"},
-    Key{"run.slurm.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
-        "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch"},
-    Key{"run.slurm.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional,
-        "[\"module load openmpi\"]",
-        "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
-        "unless "
-        "--allow-setup is given, since they can do anything"},
-};
 
 /// Schedulers that users know, for which there is no executor.
 bool is_other_scheduler(std::string_view name) {
@@ -69,6 +38,92 @@ std::optional<std::int64_t> parse_memory(std::string_view text) {
     if (!(amount >= 1 && amount <= 1024e6)) return {};
     return std::llround(amount);
 }
+
+void set_executor(RunSettings& s, GivenValue const& v) {
+    if (is_other_scheduler(v.word())) {
+        v.fail(fmt::format("'{}' is not an executor", v.word()),
+               "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
+               "(src/campaign/README.md)");
+    }
+    if (v.word() != "local" && v.word() != "slurm") v.refuse(v.word());
+    s.executor = v.word();
+}
+
+template <auto member>
+void set_name(RunSettings& s, GivenValue const& v) {
+    s.slurm.*member = PlainName::from(v.word());
+    if (!(s.slurm.*member)) v.refuse(v.word());
+}
+
+/// Slurm counts whole minutes.
+void set_minutes(RunSettings& s, GivenValue const& v) {
+    s.slurm.minutes = static_cast<int>(std::ceil(v.number() / 60));
+}
+
+void set_memory(RunSettings& s, GivenValue const& v) {
+    s.slurm.memory = parse_memory(v.word());
+    if (!s.slurm.memory) v.refuse(v.word());
+}
+
+void set_extra_options(RunSettings& s, GivenValue const& v) {
+    for (std::string const& text : v.words()) {
+        auto const option = SlurmOption::from(text);
+        if (!option)
+            v.refuse(text, fmt::format("allowed are {} with a value that has no space, quote or slash",
+                                       SlurmOption::names()));
+        s.slurm.extra.push_back(*option);
+    }
+}
+
+void set_setup(RunSettings& s, GivenValue const& v) {
+    for (std::string const& text : v.words()) {
+        bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
+        if (!is_line) v.refuse(text, "a line has 1 to 500 printable characters");
+        s.slurm.setup.push_back(text);
+    }
+}
+
+template <auto set>
+constexpr KeyAccess in_run{.set_run = set};
+
+constexpr std::array keys_of_run{
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm", in_run<set_executor>},
+    Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
+        "how often a packing is run again after an outcome for which the table of outcomes allows it",
+        run_field<&RunSettings::retries>},
+    Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "2",
+        "MPI ranks of each engine; chosen from the number of grains if not given",
+        run_field<&RunSettings::ranks>},
+    Key{"run.time_limit", KeyKind::quantity, "s", 1, 3e7, "1 s to 347 days", "", optional, "\"12 hours\"",
+        "largest wall-clock time of a packing, after which its outcome is time-limit; no limit if not given",
+        run_field<&RunSettings::time_limit>},
+    Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given",
+        in_run<set_name<&SlurmSettings::partition>>},
+    Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        optional, "\"granular\"", "account to which the computing time is charged",
+        in_run<set_name<&SlurmSettings::account>>},
+    Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional,
+        "\"12 hours\"", "wall-clock time requested for a packing, rounded up to whole minutes",
+        in_run<set_minutes>},
+    Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
+        "memory requested for a packing; 1 GB is 1024 MB", in_run<set_memory>},
+    Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
+        "largest number of packings of one array that run at the same time",
+        run_field<&RunSettings::slurm, &SlurmSettings::concurrent_tasks>},
+    Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
+        "several packings are simulated one after the other in one task, so that it takes about this many "
+        "minutes, for sites that refuse short tasks; one packing per task if not given",
+        run_field<&RunSettings::slurm, &SlurmSettings::minutes_per_task>},
+    Key{"run.slurm.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
+        "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch", in_run<set_extra_options>},
+    Key{"run.slurm.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional,
+        "[\"module load openmpi\"]",
+        "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
+        "unless --allow-setup is given, since they can do anything",
+        in_run<set_setup>},
+};
 
 /// Reads the section [run].
 class RunSection {
@@ -104,73 +159,17 @@ class RunSection {
             fail(name.source(), core::printable(path, 60), "unknown key",
                  fmt::format("the keys of this section are {}", fmt::join(names, ", ")));
         }
-        if (found->kind == KeyKind::texts) {
-            read_texts(*found, node);
-        } else if (found->kind == KeyKind::name || found->kind == KeyKind::choice) {
-            read_text(*found, node);
-        } else {
-            read_number(*found, node);
-        }
+        found->access.set_run(settings_,
+                              {*found, content_of(*found, node), {file_, position_of(node.source())}, {}});
     }
 
-    void read_text(Key const& key, toml::node const& node) {
-        std::string_view const name = last_name(key.path);
-        std::string const given = node.value<std::string>().value_or("");
-        auto const refuse = [&] {
-            fail(node.source(), key.path,
-                 node.is_string() ? fmt::format("'{}' is not allowed", core::printable(given, 60))
-                                  : "is not a text",
+    /// Words need not be those of the key's range: KeyAccess::set_run checks them.
+    Content content_of(Key const& key, toml::node const& node) const {
+        if (key.kind != KeyKind::name && key.kind != KeyKind::choice) return read_content(key, node, file_);
+        if (!node.is_string())
+            fail(node.source(), key.path, "is not a text",
                  fmt::format("{}; allowed: {}", write_instead(key), key.range));
-        };
-        if (name == "executor") {
-            if (is_other_scheduler(given)) {
-                fail(
-                    node.source(), key.path, fmt::format("'{}' is not an executor", given),
-                    "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
-                    "(src/campaign/README.md)");
-            }
-            if (given != "local" && given != "slurm") refuse();
-            settings_.executor = given;
-        } else if (name == "memory") {
-            settings_.slurm.memory = parse_memory(given);
-            if (!settings_.slurm.memory) refuse();
-        } else {
-            auto const plain = PlainName::from(given);
-            if (!plain) refuse();
-            (name == "partition" ? settings_.slurm.partition : settings_.slurm.account) = plain;
-        }
-    }
-
-    void read_texts(Key const& key, toml::node const& node) {
-        auto const refuse = [&](std::string const& text, std::string_view instead) {
-            fail(node.source(), key.path, fmt::format("'{}' is not allowed", core::printable(text, 60)),
-                 fmt::format("{}; {}", write_instead(key), instead));
-        };
-        Content const content = read_content(key, node, file_);
-        for (std::string const& text : std::get<std::vector<std::string>>(content)) {
-            if (last_name(key.path) == "setup") {
-                bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
-                if (!is_line) refuse(text, "a line has 1 to 500 printable characters");
-                settings_.slurm.setup.push_back(text);
-            } else {
-                auto const option = SlurmOption::from(text);
-                if (!option)
-                    refuse(text, fmt::format("allowed are {} with a value that has no space, quote or slash",
-                                             SlurmOption::names()));
-                settings_.slurm.extra.push_back(*option);
-            }
-        }
-    }
-
-    void read_number(Key const& key, toml::node const& node) {
-        double const value = std::get<double>(read_content(key, node, file_));
-        int const whole = static_cast<int>(std::lround(value));
-        if (key.path == "run.retries") settings_.retries = whole;
-        if (key.path == "run.ranks") settings_.ranks = whole;
-        if (key.path == "run.time_limit") settings_.time_limit = value;
-        if (key.path == "run.slurm.time") settings_.slurm.minutes = static_cast<int>(std::ceil(value / 60));
-        if (key.path == "run.slurm.concurrent_tasks") settings_.slurm.concurrent_tasks = whole;
-        if (key.path == "run.slurm.minutes_per_task") settings_.slurm.minutes_per_task = whole;
+        return node.value<std::string>().value_or("");
     }
 
     std::string const& file_;

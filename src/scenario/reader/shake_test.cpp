@@ -13,15 +13,20 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// The same layer on a level trough that vibrates along its own surface as a sinusoid.
-Scenario shaken(Scenario scenario, double machine_number) {
-    Trough& trough = scenario.trough;
+/// Makes a trough level and its motion a sinusoid along its own surface.
+void level(Trough& trough) {
     trough.inclination = 0;
     trough.vibration_angle = 0;
     trough.along_phase = 0;
     trough.harmonics.clear();
     trough.waveform.reset();
     trough.given = {};
+}
+
+/// The same layer on such a trough.
+Scenario shaken(Scenario scenario, double machine_number) {
+    Trough& trough = scenario.trough;
+    level(trough);
     trough.frequency = std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
     scenario.output.frames_per_cycle = 0;
     return scenario;
@@ -42,14 +47,9 @@ std::string shake_test_campaign(std::filesystem::path const& campaign_file, doub
 std::string layer_key(Scenario const& scenario) {
     Scenario same = scenario;
     same.campaign = "any";
-    same.trough.inclination = 0;
-    same.trough.vibration_angle = 0;
+    level(same.trough);
     same.trough.amplitude = 0.001;
     same.trough.frequency = 1;
-    same.trough.along_phase = 0;
-    same.trough.harmonics.clear();
-    same.trough.waveform.reset();
-    same.trough.given = {};
     same.trough.width = {};
     same.measure = {};
     same.output = {};

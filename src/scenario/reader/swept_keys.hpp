@@ -16,9 +16,15 @@ namespace vibrotrough::scenario {
 /// lists by name. The keys are those of all_keys() and live as long as the program.
 using SweptKeys = std::vector<Key const*>;
 
-/// What a case has for a key, in SI units: given, derived or the default. None when the case has nothing of
-/// the kind, such as a friction of side walls without side walls, and for keys that are lists.
+/// What a case has for the key of all_keys() with this path, see KeyAccess::get. None when there is no such
+/// key.
 std::optional<Content> key_value(Scenario const& scenario, std::string_view path);
+
+/// key_value() if it is a number, in SI units.
+std::optional<double> number_of(Scenario const& scenario, std::string_view path);
+
+/// key_value() if it is a word, such as "rolling" for grains.rotation.
+std::optional<std::string> word_of(Scenario const& scenario, std::string_view path);
 
 /// Those of `candidates` that have different values in the cases, each once.
 SweptKeys swept_keys(std::vector<Key const*> const& candidates, std::vector<Scenario> const& cases);

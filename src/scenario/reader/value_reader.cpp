@@ -1,10 +1,13 @@
 #include "scenario/reader/value_reader.hpp"
 
+#include "core/csv.hpp"
+#include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "core/text.hpp"
 #include "scenario/model/run_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -146,16 +149,11 @@ Position position_of(toml::source_region const& source) {
     return {std::max(1u, source.begin.line), std::max(1u, source.begin.column)};
 }
 
-bool has_words(Key const& key) {
-    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
-}
-
-std::string_view last_name(std::string_view path) {
-    return path.substr(path.rfind('.') + 1);
-}
-
-std::string write_instead(Key const& key) {
-    return fmt::format("write {} = {}", last_name(key.path), key.example);
+Key const& known_key(std::string_view path, FilePosition place, std::string_view advice) {
+    if (Key const* key = find_key(path)) return *key;
+    std::string_view const nearest = nearest_key(path);
+    throw_at(place, core::printable(path, 60), "unknown key",
+             nearest.empty() ? std::string(advice) : fmt::format("did you mean {}?", nearest));
 }
 
 Content read_content(Key const& key, toml::node const& node, std::string const& file) {
@@ -175,6 +173,21 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
             return reader.packings(node);
         default:
             return reader.number(node);
+    }
+}
+
+Content read_plain_content(Key const& key, std::string const& text) {
+    // Infinities pass here: the check of the key's range refuses them with better advice.
+    std::optional<double> const number = core::csv_number(text, ',', core::CsvNumbers::any);
+    bool const is_whole = number && std::abs(*number) < 1e15 && *number == std::round(*number);
+    try {
+        if (key.kind == KeyKind::integer && is_whole)
+            return read_content(key, toml::value<std::int64_t>(std::llround(*number)), "");
+        if (number && !has_words(key)) return read_content(key, toml::value<double>(*number), "");
+        return read_content(key, toml::value<std::string>(text), "");
+    } catch (core::InputError const& error) {
+        std::string const message = error.what();
+        throw core::InputError(message.substr(std::string_view(":1:1: ").size()));
     }
 }
 

@@ -12,19 +12,20 @@ namespace vibrotrough::scenario {
 /// Line and column at which a node of the campaign file begins.
 Position position_of(toml::source_region const& source);
 
-/// Whether the values of a key are words, which have no order: a choice or the name of a file.
-bool has_words(Key const& key);
-
-/// The last part of a key's path, without its sections.
-std::string_view last_name(std::string_view path);
-
-/// What to write for a key, such as 'write amplitude = "6 mm"'.
-std::string write_instead(Key const& key);
+/// The key with this path.
+/// @param place   in the campaign file
+/// @param advice  what to do when no key is similar to a misspelt one
+/// @throws core::InputError when there is no such key
+Key const& known_key(std::string_view path, FilePosition place, std::string_view advice);
 
 /// A value of the campaign file as its key requires it: numbers in SI units, words, or a list of either.
 /// @param file  names the campaign file in errors
 /// @throws core::InputError when the value has the wrong type, unit or range
 Content read_content(Key const& key, toml::node const& node, std::string const& file);
+
+/// A value as it is written in a table or on a command line: "9 mm" or "rolling" without quotes.
+/// @throws core::InputError as read_content, without a position in a file
+Content read_plain_content(Key const& key, std::string const& text);
 
 /// A number in SI units without a check of its range: the step of a range is a difference of two values.
 /// @param file  names the campaign file in errors

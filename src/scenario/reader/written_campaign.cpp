@@ -1,64 +1,106 @@
 #include "scenario/reader/written_campaign.hpp"
 
 #include "core/error.hpp"
-#include "scenario/reader/design.hpp"
-#include "scenario/reader/value_reader.hpp"
 
-#include <sstream>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 namespace vibrotrough::scenario {
-
-WrittenKeys keys_of(Scenario const& scenario) {
-    WrittenKeys keys;
-    toml::table const root = toml::parse(to_toml(scenario));
-    for (auto const& [section, content] : root) {
-        for (auto const& [key, value] : *content.as_table()) {
-            std::ostringstream text;
-            value.visit([&](auto const& node) { text << node; });
-            keys.emplace(std::string(section.str()) + "." + std::string(key.str()), text.str());
-        }
-    }
-    keys.emplace("grains.shape", "\"sphere\"");  // to_toml leaves these keys out by default
-    keys.emplace("engine.contact", "\"hertz\"");
-    keys.emplace("engine.cohesion", "\"0 J/m3\"");
-    keys.emplace("engine.extra", "\"none\"");
-    return keys;
-}
-
 namespace {
 
+/// Appends a value as TOML. fmt's "{}" prints the shortest text that reads back as the same double.
+struct TomlValue {
+    Key const& key;  ///< whose value it is
+    std::string& text;
+
+    void operator()(double value) const {
+        if (key.kind == KeyKind::truth) {
+            text += value == 0 ? "false" : "true";
+        } else if (key.unit.empty()) {
+            fmt::format_to(std::back_inserter(text), "{}", value);
+        } else {
+            fmt::format_to(std::back_inserter(text), "\"{} {}\"", value, key.unit);
+        }
+    }
+    void operator()(std::string const& value) const {
+        fmt::format_to(std::back_inserter(text), "\"{}\"", value);
+    }
+
+    template <typename Element>
+    void operator()(std::vector<Element> const& list) const {
+        char const* between = "[";
+        for (Element const& value : list) {
+            text += std::exchange(between, ", ");
+            (*this)(value);
+        }
+        text += "]";
+    }
+};
+
+/// Appends a line "name = value".
+void add_line(std::string& text, std::string_view name, Key const& key, Content const& value) {
+    text.append(name).append(" = ");
+    std::visit(TomlValue{key, text}, value);
+    text += '\n';
+}
+
+bool is_default(Key const& key, Content const& value) {
+    if (auto const* const word = std::get_if<std::string>(&value)) return *word == default_text(key);
+    auto const* const number = std::get_if<double>(&value);
+    return number != nullptr && key.if_missing == IfMissing(*number);
+}
+
 /// The value that to_toml() writes for a key.
-std::optional<Content> written_value(Scenario const& scenario, std::string_view key) {
-    Key const* const known = find_key(key);
-    if (known == nullptr) return {};
-    toml::table const root = toml::parse(to_toml(scenario));
-    auto const dot = key.find('.');
-    toml::node_view const node = root[key.substr(0, dot)][key.substr(dot + 1)];
-    if (!node) return {};
-    return read_content(*known, *node.node(), "scenario.toml");
+std::optional<Content> written_value(Key const& key, Scenario const& scenario) {
+    if (key.access.is_written != nullptr && !key.access.is_written(scenario)) return {};
+    auto value = key.access.get(scenario);
+    if (value && key.access.is_left_out_by_default && is_default(key, *value)) value.reset();
+    return value;
 }
 
 }  // namespace
 
-std::optional<double> number_of(Scenario const& scenario, std::string_view key) {
-    auto value = written_value(scenario, key);
-    if (!value && find_key(key) != nullptr) value = value_of(scenario, {}, key);
-    auto const* const number = value ? std::get_if<double>(&*value) : nullptr;
-    return number != nullptr ? std::optional(*number) : std::nullopt;
+std::string to_toml(Scenario const& scenario) {
+    std::string text;
+    std::string_view section;
+    for (Key const& key : all_keys()) {
+        auto const value = written_value(key, scenario);
+        if (!value) continue;
+        if (section_of(key) != section) {
+            fmt::format_to(std::back_inserter(text), "{}[{}]\n", section.empty() ? "" : "\n",
+                           section_of(key));
+            section = section_of(key);
+        }
+        add_line(text, last_name(key.path), key, *value);
+    }
+    // Results and hashes of older programs hold the text with an empty line behind this section.
+    return section == "engine" ? text + "\n" : text;
 }
 
-std::optional<std::string> word_of(Scenario const& scenario, std::string_view key) {
-    auto const value = written_value(scenario, key);
-    auto const* const word = value ? std::get_if<std::string>(&*value) : nullptr;
-    if (word != nullptr) return *word;
-    return key == "grains.shape" ? std::optional<std::string>("sphere") : std::nullopt;
+std::string frame_toml(Scenario const& scenario) {
+    std::string text;
+    for (char const* path : {"output.frame_packings", "output.contacts"}) {
+        Key const& key = *find_key(path);
+        if (auto const value = written_value(key, scenario)) add_line(text, last_name(path), key, *value);
+    }
+    return text;
 }
 
-std::set<std::string> differing_keys(std::vector<WrittenKeys> const& cases) {
-    std::set<std::string> names;
+WrittenKeys keys_of(Scenario const& scenario) {
+    WrittenKeys keys;
+    for (Key const& key : all_keys()) {
+        bool const has_default = key.access.is_left_out_by_default && can_vary(key);
+        auto value = has_default ? key.access.get(scenario) : written_value(key, scenario);
+        if (value) keys.emplace(key.path, *std::move(value));
+    }
+    return keys;
+}
+
+std::set<std::string_view> differing_keys(std::vector<WrittenKeys> const& cases) {
+    std::set<std::string_view> names;
     for (WrittenKeys const& one : cases) {
         for (auto const& [name, value] : one) {
             auto const first = cases.front().find(name);
@@ -77,12 +119,13 @@ std::set<std::string> differing_keys(std::vector<WrittenKeys> const& cases) {
 std::string campaign_toml(std::vector<Scenario> const& cases, std::string const& comment) {
     std::vector<WrittenKeys> written;
     for (Scenario const& one : cases) written.push_back(keys_of(one));
-    std::set<std::string> const names = differing_keys(written);
+    std::set<std::string_view> const names = differing_keys(written);
     std::string text = fmt::format("# {}\n{}", comment, to_toml(cases.front()));
     for (WrittenKeys const& one : written) {
         if (names.empty()) break;
         text += "\n[[points]]\n";
-        for (std::string const& key : names) text += fmt::format("\"{}\" = {}\n", key, one.at(key));
+        for (std::string_view const path : names)
+            add_line(text, fmt::format("\"{}\"", path), *find_key(path), one.at(path));
     }
     return text;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scenario/model/scenario.hpp"
+#include "scenario/reader/keys.hpp"
 
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,23 +11,25 @@
 
 namespace vibrotrough::scenario {
 
-/// The keys of a campaign of one case, "section.key", with their values as TOML.
-using WrittenKeys = std::map<std::string, std::string>;
+/// The case as a campaign file of its own, in SI units with as many digits as needed: the same scenario
+/// always gives the same text, and reading the text gives the same scenario. The text only names the files of
+/// shape, waveform, extra lines and templates; named_files() returns them.
+std::string to_toml(Scenario const& scenario);
 
-/// All keys that to_toml() writes for a scenario, and its shape, which to_toml() leaves out for spheres.
+/// The lines "frame_packings = ..." and "contacts = true" of to_toml(), with their ends; empty when there are
+/// no frames, or only those of the first packing without contacts.
+std::string frame_toml(Scenario const& scenario);
+
+/// Values of a case by the paths of their keys.
+using WrittenKeys = std::map<std::string_view, Content>;
+
+/// All keys that to_toml() writes for a scenario, and those that it leaves out because the case has their
+/// default.
 WrittenKeys keys_of(Scenario const& scenario);
-
-/// The number that a case has for a key, in SI units: written, or derived as value_of() does. Nothing when
-/// the case has no such number.
-/// @param key  path of a key that can be varied
-std::optional<double> number_of(Scenario const& scenario, std::string_view key);
-
-/// The word that a case has for a key, such as "rolling" for grains.rotation; nothing when it has none.
-std::optional<std::string> word_of(Scenario const& scenario, std::string_view key);
 
 /// The keys whose values differ between cases.
 /// @throws core::InputError when one case gives a key that another does not
-std::set<std::string> differing_keys(std::vector<WrittenKeys> const& cases);
+std::set<std::string_view> differing_keys(std::vector<WrittenKeys> const& cases);
 
 /// The text of a campaign file with these cases in this order: the first as it is, and all as a list of
 /// points of the keys in which they differ.

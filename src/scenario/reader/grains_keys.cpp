@@ -1,0 +1,110 @@
+#include "scenario/reader/key_fields.hpp"
+
+#include <array>
+
+namespace vibrotrough::scenario {
+namespace {
+
+using enum KeyKind;
+using enum KeyNeed;
+
+void set_shape(Grains& grains, GivenValue const& v) {
+    grains.shape = v.word();
+    if (grains.shape == "sphere" || grains.shape == "cube" || grains.shape == "rod") return;
+    grains.shape_file = read_once(v.files_read().shapes, read_shape, v,
+                                  "write the header x,y,z,radius and one sphere per line");
+}
+
+bool has_a_law(Scenario const& s) {
+    return s.grains.size_law != SizeLaw::listed;
+}
+
+constexpr std::array rows_of_grains{
+    Key{"grains.diameter", quantity, "m", 1e-6, 1, "1 um to 1 m", "size of the grains", required, "\"3 mm\"",
+        "d, mean diameter; of a clump, the diameter of the sphere that has its volume; of the log-normal "
+        "law, the median",
+        field<&Scenario::grains, &Grains::diameter>.written_if(has_a_law)},
+    Key{"grains.diameters", quantities, "m", 1e-6, 1, "1 um to 1 m each, up to 100", "size of the grains",
+        required, "[\"2 mm\", \"3 mm\"]", "list of diameters, used with number_fractions or mass_fractions",
+        KeyAccess{[](Scenario const& s) { return content_of(s.grains.diameters); },
+                  [](Scenario& s, GivenValue const& v) {
+                      s.grains.diameters = v.numbers();
+                      s.grains.size_law = SizeLaw::listed;
+                  }}},
+    Key{"grains.number_fractions", numbers, "", 0, 1e9, "above 0 each", "", optional, "[0.3, 0.7]",
+        "shares of the listed diameters by number, scaled so that their sum is 1",
+        field<&Scenario::grains, &Grains::number_fractions>},
+    Key{"grains.mass_fractions", numbers, "", 0, 1e9, "above 0 each", "", optional, "[0.3, 0.7]",
+        "shares of the listed diameters by mass, scaled so that their sum is 1",
+        field<&Scenario::grains, &Grains::mass_fractions>},
+    Key{"grains.diameter_spread", number, "", 0, 0.5, "0 to 0.5", "", 0.0, "0.1",
+        "s, width of the size distribution, see size_law",
+        field<&Scenario::grains, &Grains::diameter_spread>.written_if(has_a_law)},
+    Key{"grains.size_law", choice, "", 0, 0, "three-classes, uniform or lognormal", "", optional,
+        "\"three-classes\"",
+        "distribution by number; three-classes: 1-s, 1 and 1+s times d in equal shares; uniform: all "
+        "diameters between 1-s and 1+s times d; lognormal: ln(d) is normal with standard deviation s",
+        field<&Scenario::grains, &Grains::size_law>.written_if(has_a_law)},
+    Key{"grains.density", quantity, "kg/m3", 1, 3e4, "1 to 30000 kg/m3", "density of the grains", required,
+        "\"1400 kg/m3\"", "density of the grains' material", field<&Scenario::grains, &Grains::density>},
+    Key{"grains.bulk_density", quantity, "kg/m3", 0.58, 17400, "0.58 to 17400 kg/m3", "density of the grains",
+        required, "\"800 kg/m3\"",
+        "density of the settled layer with its voids; the grains' density is this divided by the solid "
+        "fraction of a settled layer, 0.58",
+        KeyAccess{
+            [](Scenario const& s) { return content_of(bulk_density(s.grains)); },
+            [](Scenario& s, GivenValue const& v) { s.grains.density = v.number() / settled_solid_fraction; }}
+            .written_if(never)},
+    Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", optional, "\"50 MPa\"",
+        "Young's modulus of grains and trough; if it is left out, each case gets the lowest one that is "
+        "stiff "
+        "enough for its depth and drive, because softer grains allow a longer time step",
+        field<&Scenario::grains, &Grains::youngs_modulus>},
+    Key{"grains.poisson_ratio", number, "", 0, 0.49, "0 to 0.49", "", required, "0.35",
+        "Poisson's ratio of grains and trough", field<&Scenario::grains, &Grains::poisson_ratio>},
+    Key{"grains.friction", number, "", 0, 5, "0 to 5", "", required, "0.5",
+        "friction coefficient of grain on grain", field<&Scenario::grains, &Grains::friction>},
+    Key{"grains.restitution", number, "", 0.05001, 1, "above 0.05, to 1", "", required, "0.5",
+        "coefficient of restitution of grain on grain", field<&Scenario::grains, &Grains::restitution>},
+    Key{"grains.rolling_friction", number, "", 0, 5, "0 to 5", "", 0.0, "0.1",
+        "coefficient of the rolling friction model epsd2 at all contacts, for rotation = \"rolling\"",
+        field<&Scenario::grains, &Grains::rolling_friction>},
+    Key{"grains.rotation", choice, "", 0, 0, "free, rolling or blocked", "", optional, "\"free\"",
+        "free: grains rotate freely; rolling: against rolling_friction; blocked: not at all",
+        field<&Scenario::grains, &Grains::rotation>},
+    Key{"grains.shape", file, "", 0, 0, "sphere, cube, rod or a .csv file in the same folder", "", optional,
+        "\"cube\"",
+        "spheres, or rigid clumps of 8 spheres (cube), 3 spheres (rod) or the spheres of a file (columns "
+        "x,y,z,radius, scaled to d)",
+        KeyAccess{[](Scenario const& s) { return content_of(s.grains.shape); },
+                  [](Scenario& s, GivenValue const& v) { set_shape(s.grains, v); }}
+            .unless_default()},
+
+    Key{"layer.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", required,
+        "\"36 mm\"", "length of the periodic box along the trough", field<&Scenario::layer, &Layer::length>},
+    Key{"layer.width", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", required,
+        "\"18 mm\"", "width of the layer across the trough: of the periodic box, or between the side walls",
+        field<&Scenario::layer, &Layer::width>},
+    Key{"layer.height", quantity, "m", 1e-6, 10, "at least one diameter", "height of the layer", required,
+        "\"12 mm\"", "height of the layer at rest",
+        KeyAccess{[](Scenario const& s) { return content_of(layer_height(s)); },
+                  [](Scenario& s, GivenValue const& v) { s.layer.height = v.number(); }}
+            .written_if([](Scenario const& s) { return s.layer.block == Block::none && s.layer.height; })},
+    Key{"layer.grains", integer, "", 1, 1e7, "1 to 10000000", "height of the layer", required, "600",
+        "number of grains", field<&Scenario::layer, &Layer::grains>.written_if([](Scenario const& s) {
+            return s.layer.block == Block::none && !s.layer.height;
+        })},
+    Key{"layer.block", choice, "", 0, 0, "point or plate", "height of the layer", required, "\"point\"",
+        "replaces the layer by one rigid block with plastic contact: a sphere that cannot rotate (point) or "
+        "a plate of nine spheres",
+        field<&Scenario::layer, &Layer::block>.written_if(
+            [](Scenario const& s) { return s.layer.block != Block::none; })},
+};
+
+}  // namespace
+
+std::span<Key const> grains_keys() {
+    return rows_of_grains;
+}
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "scenario/model/scenario.hpp"
+#include "scenario/reader/given_values.hpp"
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+// How a row of the table of keys says where its value is: field<&Scenario::trough, &Trough::friction>. The
+// type of the member decides how it is read and written. Internal to this room.
+
+namespace vibrotrough::scenario {
+
+template <typename Type>
+constexpr bool is_optional_member = false;  ///< Whether a member is an optional one.
+template <typename Type>
+constexpr bool is_optional_member<std::optional<Type>> = true;  ///< It is.
+
+/// A member as the value of a key; none for an optional member without value and an empty list.
+template <typename Member>
+std::optional<Content> content_of(Member const& member) {
+    if constexpr (is_optional_member<Member>) {
+        return member ? content_of(*member) : std::nullopt;
+    } else if constexpr (std::is_enum_v<Member>) {
+        return Content(std::string(name_of(member)));
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+        return Content(static_cast<double>(member));
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+        return Content(member);
+    } else {
+        return member.empty() ? std::nullopt : std::optional<Content>(member);
+    }
+}
+
+/// Puts the value of a key into a member. For an enum it is the enumerator with this name: the reader has
+/// checked that the word is one of the key's, and name_of() throws when there is no further enumerator.
+template <typename Member>
+void take(Member& member, GivenValue const& value) {
+    if constexpr (is_optional_member<Member>) {
+        take(member.emplace(), value);
+    } else if constexpr (std::is_enum_v<Member>) {
+        int number = 0;
+        while (name_of(static_cast<Member>(number)) != value.word()) ++number;
+        member = static_cast<Member>(number);
+    } else if constexpr (std::is_same_v<Member, bool>) {
+        member = value.number() != 0;
+    } else if constexpr (std::is_same_v<Member, int>) {
+        member = value.whole();
+    } else if constexpr (std::is_same_v<Member, double>) {
+        member = value.number();
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+        member = value.word();
+    } else {
+        member = value.numbers();
+    }
+}
+
+/// A key whose value is a member of a case: field<&Scenario::trough, &Trough::friction> is
+/// scenario.trough.friction.
+template <auto... members>
+constexpr KeyAccess field{[](Scenario const& s) { return content_of((s.*....*members)); },
+                          [](Scenario& s, GivenValue const& value) { take((s.*....*members), value); }};
+
+/// The same for a key of [run], whose value is a member of RunSettings.
+template <auto... members>
+constexpr KeyAccess run_field{
+    .set_run = [](RunSettings& s, GivenValue const& value) { take((s.*....*members), value); }};
+
+/// The condition of a key that to_toml() never writes, because another key of its group says the same.
+inline bool never(Scenario const&) {
+    return false;
+}
+
+/// A file that a key names, read once for all cases.
+/// @param known   the files that were read for other cases
+/// @param read    turns its text into what it means; throws std::invalid_argument when it is wrong
+/// @param advice  what to write instead of a wrong text
+template <typename File>
+std::shared_ptr<File const> read_once(std::map<std::string, std::shared_ptr<File const>>& known,
+                                      std::shared_ptr<File const> (*read)(NamedFile), GivenValue const& value,
+                                      std::string_view advice) {
+    std::shared_ptr<File const>& file = known[value.word()];
+    try {
+        if (!file) file = read(value.file(value.word()));
+    } catch (std::invalid_argument const& error) {
+        value.fail(value.word() + ": " + error.what(), advice);
+    }
+    return file;
+}
+
+/// The rows of the table by the sections that they describe.
+std::span<Key const> trough_keys();
+std::span<Key const> grains_keys();  ///< [grains] and [layer]
+std::span<Key const> plan_keys();    ///< [measure], [output], [solver] and [engine]
+
+}  // namespace vibrotrough::scenario

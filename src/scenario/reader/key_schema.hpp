@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace vibrotrough::scenario {
+
+/// The campaign file as a JSON Schema (draft 7), made from the table of keys. Editors complete and explain
+/// keys with it (src/scenario/README.md).
+std::string key_schema();
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,141 @@
+#include "core/text.hpp"
+#include "scenario/reader/key_fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+using enum KeyKind;
+using enum KeyNeed;
+
+std::optional<Content> frame_packings_of(Scenario const& s) {
+    std::vector<int> const& packings = s.output.frame_packings;
+    if (packings.empty()) return Content(std::string("all"));
+    return Content(std::vector<double>(packings.begin(), packings.end()));
+}
+
+void set_frame_packings(Scenario& s, GivenValue const& v) {
+    s.output.frame_packings.clear();
+    if (v.is_word()) return;  // all
+    for (double const number : v.numbers())
+        s.output.frame_packings.push_back(static_cast<int>(std::lround(number)));
+}
+
+bool lists_frame_packings(Scenario const& s) {
+    return s.output.frames_per_cycle != 0 && s.output.frame_packings != std::vector<int>{1};
+}
+
+void set_extra(EnginePlan& plan, GivenValue const& v) {
+    if (v.word() == "none") return;
+    plan.extra = read_once(v.files_read().extras, read_extra_lines, v,
+                           "write one command of LIGGGHTS per line below a line [after-contact], "
+                           "[before-first-cycle] or [at-cycle-end]");
+}
+
+void set_templates(Scenario& s, GivenValue const& v) {
+    std::vector<std::string> names = v.words();
+    std::ranges::sort(names);
+    auto& known = v.files_read().templates[names];
+    if (!known) {
+        DeckTemplates templates;
+        for (std::string const& name : names) {
+            if (!is_template_name(name) || std::ranges::count(names, name) > 1)
+                v.fail(fmt::format("'{}' is not the name of a template, or is listed twice",
+                                   core::printable(name, 60)),
+                       "write names without a path, such as \"contact.mustache\"");
+            templates.files.push_back(v.file(name));
+        }
+        known = std::make_shared<DeckTemplates const>(std::move(templates));
+    }
+    s.engine.templates = known;
+}
+
+std::optional<Content> templates_of(Scenario const& s) {
+    std::vector<std::string> names;
+    if (s.engine.templates) {
+        for (NamedFile const& file : s.engine.templates->files) names.push_back(file.name);
+    }
+    return content_of(names);
+}
+
+constexpr std::array rows_of_plans{
+    Key{"measure.packings", integer, "", 1, 1000, "1 to 1000", "", 3.0, "3",
+        "least number of independent packings per case; more are added until the case's interval is narrow "
+        "enough",
+        field<&Scenario::measure, &MeasurementPlan::packings>},
+    Key{"measure.confidence", number, "", 0.5, 0.9999, "0.5 to 0.9999", "", 0.95, "0.95",
+        "confidence level of every interval", field<&Scenario::measure, &MeasurementPlan::confidence>},
+    Key{"measure.half_width", number, "", 1e-5, 1, "0.00001 to 1", "", 0.05, "0.05",
+        "half-width of the case's velocity efficiency that is wanted, for statistics and numerics together",
+        field<&Scenario::measure, &MeasurementPlan::half_width>},
+    Key{"measure.max_cycles", integer, "", 20, 1e6, "20 to 1000000", "", 200.0, "200",
+        "largest number of cycles of a packing", field<&Scenario::measure, &MeasurementPlan::max_cycles>},
+    Key{"measure.max_packings", integer, "", 1, 1000, "1 to 1000", "", 24.0, "24",
+        "largest number of packings per case; at least measure.packings",
+        field<&Scenario::measure, &MeasurementPlan::max_packings>},
+    Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
+        "largest core time that one case may take: when more would be needed, it ends as not-precise",
+        field<&Scenario::measure, &MeasurementPlan::max_core_time>},
+    Key{"measure.rolling", truth, "", 0, 1, "true or false", "", 0.0, "true",
+        "also measure the contacts at the floor within the cycle: how the lowest grains spin and slide, with "
+        "which forces and torques; for layers of spheres without side walls",
+        field<&Scenario::measure, &MeasurementPlan::rolling>.unless_default()},
+
+    Key{"output.frames_per_cycle", integer, "", 0, 1000, "0 to 1000", "", 0.0, "0",
+        "frames per cycle that the first packing writes for ParaView; 0 writes none",
+        field<&Scenario::output, &OutputPlan::frames_per_cycle>},
+    Key{"output.checkpoint_cycles", integer, "", 0, 1e6, "0 to 1000000", "", 50.0, "50",
+        "cycles between two checkpoints, from which an interrupted run continues; 0 writes none",
+        field<&Scenario::output, &OutputPlan::checkpoint_cycles>},
+    Key{"output.frame_packings", packings, "", 1, 1000, "numbers from 1 to 1000, or \"all\"", "", optional,
+        "[1, 2]", "packings that write the frames, by their numbers; without it, the first one",
+        KeyAccess{frame_packings_of, set_frame_packings, lists_frame_packings}},
+    Key{"output.contacts", truth, "", 0, 1, "true or false", "", 0.0, "true",
+        "also write the contacts between grains and with the trough into the frames, with their forces; for "
+        "layers of spheres",
+        field<&Scenario::output, &OutputPlan::contacts>.written_if(
+            [](Scenario const& s) { return s.output.contacts && s.output.frames_per_cycle != 0; })},
+
+    Key{"solver.rayleigh_fraction", number, "", 0.01, 0.5, "0.01 to 0.5", "", 0.2, "0.2",
+        "largest time step, as a fraction of the Rayleigh time of the smallest grain",
+        field<&Scenario::solver, &SolverPlan::rayleigh_fraction>},
+    Key{"solver.block_stiffness", number, "", 30, 10000, "30 to 10000", "", 300.0, "300",
+        "duration of a cycle divided by the duration of a block's contact",
+        field<&Scenario::solver, &SolverPlan::block_stiffness>},
+
+    Key{"engine.contact", choice, "", 0, 0, "hertz or hooke", "", optional, "\"hooke\"",
+        "normal force of the contacts; hertz: proportional to overlap^(3/2), as elasticity theory says; "
+        "hooke: a linear spring as stiff as a Hertz contact in the fastest expected impact",
+        field<&Scenario::engine, &EnginePlan::contact>.unless_default()},
+    Key{"engine.cohesion", quantity, "J/m3", 0, 1e9, "0 to 1e9 J/m3", "", 0.0, "\"50 kJ/m3\"",
+        "energy density of the cohesion model sjkr: grains and trough attract each other with this pressure "
+        "times the area of their contact",
+        field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
+    Key{"engine.extra", file, "", 0, 0, "none or a .liggghts file in the same folder", "", optional,
+        "\"rotor.liggghts\"",
+        "commands of LIGGGHTS that the decks run as well; they can do anything, so that 'run' shows them and "
+        "refuses unless --allow-extra is given",
+        KeyAccess{[](Scenario const& s) {
+                      return content_of(std::string(s.engine.extra ? s.engine.extra->file.name : "none"));
+                  },
+                  [](Scenario& s, GivenValue const& v) { set_extra(s.engine, v); }}
+            .unless_default()},
+    Key{"engine.templates", texts, "", 0, 0, "1 to 30 names of .mustache files in the same folder", "",
+        optional, "[\"contact.mustache\"]",
+        "templates of the decks that replace those of input_templates; like extra they need --allow-extra. "
+        "'run --templates DIR' takes them from a folder instead",
+        KeyAccess{templates_of, set_templates}},
+};
+
+}  // namespace
+
+std::span<Key const> plan_keys() {
+    return rows_of_plans;
+}
+
+}  // namespace vibrotrough::scenario
