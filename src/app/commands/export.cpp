@@ -146,8 +146,9 @@ int run_export(ExportArguments const& options) {
 
 void add_export(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<ExportArguments>();
-    CLI::App* const command =
-        program.add_subcommand("export", "Write the frames and the table of a campaign for ParaView");
+    CLI::App* const command = program.add_subcommand(
+        "export", std::string("Write the frames and the table of a campaign for ParaView") +
+                      (view::has_vtk() ? "" : " (not in this program, which was built without VTK)"));
     add_campaign_folder(*command, options->folder);
     command->add_option("--case", options->id, "Only this case; default: all cases with frames")
         ->type_name("ID");
