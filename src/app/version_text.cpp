@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "engine/engine.hpp"
+#include "view/vtk.hpp"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,9 @@ std::string engine_line() {
 }  // namespace
 
 std::string version_text() {
-    return fmt::format("vibrotrough {} ({})\ncompiler   {}\nlibraries  {}\nengine     {}",
+    return fmt::format("vibrotrough {} ({})\ncompiler   {}\nlibraries  {}, {}\nengine     {}",
                        core::program_version(), core::program_commit(), build_compiler, build_libraries,
-                       engine_line());
+                       view::vtk_name(), engine_line());
 }
 
 }  // namespace vibrotrough::app

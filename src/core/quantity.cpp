@@ -5,9 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <regex>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,10 +30,21 @@ struct FreeConverter {
 };
 using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 
+/// The database of units that a release archive has beside the program; empty when there is none, or when the
+/// user names another one (UDUNITS2_XML_PATH), so that udunits2 looks for its own.
+std::string bundled_units() {
+    if (std::getenv("UDUNITS2_XML_PATH") != nullptr) return "";
+    std::error_code failure;
+    auto const program = std::filesystem::read_symlink("/proc/self/exe", failure);
+    auto const units = program.parent_path().parent_path() / VIBROTROUGH_UNITS;
+    return std::filesystem::is_regular_file(units, failure) ? units.string() : "";
+}
+
 ut_system* unit_system() {
     static std::unique_ptr<ut_system, FreeSystem> const system = [] {
         ut_set_error_message_handler(ut_ignore);  // the messages of QuantityError replace those of udunits2
-        std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(nullptr));
+        std::string const bundled = bundled_units();
+        std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(bundled.empty() ? nullptr : bundled.c_str()));
         if (read) {
             // The database has "degree" and "arc_degree" but not the abbreviation that engineers write.
             std::unique_ptr<ut_unit, FreeUnit> const degree(ut_get_unit_by_name(read.get(), "arc_degree"));
@@ -40,7 +54,8 @@ ut_system* unit_system() {
     }();
     if (!system)
         throw QuantityError(
-            "the unit database of udunits2 cannot be read; install the package libudunits2-data");
+            "the unit database of udunits2 cannot be read; install the package libudunits2-data, or set "
+            "UDUNITS2_XML_PATH to the path of udunits2.xml");
     return system.get();
 }
 

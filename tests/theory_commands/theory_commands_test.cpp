@@ -56,8 +56,9 @@ TEST_F(TheoryFiles, MapWritesItsFiles) {
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     EXPECT_NE(answer.text.find("microseconds of CPU per solution"), std::string::npos);
     EXPECT_TRUE(fs::exists(path("map.h5")));
-    EXPECT_TRUE(fs::exists(path("map.vti")));
-    EXPECT_TRUE(fs::exists(path("map_modes.vtp")));
+    bool const has_vtk = run_program("--version").text.find("no VTK") == std::string::npos;
+    EXPECT_EQ(fs::exists(path("map.vti")), has_vtk);
+    EXPECT_EQ(fs::exists(path("map_modes.vtp")), has_vtk);
 }
 
 TEST_F(TheoryFiles, MapRefusesWrongInput) {

@@ -41,6 +41,8 @@ def check_map(program, folder, schema):
         assert abs(file["velocity_efficiency"][3, 2] - point["velocity_efficiency"]) < 1e-8
         assert file["modes"].asstr()[file["mode"][3, 2]] == point["mode"]
         assert file["fixed/friction"][()] == 0.35
+    if "no VTK" in subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout:
+        return
     image = (folder / "map.vti").read_text()
     assert 'type="ImageData"' in image and 'format="binary"' in image and "appended" not in image
     assert re.search(r'WholeExtent="0 5 0 4 0 0"', image)

@@ -13,6 +13,7 @@
 #include "view/frames.hpp"
 #include "view/scene.hpp"
 #include "view/table_vtk.hpp"
+#include "view/vtk.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -107,6 +108,7 @@ int export_case(campaign::PlannedCase const& planned, view::Colour colour) {
 }
 
 int run_export(ExportArguments const& options) {
+    view::require_vtk();
     campaign::Plan const plan = campaign::open_plan(options.folder);
     if (options.table) {
         print_table(plan);
@@ -144,8 +146,9 @@ int run_export(ExportArguments const& options) {
 
 void add_export(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<ExportArguments>();
-    CLI::App* const command =
-        program.add_subcommand("export", "Write the frames and the table of a campaign for ParaView");
+    CLI::App* const command = program.add_subcommand(
+        "export", std::string("Write the frames and the table of a campaign for ParaView") +
+                      (view::has_vtk() ? "" : " (not in this program, which was built without VTK)"));
     add_campaign_folder(*command, options->folder);
     command->add_option("--case", options->id, "Only this case; default: all cases with frames")
         ->type_name("ID");
@@ -159,6 +162,7 @@ void add_export(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({"velocity", "spin", "height", "trough"}))
         ->type_name("NAME");
     command->footer(
+        view::vtk_help() +
         R"(Frames are snapshots of the grains. They are written while the first packing of each case is
 simulated if the campaign file asks for them with frames_per_cycle under [output], or while those packings are that
 frame_packings names. Those of the first packing are exported into the folder 'frames' of the case, those of packing 2

@@ -3,10 +3,12 @@
 #include "app/commands.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "store/theory_map.hpp"
 #include "view/theory_map_vtk.hpp"
+#include "view/vtk.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -59,6 +61,22 @@ void refuse_given_axis(theory::Inputs const& fixed, theory::MapAxis const& axis)
     throw core::InputError(fmt::format("{} is both an axis and an option; leave the option out", name));
 }
 
+/// Names the files that were written, and says it when those for ParaView were not.
+void print_written(std::filesystem::path const& output, std::filesystem::path const& image,
+                   std::filesystem::path const& lines) {
+    fmt::print("written: {}\n", core::harmless(output.string()));
+    if (view::has_vtk()) {
+        fmt::print("         {}\n         {}\n", core::harmless(image.string()),
+                   core::harmless(lines.string()));
+    } else {
+        tell(
+            "warning: {} and {} for ParaView are not written, because this program was built without VTK; "
+            "run "
+            "this command with a program that was built with VTK (cmake -DVIBROTROUGH_VIEW=ON)\n",
+            core::harmless(image.string()), core::harmless(lines.string()));
+    }
+}
+
 void run_theory_map(TheoryMapArguments const& options) {
     theory::MapAxis const x = read_axis("--x", required("--x", options.x, axis_example));
     theory::MapAxis const y = read_axis("--y", required("--y", options.y, "vibration_angle_deg=5:60:500"));
@@ -80,7 +98,9 @@ void run_theory_map(TheoryMapArguments const& options) {
     std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     theory::Map map;
     // Compressing the image takes as long as finding the lines.
-    auto const write_image = [&](theory::Map const& points) { view::write_theory_image(image, points); };
+    auto const write_image = [&](theory::Map const& points) {
+        if (view::has_vtk()) view::write_theory_image(image, points);
+    };
     try {
         // The image of a rolling layer is written when what was not tested has been removed from it.
         map = law ? theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law})
@@ -95,12 +115,11 @@ void run_theory_map(TheoryMapArguments const& options) {
         write_image(map);
     }
     store::write_theory_map(output, map, fixed);
-    view::write_theory_boundaries(lines, map);
+    if (view::has_vtk()) view::write_theory_boundaries(lines, map);
     fmt::print("{} points, {} modes, {} pieces of lines between modes\n", map.points.size(),
                theory::count_modes(map), map.boundaries.size());
     fmt::print("{:.3f} microseconds of CPU per solution\n", 1e6 * map.cpu_seconds_per_solution);
-    fmt::print("written: {}\n         {}\n         {}\n", core::harmless(output.string()),
-               core::harmless(image.string()), core::harmless(lines.string()));
+    print_written(output, image, lines);
 }
 
 }  // namespace
@@ -119,6 +138,7 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
     command->footer(
+        view::vtk_help() +
         std::string(
             R"(Writes the velocity efficiency and the mode at each point of the grid, and the lines between modes. The
 inputs that are not axes are given as options.
