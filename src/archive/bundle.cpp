@@ -152,7 +152,7 @@ struct Making {
     }
 };
 
-/// archive.json. Cases that ended without a result are named, because what an executor such as Slurm knows of
+/// archive.json. Cases that ended without a result are named, because what the scheduler of a cluster knows of
 /// them is not in a file of the case.
 std::string archive_facts(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases,
                           Making const& making) {

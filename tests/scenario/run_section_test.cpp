@@ -81,7 +81,7 @@ TEST(RunSection, OptionsThatDoMoreThanAskAreRefused) {
 
 TEST(RunSection, MistakesNameTheirPlace) {
     for (auto const& [section, part] : std::vector<std::pair<std::string, std::string>>{
-             {"[run]\nexecutor = \"cloud\"\n", "local or slurm"},
+             {"[run]\nexecutor = \"cloud\"\n", "local, slurm or pbs"},
              {"[run]\nexecutor = 3\n", "is not a text"},
              {"[run]\nretry = 3\n", "executor, retries, ranks, time_limit"},
              {"[run.slurm]\nqueue = \"a\"\n",

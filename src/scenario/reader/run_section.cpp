@@ -16,8 +16,8 @@ namespace {
 using enum KeyNeed;
 
 constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm"},
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local, slurm or pbs", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm or of PBS"},
     Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
         "how often a packing is run again after an outcome for which the table of outcomes allows it"},
     Key{"run.ranks", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "2",
@@ -45,12 +45,27 @@ constexpr std::array keys_of_run{
         "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
         "unless "
         "--allow-setup is given, since they can do anything"},
+    Key{"run.pbs.queue", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", optional,
+        "\"workq\"", "queue; like all keys of this section, PBS's default if not given"},
+    Key{"run.pbs.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        optional, "\"granular\"", "account to which the computing time is charged"},
+    Key{"run.pbs.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional, "\"12 hours\"",
+        "as run.slurm.time"},
+    Key{"run.pbs.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
+        "as run.slurm.memory"},
+    Key{"run.pbs.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
+        "as run.slurm.concurrent_tasks"},
+    Key{"run.pbs.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
+        "as run.slurm.minutes_per_task"},
+    Key{"run.pbs.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
+        "[\"-lplace=excl\", \"-Pgranular\"]", "further options of qsub, each with its value in one word"},
+    Key{"run.pbs.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional, "[\"module load openmpi\"]",
+        "as run.slurm.setup"},
 };
 
 /// Schedulers that users know, for which there is no executor.
 bool is_other_scheduler(std::string_view name) {
-    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
-                                                     "htcondor", "flux",   "parallel"};
+    constexpr std::array<std::string_view, 6> others{"torque", "lsf", "sge", "htcondor", "flux", "parallel"};
     return std::ranges::find(others, name) != others.end();
 }
 
@@ -77,8 +92,11 @@ class RunSection {
 
     RunSettings read(toml::table const& section) {
         for (auto const& [name, node] : section) {
-            if (name.str() == "slurm" && node.is_table()) {
-                for (auto const& [key, value] : *node.as_table()) read_entry("run.slurm.", key, value);
+            std::string const subsection = fmt::format("run.{}.", name.str());
+            bool const has_keys = std::ranges::any_of(
+                keys_of_run, [&](Key const& key) { return key.path.starts_with(subsection); });
+            if (has_keys && node.is_table()) {
+                for (auto const& [key, value] : *node.as_table()) read_entry(subsection, key, value);
             } else {
                 read_entry("run.", name, node);
             }
@@ -129,15 +147,16 @@ class RunSection {
                     "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
                     "(src/campaign/README.md)");
             }
-            if (given != "local" && given != "slurm") refuse();
+            auto const known = choices(key);
+            if (std::ranges::find(known, given) == known.end()) refuse();
             settings_.executor = given;
         } else if (name == "memory") {
-            settings_.slurm.memory = parse_memory(given);
-            if (!settings_.slurm.memory) refuse();
+            batch_of(key).memory = parse_memory(given);
+            if (!batch_of(key).memory) refuse();
         } else {
             auto const plain = PlainName::from(given);
             if (!plain) refuse();
-            (name == "partition" ? settings_.slurm.partition : settings_.slurm.account) = plain;
+            (name == "account" ? batch_of(key).account : batch_of(key).partition) = plain;
         }
     }
 
@@ -151,13 +170,14 @@ class RunSection {
             if (last_name(key.path) == "setup") {
                 bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
                 if (!is_line) refuse(text, "a line has 1 to 500 printable characters");
-                settings_.slurm.setup.push_back(text);
+                batch_of(key).setup.push_back(text);
             } else {
-                auto const option = SlurmOption::from(text);
+                bool const is_slurm = key.path.starts_with("run.slurm.");
+                auto const option = is_slurm ? SlurmOption::from(text) : PbsOption::from(text);
                 if (!option)
                     refuse(text, fmt::format("allowed are {} with a value that has no space, quote or slash",
-                                             SlurmOption::names()));
-                settings_.slurm.extra.push_back(*option);
+                                             is_slurm ? SlurmOption::names() : PbsOption::names()));
+                batch_of(key).extra.push_back(*option);
             }
         }
     }
@@ -168,9 +188,15 @@ class RunSection {
         if (key.path == "run.retries") settings_.retries = whole;
         if (key.path == "run.ranks") settings_.ranks = whole;
         if (key.path == "run.time_limit") settings_.time_limit = value;
-        if (key.path == "run.slurm.time") settings_.slurm.minutes = static_cast<int>(std::ceil(value / 60));
-        if (key.path == "run.slurm.concurrent_tasks") settings_.slurm.concurrent_tasks = whole;
-        if (key.path == "run.slurm.minutes_per_task") settings_.slurm.minutes_per_task = whole;
+        std::string_view const name = last_name(key.path);
+        if (name == "time") batch_of(key).minutes = static_cast<int>(std::ceil(value / 60));
+        if (name == "concurrent_tasks") batch_of(key).concurrent_tasks = whole;
+        if (name == "minutes_per_task") batch_of(key).minutes_per_task = whole;
+    }
+
+    /// What a key of a scheduler's section is about.
+    BatchSettings& batch_of(Key const& key) {
+        return key.path.starts_with("run.slurm.") ? settings_.slurm : settings_.pbs;
     }
 
     std::string const& file_;

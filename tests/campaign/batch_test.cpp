@@ -1,4 +1,4 @@
-#include "campaign/execute/slurm_batch.hpp"
+#include "campaign/execute/batch.hpp"
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -25,16 +25,16 @@ class BatchTest : public testing::Test {
 };
 
 TEST_F(BatchTest, ComesBackAsWritten) {
-    Batch batch = write_batch(folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
-    write_batch(folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, false, {}});
-    auto read = read_batches(folder);
+    Batch batch = write_batch(slurm, folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
+    write_batch(slurm, folder, {tasks[2]}, {"/usr/bin/true", 1, {}, 0, false, {}});
+    auto read = read_batches(slurm, folder);
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].tasks, tasks);
     EXPECT_EQ(read[0].name, batch.name);
     EXPECT_NE(read[0].name, read[1].name);
     EXPECT_FALSE(read[0].job);
     remember_job(batch, 4711);
-    EXPECT_EQ(read_batches(folder)[0].job, 4711);
+    EXPECT_EQ(read_batches(slurm, folder)[0].job, 4711);
     for (std::size_t i = 0; i < tasks.size(); ++i)
         EXPECT_EQ(read_task(batch.folder / "tasks.txt", static_cast<int>(i)), tasks[i]);
     EXPECT_THROW(read_task(batch.folder / "tasks.txt", 3), core::InputError);
@@ -58,7 +58,7 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
     fs::path const program = odd / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\nprintf '%s\\n' \"$@\" > arguments\nexit 5\n";
     fs::permissions(program, fs::perms::owner_all);
-    Batch const batch = write_batch(folder, tasks, {program, 2, 90.0, 3, true, {}});
+    Batch const batch = write_batch(slurm, folder, tasks, {program, 2, 90.0, 3, true, {}});
     std::string const command = fmt::format(
         "cd '{}' && SLURM_ARRAY_TASK_ID=1 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
     int const status = std::system(command.c_str());

@@ -1,6 +1,6 @@
-#include "campaign/execute/slurm_executor.hpp"
+#include "campaign/execute/batch_executor.hpp"
 
-#include "campaign/execute/slurm_batch.hpp"
+#include "campaign/execute/batch.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/case_state.hpp"
 #include "core/error.hpp"
@@ -21,15 +21,16 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-class SlurmExecutor : public Executor {
+class BatchExecutor : public Executor {
   public:
-    explicit SlurmExecutor(ExecutorInputs const& inputs) : inputs_(inputs) {}
+    BatchExecutor(Scheduler const& scheduler, ExecutorInputs const& inputs)
+        : scheduler_(scheduler), inputs_(inputs), asked_(inputs_.settings.batch(scheduler.name)) {}
 
     std::vector<PackingActivity> given_before() override {
-        remove_remains_of_batches(inputs_.campaign_folder);
-        std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
-        remember_lost_tasks(batches);
-        return survey_tasks(batches);
+        remove_remains_of_batches(scheduler_, inputs_.campaign_folder);
+        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
+        remember_lost_tasks(scheduler_, batches);
+        return survey_packings(scheduler_, batches);
     }
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
@@ -41,7 +42,6 @@ class SlurmExecutor : public Executor {
         std::ranges::move(
             make_tasks(orders, {inputs_.task_duration, inputs_.speed, inputs_.settings.ranks.value_or(1)}),
             std::back_inserter(backlog_));
-        if (most_ == 0) most_ = next_size_ = static_cast<std::size_t>(slurm::most_array_tasks());
         std::vector<long> const jobs = submit_backlog();
         return jobs.empty() ? std::string() : fmt::format("job {}", fmt::join(jobs, ", "));
     }
@@ -54,20 +54,33 @@ class SlurmExecutor : public Executor {
 
     void adopt(PackingOrder const& order) override { held_[order.id()] = order.planned; }
 
-    /// What Slurm has it keeps.
     void withdraw(PlannedCase const& planned) override {
-        for (Task& task : backlog_)
-            std::erase_if(task, [&](PackingId const& id) { return id.case_id == planned.id; });
+        auto const is_of_case = [&](PackingId const& id) { return id.case_id == planned.id; };
+        for (Task& task : backlog_) std::erase_if(task, is_of_case);
         std::erase_if(backlog_, [](Task const& task) { return task.empty(); });
+        if (!std::ranges::any_of(held_, [&](auto const& held) { return is_of_case(held.first); })) return;
+        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
+        auto const activities = survey_tasks(scheduler_, batches);
+        for (std::size_t i = 0; i < batches.size(); ++i) {
+            std::vector<int> waiting;
+            for (std::size_t k = 0; k < activities[i].size(); ++k) {
+                Task const& task = batches[i].tasks[k];
+                if (activities[i][k].state != PackingActivity::waiting) continue;
+                if (!std::ranges::all_of(task, is_of_case)) continue;
+                waiting.push_back(static_cast<int>(k));
+                for (PackingId const& id : task) held_.erase(id);
+            }
+            if (!waiting.empty()) scheduler_.cancel(submitted(batches[i]), waiting);
+        }
     }
 
     std::vector<EndedPacking> wait() override {
         std::this_thread::sleep_for(250ms);
         std::vector<EndedPacking> ended;
         if (Clock::now() < next_survey_) return ended;
-        std::vector<Batch> batches = read_batches(inputs_.campaign_folder);
+        std::vector<Batch> batches = read_batches(scheduler_, inputs_.campaign_folder);
         std::map<PackingId, PackingActivity> now;
-        for (PackingActivity& one : survey_tasks(batches)) now.emplace(one.id, std::move(one));
+        for (PackingActivity& one : survey_packings(scheduler_, batches)) now.emplace(one.id, std::move(one));
         for (auto held = held_.begin(); held != held_.end();) {
             auto const found = now.find(held->first);
             bool const has_ended = found != now.end() && found->second.state == PackingActivity::ended;
@@ -85,32 +98,36 @@ class SlurmExecutor : public Executor {
     bool outlives_driver() const override { return true; }
 
   private:
-    /// What the task itself may use of Slurm's time, so that it can still write its exit marker.
+    /// What the task itself may use of the scheduler's time, so that it can still write its exit marker.
     std::optional<double> time_limit() const {
         std::optional<double> limit = inputs_.settings.time_limit;
-        if (inputs_.settings.slurm.minutes) {
-            double const slurm = *inputs_.settings.slurm.minutes * 60.0;
-            double const own = slurm - std::min(60.0, slurm / 4);
+        if (asked_.minutes) {
+            double const whole = *asked_.minutes * 60.0;
+            double const own = whole - std::min(60.0, whole / 4);
             limit = std::min(limit.value_or(own), own);
         }
         return limit;
     }
 
-    /// Gives Slurm as many tasks as it takes now: arrays no longer than MaxArraySize allows, and shorter ones
-    /// while it has no room for them.
+    /// Gives the scheduler as many tasks as it takes now: arrays no longer than the site allows, and shorter
+    /// ones while there is no room for them.
     std::vector<long> submit_backlog() {
         std::vector<long> jobs;
         while (!backlog_.empty()) {
             std::size_t const size = std::min({next_size_, most_, backlog_.size()});
             std::vector<Task> const part(backlog_.begin(),
                                          backlog_.begin() + static_cast<std::ptrdiff_t>(size));
-            if (auto const job = submit_array(part)) {
-                jobs.push_back(*job);
+            Submission const made = submit_array(part);
+            if (made.job) {
+                jobs.push_back(*made.job);
                 for (Task const& task : part) {
                     for (PackingId const& id : task) held_[id] = cases_.at(id);
                 }
                 backlog_.erase(backlog_.begin(), backlog_.begin() + static_cast<std::ptrdiff_t>(size));
                 next_size_ = std::min(most_, 2 * next_size_);
+            } else if (size > 1 && made.most_tasks) {
+                most_ = next_size_ =
+                    std::clamp<std::size_t>(static_cast<std::size_t>(*made.most_tasks), 1, size - 1);
             } else if (size > 1) {
                 next_size_ = size / 2;
             } else {
@@ -121,40 +138,46 @@ class SlurmExecutor : public Executor {
         return jobs;
     }
 
-    /// @return none when Slurm has no room for so many tasks now
-    std::optional<long> submit_array(std::vector<Task> const& tasks) {
+    Submission submit_array(std::vector<Task> const& tasks) {
         scenario::RunSettings const& settings = inputs_.settings;
         JobScript const script{inputs_.program,  settings.ranks.value_or(1),     time_limit(),
-                               settings.retries, inputs_.foreign_commands.any(), settings.slurm.setup};
-        Batch batch = write_batch(inputs_.campaign_folder, tasks, script);
-        std::string const below = "slurm/" + batch.folder.filename().string();
-        slurm::Array const array{
-            inputs_.campaign_folder,        below + "/job.sh", below + "/task-%a.out", batch.name,
-            static_cast<int>(tasks.size()), script.ranks,      of_largest(tasks)};
-        std::optional<long> job;
+                               settings.retries, inputs_.foreign_commands.any(), asked_.setup};
+        Batch batch = write_batch(scheduler_, inputs_.campaign_folder, tasks, script);
+        JobArray const array{std::filesystem::absolute(inputs_.campaign_folder),
+                             fmt::format("{}/{}", scheduler_.name, batch.folder.filename().string()),
+                             batch.name,
+                             static_cast<int>(tasks.size()),
+                             script.ranks,
+                             of_largest(tasks)};
+        Submission made;
         try {
-            if (slurm::check(array)) job = slurm::submit(array);
+            made = scheduler_.submit(array);
         } catch (core::MissingError const&) {
-            core::remove_tree(batch.folder);  // what Slurm refuses leaves nothing behind
+            core::remove_tree(batch.folder);  // what is refused leaves nothing behind
             throw;
         }
-        if (job) {
-            remember_job(batch, *job);
+        if (made.job) {
+            remember_job(batch, *made.job);
         } else {
             core::remove_tree(batch.folder);
         }
-        return job;
+        return made;
     }
 
-    /// What is asked of Slurm: run.slurm.time is the time of one packing.
-    scenario::SlurmSettings of_largest(std::vector<Task> const& tasks) const {
-        scenario::SlurmSettings settings = inputs_.settings.slurm;
+    static SubmittedArray submitted(Batch const& batch) {
+        return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
+    }
+
+    /// What is asked of the scheduler: the key time is the time of one packing.
+    scenario::BatchSettings of_largest(std::vector<Task> const& tasks) const {
+        scenario::BatchSettings settings = asked_;
         std::size_t const most = std::ranges::max(tasks, {}, &Task::size).size();
         if (settings.minutes) *settings.minutes *= static_cast<int>(most);
         return settings;
     }
 
-    /// The packing's marker counts most, then the failure that the task recorded, then Slurm's report.
+    /// The packing's marker counts most, then the failure that the task recorded, then the scheduler's
+    /// report.
     static EndedPacking end_of(PlannedCase const& planned, PackingActivity const& activity) {
         EndedPacking ended{activity.id, {}, {}};
         if (evaluate::read_marker(planned.packing_folder(activity.id.packing))) return ended;
@@ -166,12 +189,16 @@ class SlurmExecutor : public Executor {
         return ended;
     }
 
+    static constexpr std::size_t largest_array = 100'000;
+
+    Scheduler const& scheduler_;
     ExecutorInputs inputs_;
+    scenario::BatchSettings const& asked_;           ///< in inputs_
     std::map<PackingId, PlannedCase const*> held_;   ///< submitted by this process, not seen to end
     std::map<PackingId, PlannedCase const*> cases_;  ///< of all packings that this process was given
-    std::deque<Task> backlog_;                       ///< tasks for which Slurm had no room yet
-    std::size_t most_ = 0;                           ///< tasks of an array; 0 before Slurm was asked
-    std::size_t next_size_ = 0;                      ///< tasks of the next array, as far as there is room
+    std::deque<Task> backlog_;                       ///< tasks for which there was no room yet
+    std::size_t most_ = largest_array;               ///< tasks of an array, as far as it is known
+    std::size_t next_size_ = largest_array;          ///< tasks of the next array, as far as there is room
     Clock::time_point next_survey_ = Clock::now();
     Clock::time_point next_attempt_ = Clock::now();  ///< to submit the backlog
     bool is_interrupted_ = false;
@@ -179,13 +206,14 @@ class SlurmExecutor : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_slurm_executor(ExecutorInputs const& inputs) {
-    return std::make_unique<SlurmExecutor>(inputs);
+std::unique_ptr<Executor> make_batch_executor(Scheduler const& scheduler, ExecutorInputs const& inputs) {
+    return std::make_unique<BatchExecutor>(scheduler, inputs);
 }
 
-std::vector<PackingActivity> slurm_activity(std::filesystem::path const& campaign_folder) {
-    std::vector<Batch> batches = read_batches(campaign_folder);
-    return survey_tasks(batches);
+std::vector<PackingActivity> batch_activity(Scheduler const& scheduler,
+                                            std::filesystem::path const& campaign_folder) {
+    std::vector<Batch> batches = read_batches(scheduler, campaign_folder);
+    return survey_packings(scheduler, batches);
 }
 
 }  // namespace vibrotrough::campaign
