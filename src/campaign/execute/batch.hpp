@@ -12,7 +12,7 @@
 
 namespace vibrotrough::campaign {
 
-/// One job array as its folder DIR/<name of the scheduler>/NUMBER holds it:
+/// One job array as its folder DIR/SCHEDULER/NUMBER holds it:
 ///   tasks.txt           a line per task, the index from 0: "<case id> <packing>" for each of its packings
 ///   job.sh              what every task runs
 ///   batch.json          the job's name, written before it is submitted, and its id, written afterwards
@@ -22,7 +22,7 @@ namespace vibrotrough::campaign {
 ///                       marker
 ///   task-INDEX.out      what the task printed
 struct Batch {
-    std::filesystem::path folder;  ///< DIR/<name of the scheduler>/NUMBER
+    std::filesystem::path folder;  ///< DIR/SCHEDULER/NUMBER
     std::string name;              ///< the job's name
     std::optional<long> job;       ///< the job's id; none before it was submitted
     std::vector<Task> tasks;       ///< by index
