@@ -71,5 +71,23 @@ TEST_F(BatchTest, TheScriptRunsTheProgramAndSaysHowFarItCame) {
     EXPECT_FALSE(fs::exists(folder / "hacked"));
 }
 
+// Two engines at once: the program is started twice on the same task, and the worst of its exit codes counts,
+// also when a signal to the script's shell comes in between.
+TEST_F(BatchTest, TheScriptRunsSeveralEnginesAndWaitsForAll) {
+    fs::path const program = folder / "vibrotrough";
+    std::ofstream(program)
+        << "#!/bin/sh\n"
+           "mkdir first 2>/dev/null || { kill -TERM $PPID; sleep 0.5; echo late >> ended; exit 0; }\n"
+           "echo early >> ended; exit 3\n";
+    fs::permissions(program, fs::perms::owner_all);
+    Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 2});
+    std::string const command = fmt::format(
+        "cd '{}' && SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh", folder.string());
+    int const status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_EQ(core::read_file(folder / "ended"), "early\nlate\n");
+    EXPECT_EQ(core::read_file(batch.folder / "task-0.ended"), "3\n");
+}
+
 }  // namespace
 }  // namespace vibrotrough::campaign

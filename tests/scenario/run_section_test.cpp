@@ -43,7 +43,8 @@ TEST(RunSection, ReadsAllItsKeys) {
 TEST(RunSection, EachSchedulerHasItsOwnSection) {
     scenario::RunSettings const settings = parse(
         "[run]\nexecutor = \"pbs\"\n[run.pbs]\nqueue = \"workq\"\naccount = \"a\"\ntime = \"2 hours\"\n"
-        "memory = \"2 GB\"\nconcurrent_tasks = 7\nminutes_per_task = 30\nextra = [\"-lplace=excl\"]\n"
+        "memory = \"2 GB\"\nconcurrent_tasks = 7\nminutes_per_task = 30\ncores_per_task = 64\nextra = "
+        "[\"-lplace=excl\"]\n"
         "setup = [\"module load openmpi\"]\n[run.slurm]\npartition = \"compute\"\n");
     EXPECT_EQ(settings.executor, "pbs");
     scenario::BatchSettings const& pbs = settings.batch(settings.executor);
@@ -53,6 +54,7 @@ TEST(RunSection, EachSchedulerHasItsOwnSection) {
     EXPECT_EQ(pbs.memory, 2048);
     EXPECT_EQ(pbs.concurrent_tasks, 7);
     EXPECT_EQ(pbs.minutes_per_task, 30);
+    EXPECT_EQ(pbs.cores_per_task, 64);
     ASSERT_EQ(pbs.extra.size(), 1u);
     EXPECT_EQ(pbs.extra[0].str(), "-lplace=excl");
     EXPECT_EQ(pbs.setup, std::vector<std::string>{"module load openmpi"});

@@ -53,17 +53,34 @@ std::string setup_lines(Scheduler const& scheduler, std::vector<std::string> con
     return text;
 }
 
+/// Runs `work` as often as engines are to run at the same time. All go through the same list: the lock of a
+/// packing, which only one process gets, says who takes it, and whoever is done takes the next. `wait` ends
+/// early when a signal comes.
+std::string work_lines(std::string const& work, int engines) {
+    if (engines == 1) return work + "\ncode=$?\n";
+    return fmt::format(
+        "code=0\n"
+        "set --\n"
+        "while [ $# -lt {} ]; do {} & set -- \"$@\" $!; done\n"
+        "for process; do\n"
+        "    while wait \"$process\"; one=$?; kill -0 \"$process\" 2>/dev/null; do :; done\n"
+        "    [ \"$one\" -le \"$code\" ] || code=$one\n"
+        "done\n",
+        engines, work);
+}
+
 /// Only numbers, paths of this machine as words of the shell, and the scheduler's own variables enter the
 /// script; and the lines of the key setup, which the user has allowed.
 std::string job_script(Scheduler const& scheduler, Batch const& batch, JobScript const& job) {
     std::string options = fmt::format("--ranks {} --retries {}", job.ranks, job.retries);
     if (job.allow_extra) options += " --allow-extra";
     if (job.time_limit) options += fmt::format(" --time-limit {:.0f}", *job.time_limit);
+    std::string const files = fmt::format("{}/{}", scheduler.name, batch.folder.filename().string());
+    std::string const work = fmt::format("{} work . --task-list {}/tasks.txt --index \"$index\" {}",
+                                         core::shell_word(job.program), files, options);
     return fmt::format(
         "{first}\n"
-        "# A task of a job array of {title}: packings of a campaign, one after the other. Made by "
-        "vibrotrough "
-        "run.\n"
+        "# A task of a job array of {title}: packings of a campaign. Made by vibrotrough run.\n"
         "# The files task-* say how far it came.\n"
         "trap : TERM INT\n"
         "cd {folder} || exit 3\n"
@@ -73,17 +90,15 @@ std::string job_script(Scheduler const& scheduler, Batch const& batch, JobScript
         "[ -f {files}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
         "mark \"task-$index.started\" \"$(uname -n) {job}\"\n"
         "{setup}"
-        "{program} work . --task-list {files}/tasks.txt --index \"$index\" {options}\n"
-        "code=$?\n"
+        "{work}"
         "mark \"task-$index.ended\" \"$code\"\n"
         "exit \"$code\"\n",
         fmt::arg("first", job.setup.empty() ? "#!/bin/sh" : "#!/bin/bash -l"),
         fmt::arg("title", scheduler.title),
         fmt::arg("folder", core::shell_word(batch.folder.parent_path().parent_path())),
-        fmt::arg("index", scheduler.task_index), fmt::arg("job", scheduler.job_id),
-        fmt::arg("files", fmt::format("{}/{}", scheduler.name, batch.folder.filename().string())),
+        fmt::arg("index", scheduler.task_index), fmt::arg("job", scheduler.job_id), fmt::arg("files", files),
         fmt::arg("setup", setup_lines(scheduler, job.setup)),
-        fmt::arg("program", core::shell_word(job.program)), fmt::arg("options", options));
+        fmt::arg("work", work_lines(work, job.engines)));
 }
 
 void write_description(Batch const& batch) {

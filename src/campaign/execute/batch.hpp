@@ -43,6 +43,7 @@ struct JobScript {
     int retries;                       ///< of a packing, after a failure that may not happen again
     bool allow_extra;                  ///< the engine may run the commands of the campaign's files
     std::vector<std::string> setup;    ///< lines of bash that run first
+    int engines = 1;                   ///< that run at the same time
 };
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.

@@ -39,9 +39,8 @@ class BatchExecutor : public Executor {
             write_case_files(*order.planned);
             cases_[order.id()] = order.planned;
         }
-        std::ranges::move(
-            make_tasks(orders, {inputs_.task_duration, inputs_.speed, inputs_.settings.ranks.value_or(1)}),
-            std::back_inserter(backlog_));
+        std::ranges::move(make_tasks(orders, {inputs_.task_duration, inputs_.speed, ranks(), engines()}),
+                          std::back_inserter(backlog_));
         std::vector<long> const jobs = submit_backlog();
         return jobs.empty() ? std::string() : fmt::format("job {}", fmt::join(jobs, ", "));
     }
@@ -139,15 +138,15 @@ class BatchExecutor : public Executor {
     }
 
     Submission submit_array(std::vector<Task> const& tasks) {
-        scenario::RunSettings const& settings = inputs_.settings;
-        JobScript const script{inputs_.program,  settings.ranks.value_or(1),     time_limit(),
-                               settings.retries, inputs_.foreign_commands.any(), asked_.setup};
+        JobScript const script{
+            inputs_.program, ranks(),  time_limit(), inputs_.settings.retries, inputs_.foreign_commands.any(),
+            asked_.setup,    engines()};
         Batch batch = write_batch(scheduler_, inputs_.campaign_folder, tasks, script);
         JobArray const array{std::filesystem::absolute(inputs_.campaign_folder),
                              fmt::format("{}/{}", scheduler_.name, batch.folder.filename().string()),
                              batch.name,
                              static_cast<int>(tasks.size()),
-                             script.ranks,
+                             std::max(ranks(), asked_.cores_per_task.value_or(1)),
                              of_largest(tasks)};
         Submission made;
         try {
@@ -168,11 +167,17 @@ class BatchExecutor : public Executor {
         return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
     }
 
-    /// What is asked of the scheduler: the key time is the time of one packing.
+    int ranks() const { return inputs_.settings.ranks.value_or(1); }
+
+    /// That a task runs at the same time.
+    int engines() const { return std::max(1, asked_.cores_per_task.value_or(1) / ranks()); }
+
+    /// What is asked of the scheduler: the keys time and memory are those of one packing.
     scenario::BatchSettings of_largest(std::vector<Task> const& tasks) const {
         scenario::BatchSettings settings = asked_;
-        std::size_t const most = std::ranges::max(tasks, {}, &Task::size).size();
-        if (settings.minutes) *settings.minutes *= static_cast<int>(most);
+        int const most = static_cast<int>(std::ranges::max(tasks, {}, &Task::size).size());
+        if (settings.minutes) *settings.minutes *= (most + engines() - 1) / engines();
+        if (settings.memory) *settings.memory *= engines();
         return settings;
     }
 

@@ -108,7 +108,7 @@ std::vector<std::string> submission(JobArray const& array) {
     if (array.tasks > 1) words.insert(words.end(), {"-J", fmt::format("0-{}", array.tasks - 1)});
     if (array.tasks > 1 && asked.concurrent_tasks)
         words.insert(words.end(), {"-W", fmt::format("max_run_subjobs={}", *asked.concurrent_tasks)});
-    std::string chunk = fmt::format("select=1:ncpus={0}:mpiprocs={0}", array.ranks);
+    std::string chunk = fmt::format("select=1:ncpus={0}:mpiprocs={0}", array.cores);
     if (asked.memory) chunk += fmt::format(":mem={}mb", *asked.memory);
     words.insert(words.end(), {"-l", chunk});
     if (asked.minutes)

@@ -20,7 +20,7 @@ struct JobArray {
     std::string files;                 ///< folder of the batch, below `folder`
     std::string name;                  ///< of the job, unique
     int tasks;                         ///< indices 0 ... tasks - 1
-    int ranks;                         ///< MPI ranks of each engine
+    int cores;                         ///< of each task, each for one MPI rank of an engine
     scenario::BatchSettings settings;  ///< what is asked of the scheduler for every task
 };
 

@@ -85,7 +85,7 @@ std::vector<std::string> submission(JobArray const& array) {
     words.push_back("--job-name=" + array.name);
     words.push_back("--chdir=" + array.folder.string());
     words.push_back(fmt::format("--output={}/task-%a.out", array.files));
-    words.insert(words.end(), {"--nodes=1", fmt::format("--ntasks={}", array.ranks), "--cpus-per-task=1"});
+    words.insert(words.end(), {"--nodes=1", fmt::format("--ntasks={}", array.cores), "--cpus-per-task=1"});
     if (asked.partition) words.push_back("--partition=" + asked.partition->str());
     if (asked.account) words.push_back("--account=" + asked.account->str());
     if (asked.minutes) words.push_back(fmt::format("--time={}", *asked.minutes));

@@ -66,6 +66,7 @@ struct BatchSettings {
     std::optional<int>
         concurrent_tasks;  ///< largest number of packings of one array that run at the same time
     std::optional<int> minutes_per_task;  ///< that a task should take; none: one packing per task
+    std::optional<int> cores_per_task;    ///< that a task keeps busy; none: those of one engine
     std::vector<BatchOption> extra;       ///< further options of the command that submits
     std::vector<std::string>
         setup;  ///< lines of the shell that a task runs first; run only when the user allows it

@@ -45,6 +45,10 @@ constexpr std::array keys_of_run{
         "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
         "unless "
         "--allow-setup is given, since they can do anything"},
+    Key{"run.slurm.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
+        "cores of a task, which it keeps busy with as many packings as have room at once; those of one "
+        "engine if "
+        "not given"},
     Key{"run.pbs.queue", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", optional,
         "\"workq\"", "queue; like all keys of this section, PBS's default if not given"},
     Key{"run.pbs.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
@@ -61,6 +65,8 @@ constexpr std::array keys_of_run{
         "[\"-lplace=excl\", \"-Pgranular\"]", "further options of qsub, each with its value in one word"},
     Key{"run.pbs.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional, "[\"module load openmpi\"]",
         "as run.slurm.setup"},
+    Key{"run.pbs.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
+        "as run.slurm.cores_per_task"},
 };
 
 /// Schedulers that users know, for which there is no executor.
@@ -191,6 +197,7 @@ class RunSection {
         std::string_view const name = last_name(key.path);
         if (name == "time") batch_of(key).minutes = static_cast<int>(std::ceil(value / 60));
         if (name == "concurrent_tasks") batch_of(key).concurrent_tasks = whole;
+        if (name == "cores_per_task") batch_of(key).cores_per_task = whole;
         if (name == "minutes_per_task") batch_of(key).minutes_per_task = whole;
     }
 
