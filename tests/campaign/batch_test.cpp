@@ -89,5 +89,28 @@ TEST_F(BatchTest, TheScriptRunsSeveralEnginesAndWaitsForAll) {
     EXPECT_EQ(core::read_file(batch.folder / "task-0.ended"), "3\n");
 }
 
+// A task that is warned tells the program, and is queued again without a marker that it ended; when it is not
+// taken again, it has ended.
+TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
+    fs::path const program = folder / "vibrotrough";
+    std::ofstream(program) << "#!/bin/sh\ntrap 'echo told >> said; exit 130' TERM\n"
+                              "kill -USR1 $PPID\nsleep 20 & wait\n";
+    fs::permissions(program, fs::perms::owner_all);
+    Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 1, true});
+    std::ofstream(batch.folder / "task-2.ended") << "130\n";
+    for (int const code : {0, 1}) {
+        std::ofstream(folder / "scontrol") << "#!/bin/sh\necho \"$@\" >> asked\nexit " << code << "\n";
+        fs::permissions(folder / "scontrol", fs::perms::owner_all);
+        std::string const command = fmt::format(
+            "cd '{0}' && PATH='{0}':$PATH SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh",
+            folder.string());
+        int const status = std::system(command.c_str());
+        EXPECT_EQ(WEXITSTATUS(status), code == 0 ? 0 : 130);
+        EXPECT_EQ(fs::exists(batch.folder / "task-2.ended"), code != 0);
+    }
+    EXPECT_EQ(core::read_file(folder / "asked"), "requeue 77_2\nrequeue 77_2\n");
+    EXPECT_EQ(core::read_file(folder / "said"), "told\ntold\n");
+}
+
 }  // namespace
 }  // namespace vibrotrough::campaign

@@ -56,17 +56,27 @@ std::string setup_lines(Scheduler const& scheduler, std::vector<std::string> con
 /// Runs `work` as often as engines are to run at the same time. All go through the same list: the lock of a
 /// packing, which only one process gets, says who takes it, and whoever is done takes the next. `wait` ends
 /// early when a signal comes.
-std::string work_lines(std::string const& work, int engines) {
-    if (engines == 1) return work + "\ncode=$?\n";
-    return fmt::format(
+///
+/// A task that is warned hands the warning on: each engine ends its cycle and writes a checkpoint. Then the
+/// task is queued again, without a marker that it ended.
+std::string work_lines(Scheduler const& scheduler, std::string const& work, JobScript const& job) {
+    if (job.engines == 1 && !job.is_warned) return work + "\ncode=$?\n";
+    std::string lines = fmt::format(
         "code=0\n"
+        "warned=\n"
         "set --\n"
+        "trap 'warned=yes; kill -TERM \"$@\" 2>/dev/null' USR1\n"
         "while [ $# -lt {} ]; do {} & set -- \"$@\" $!; done\n"
         "for process; do\n"
         "    while wait \"$process\"; one=$?; kill -0 \"$process\" 2>/dev/null; do :; done\n"
         "    [ \"$one\" -le \"$code\" ] || code=$one\n"
         "done\n",
-        engines, work);
+        job.engines, work);
+    if (job.is_warned) {
+        lines += fmt::format("if [ -n \"$warned\" ] && [ \"$code\" = 130 ] && {}; then exit 0; fi\n",
+                             scheduler.requeueing.command);
+    }
+    return lines;
 }
 
 /// Only numbers, paths of this machine as words of the shell, and the scheduler's own variables enter the
@@ -82,12 +92,13 @@ std::string job_script(Scheduler const& scheduler, Batch const& batch, JobScript
         "{first}\n"
         "# A task of a job array of {title}: packings of a campaign. Made by vibrotrough run.\n"
         "# The files task-* say how far it came.\n"
-        "trap : TERM INT\n"
+        "trap : TERM INT USR1\n"
         "cd {folder} || exit 3\n"
         "index={index}\n"
         "mark() {{ rm -f \"{files}/.$1\" && ( set -C; printf '%s\\n' \"$2\" > \"{files}/.$1\" ) &&\n"
         "    mv -fT \"{files}/.$1\" \"{files}/$1\"; }}\n"
         "[ -f {files}/tasks.txt ] || {{ echo \"$PWD is not the campaign's folder\" >&2; exit 3; }}\n"
+        "rm -f \"{files}/task-$index.ended\" \"{files}/task-$index.lost\"\n"  // when it is queued again
         "mark \"task-$index.started\" \"$(uname -n) {job}\"\n"
         "{setup}"
         "{work}"
@@ -98,7 +109,7 @@ std::string job_script(Scheduler const& scheduler, Batch const& batch, JobScript
         fmt::arg("folder", core::shell_word(batch.folder.parent_path().parent_path())),
         fmt::arg("index", scheduler.task_index), fmt::arg("job", scheduler.job_id), fmt::arg("files", files),
         fmt::arg("setup", setup_lines(scheduler, job.setup)),
-        fmt::arg("work", work_lines(work, job.engines)));
+        fmt::arg("work", work_lines(scheduler, work, job)));
 }
 
 void write_description(Batch const& batch) {

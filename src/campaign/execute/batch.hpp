@@ -44,6 +44,7 @@ struct JobScript {
     bool allow_extra;                  ///< the engine may run the commands of the campaign's files
     std::vector<std::string> setup;    ///< lines of bash that run first
     int engines = 1;                   ///< that run at the same time
+    bool is_warned = false;  ///< the scheduler sends SIGUSR1 before the end, and the task is queued again
 };
 
 /// Makes a batch's folder with its task list and job script; not yet submitted.

@@ -100,7 +100,7 @@ class BatchExecutor : public Executor {
     /// What the task itself may use of the scheduler's time, so that it can still write its exit marker.
     std::optional<double> time_limit() const {
         std::optional<double> limit = inputs_.settings.time_limit;
-        if (asked_.minutes) {
+        if (asked_.minutes && !is_warned()) {
             double const whole = *asked_.minutes * 60.0;
             double const own = whole - std::min(60.0, whole / 4);
             limit = std::min(limit.value_or(own), own);
@@ -138,9 +138,14 @@ class BatchExecutor : public Executor {
     }
 
     Submission submit_array(std::vector<Task> const& tasks) {
-        JobScript const script{
-            inputs_.program, ranks(),  time_limit(), inputs_.settings.retries, inputs_.foreign_commands.any(),
-            asked_.setup,    engines()};
+        JobScript const script{inputs_.program,
+                               ranks(),
+                               time_limit(),
+                               inputs_.settings.retries,
+                               inputs_.foreign_commands.any(),
+                               asked_.setup,
+                               engines(),
+                               is_warned()};
         Batch batch = write_batch(scheduler_, inputs_.campaign_folder, tasks, script);
         JobArray const array{std::filesystem::absolute(inputs_.campaign_folder),
                              fmt::format("{}/{}", scheduler_.name, batch.folder.filename().string()),
@@ -168,6 +173,16 @@ class BatchExecutor : public Executor {
     }
 
     int ranks() const { return inputs_.settings.ranks.value_or(1); }
+
+    /// Whether a task hears of its end before it comes, and can be queued again.
+    bool is_warned() const {
+        Requeueing const& how = scheduler_.requeueing;
+        auto const has = [&](auto const& is_it) {
+            return std::ranges::any_of(asked_.extra, is_it, &scenario::BatchOption::str);
+        };
+        return !how.option.empty() && has([&](std::string const& text) { return text == how.option; }) &&
+               has([&](std::string const& text) { return text.starts_with(how.warning); });
+    }
 
     /// That a task runs at the same time.
     int engines() const { return std::max(1, asked_.cores_per_task.value_or(1) / ranks()); }

@@ -143,7 +143,7 @@ void cancel(SubmittedArray const& array, std::vector<int> const& tasks) {
 
 }  // namespace
 
-constinit Scheduler const pbs{"pbs", "PBS", "${PBS_ARRAY_INDEX:-0}", "${PBS_JOBID%%[!0-9]*}", submit,
+constinit Scheduler const pbs{"pbs", "PBS", "${PBS_ARRAY_INDEX:-0}", "${PBS_JOBID%%[!0-9]*}", {}, submit,
                               ask,   cancel};
 
 }  // namespace vibrotrough::campaign

@@ -51,6 +51,14 @@ struct TaskReport {
 /// By the job's name and the index of the task.
 using TaskReports = std::map<std::pair<std::string, int>, TaskReport>;
 
+/// How a scheduler warns a task before its end and puts it into the queue again. Empty texts: it does not.
+struct Requeueing {
+    std::string_view option;  ///< in the key extra: the task may be queued again
+    std::string_view
+        warning;  ///< how the option in the key extra begins that asks for SIGUSR1 before the end
+    std::string_view command;  ///< of the shell, with which a task puts itself into the queue again
+};
+
 /// A scheduler of job arrays: three functions, and the words that differ between schedulers.
 ///
 /// To add one, write its functions in one file, declare it below, and list it in executors.cpp. Its keys are
@@ -60,6 +68,7 @@ struct Scheduler {
     std::string_view title;       ///< in messages
     std::string_view task_index;  ///< what the job script calls the index of its task, for the shell
     std::string_view job_id;      ///< what it calls the number of its job
+    Requeueing requeueing;        ///< of a task that was warned
 
     /// Submits an array, after asking whether it could ever start: most schedulers also take jobs that wait
     /// for ever.

@@ -84,7 +84,7 @@ std::vector<std::string> submission(JobArray const& array) {
     std::vector<std::string> words{"sbatch", "--parsable", "--no-requeue", "--array=" + indices};
     words.push_back("--job-name=" + array.name);
     words.push_back("--chdir=" + array.folder.string());
-    words.push_back(fmt::format("--output={}/task-%a.out", array.files));
+    words.insert(words.end(), {"--open-mode=append", fmt::format("--output={}/task-%a.out", array.files)});
     words.insert(words.end(), {"--nodes=1", fmt::format("--ntasks={}", array.cores), "--cpus-per-task=1"});
     if (asked.partition) words.push_back("--partition=" + asked.partition->str());
     if (asked.account) words.push_back("--account=" + asked.account->str());
@@ -143,7 +143,8 @@ void cancel(SubmittedArray const& array, std::vector<int> const& tasks) {
 
 }  // namespace
 
-constinit Scheduler const slurm{"slurm", "Slurm", "${SLURM_ARRAY_TASK_ID:?}", "$SLURM_ARRAY_JOB_ID", submit,
-                                ask,     cancel};
+constexpr Requeueing again{"--requeue", "--signal=B:USR1@", "scontrol requeue ${SLURM_ARRAY_JOB_ID}_$index"};
+constinit Scheduler const slurm{
+    "slurm", "Slurm", "${SLURM_ARRAY_TASK_ID:?}", "$SLURM_ARRAY_JOB_ID", again, submit, ask, cancel};
 
 }  // namespace vibrotrough::campaign

@@ -13,12 +13,13 @@ bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// Names of options that ask for resources or for mail, and do nothing else. --clusters is not among them:
-/// squeue and sacct would have to be told where the job went.
-constexpr std::array<std::string_view, 18> options_of_sbatch{
-    "comment", "constraint",  "cores-per-socket", "exclude",   "exclusive", "gpus",     "gres",
-    "hint",    "licenses",    "mail-type",        "mail-user", "nice",      "nodelist", "oversubscribe",
-    "qos",     "reservation", "spread-job",       "tmp"};
+/// Names of options that ask for resources, for mail, or for a warning before the end, and do nothing else.
+/// --clusters is not among them: squeue and sacct would have to be told where the job went.
+constexpr std::array<std::string_view, 20> options_of_sbatch{
+    "comment",    "constraint", "cores-per-socket", "exclude",       "exclusive", "gpus",
+    "gres",       "hint",       "licenses",         "requeue",       "signal",    "mail-type",
+    "mail-user",  "nice",       "nodelist",         "oversubscribe", "qos",       "reservation",
+    "spread-job", "tmp"};
 
 /// Options of qsub that ask for resources or for mail, or say who pays.
 constexpr std::array<std::string_view, 5> options_of_qsub{"-l", "-m", "-M", "-p", "-P"};
