@@ -48,15 +48,15 @@ void check(RunOptions const& options, scenario::Campaign const& campaign) {
                     options.campaign_file, found.first_error()));
 }
 
-/// The lines of run.slurm.setup can do anything, and a campaign file may come from elsewhere.
+/// The lines of the key setup can do anything, and a campaign file may come from elsewhere.
 /// @throws InputError unless the user has allowed them
 void check_setup(RunOptions const& options, scenario::RunSettings const& settings) {
-    std::vector<std::string> const& lines = settings.slurm.setup;
-    if (settings.executor != "slurm" || lines.empty() || options.allow_setup) return;
+    std::vector<std::string> const& lines = settings.batch(settings.executor).setup;
+    if (lines.empty() || options.allow_setup) return;
     throw core::InputError(
-        fmt::format("{}: each task would run these lines of run.slurm.setup: {}; if they are what you want, "
+        fmt::format("{}: each task would run these lines of run.{}.setup: {}; if they are what you want, "
                     "call the command again with --allow-setup",
-                    options.campaign_file, fmt::join(lines, " ; ")));
+                    options.campaign_file, settings.executor, fmt::join(lines, " ; ")));
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void RunOptions::add_to(CLI::App& command) {
                      "Run although the check of the campaign found errors (see 'vibrotrough check')");
     command.add_flag(
         "--allow-setup", allow_setup,
-        "Let the tasks of Slurm run the lines of run.slurm.setup, which are commands of the shell");
+        "Let the tasks of a cluster run the lines of the key setup, which are commands of the shell");
     add_allow_extra(command, allow_extra);
 }
 

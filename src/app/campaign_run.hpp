@@ -25,7 +25,7 @@ struct RunOptions {
     bool quiet = false;                 ///< the same as none
     bool accept_failed_probes = false;  ///< run an engine that failed its probes
     bool accept_findings = false;       ///< run although the check found errors
-    bool allow_setup = false;           ///< let tasks of Slurm run the lines of run.slurm.setup
+    bool allow_setup = false;           ///< let the tasks of a cluster run the lines of the key setup
     bool allow_extra = false;           ///< let the decks run the lines of engine.extra
     std::string templates;              ///< folder of templates of the decks; empty for the program's own
     int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< cores to use

@@ -152,8 +152,8 @@ struct Making {
     }
 };
 
-/// archive.json. Cases that ended without a result are named, because what an executor such as Slurm knows of
-/// them is not in a file of the case.
+/// archive.json. Cases that ended without a result are named, because what the scheduler of a cluster knows
+/// of them is not in a file of the case.
 std::string archive_facts(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases,
                           Making const& making) {
     Json ended = Json::array();

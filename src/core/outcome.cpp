@@ -52,18 +52,20 @@ constexpr std::array table{
         outputs_incomplete, "outputs-incomplete",
         "The engine ended normally, but files that it should have written are missing or incomplete.",
         sensible, ""},
-    OutcomeEntry{out_of_memory, "out-of-memory", "The engine or Slurm reports that memory ran out.",
-                 after_cure, "ask for more run.slurm.memory, or use fewer --jobs"},
+    OutcomeEntry{out_of_memory, "out-of-memory",
+                 "The engine or the cluster's scheduler reports that memory ran out.", after_cure,
+                 "ask for more memory in the section of the cluster, or use fewer --jobs"},
     OutcomeEntry{
         disk_full, "disk-full",
         "The disk of the campaign's folder is full, or a file reached the limit of its size (ulimit -f).",
         after_cure, "free space, or raise the limit"},
     OutcomeEntry{time_limit, "time-limit",
-                 "The packing was not finished within run.time_limit or run.slurm.time.", after_cure,
-                 "allow more time"},
-    OutcomeEntry{interrupted, "interrupted",
-                 "The run was stopped from outside: Ctrl-C, a killed driver, scancel, or a failed node.",
-                 sensible, ""},
+                 "The packing was not finished within run.time_limit or the time asked of the cluster.",
+                 after_cure, "allow more time"},
+    OutcomeEntry{
+        interrupted, "interrupted",
+        "The run was stopped from outside: Ctrl-C, a killed driver, a cancelled task, or a failed node.",
+        sensible, ""},
 };
 
 constexpr bool is_in_order() {

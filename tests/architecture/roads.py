@@ -20,7 +20,7 @@ START = re.compile(r"\bbp::(?:child|system|spawn|async_system)\b|\bposix_spawnp?
 STARTERS = {
     "engine/engine.cpp": "the engine, and the question for its version",
     "engine/certificate_cache.cpp": "ldd, which names the libraries of the engine",
-    "campaign/execute/slurm.cpp": "sbatch, squeue, sacct",
+    "campaign/execute/scheduler_call.cpp": "the commands of schedulers",
     "core/temporary_folder.cpp": "a copy of this process, which removes its folders when a signal ends it",
     "app/python.cpp": "Python with the scripts of the program",
 }

@@ -45,6 +45,18 @@ TEST_F(Tasks, TakeAsManyPackingsAsFitIntoTheirDuration) {
                      planned.prepared->work(planned.scenario().measure.max_cycles) / size.speed);
 }
 
+// A task with room for several engines gets a packing for each of them, and with a duration as many as fit
+// into it on all its cores.
+TEST_F(Tasks, KeepSeveralEnginesBusy) {
+    double const work = planned.prepared->work(24);
+    TaskSize size{{}, work / 60, 1, 3};  // a minute per packing
+    EXPECT_EQ(sizes(make_tasks(orders(7, 24), size)), (std::vector<std::size_t>{3, 3, 1}));
+    size.duration = 120.5;
+    EXPECT_EQ(sizes(make_tasks(orders(7, 24), size)), (std::vector<std::size_t>{6, 1}));
+    size.duration = 1;
+    EXPECT_EQ(sizes(make_tasks(orders(4, 24), size)), (std::vector<std::size_t>{3, 1}));
+}
+
 TEST_F(Tasks, CountOnSeveralRanksAsFarAsTheyWereMeasured) {
     int const grains = planned.scenario().layer.grains;
     TaskSize const size{{}, 1, 2};

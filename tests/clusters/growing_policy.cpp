@@ -7,7 +7,7 @@
 
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/execute/packing_worker.hpp"
-#include "campaign/execute/slurm_batch.hpp"
+#include "campaign/execute/task_list.hpp"
 #include "core/error.hpp"
 #include "scenario/reader/campaign_file.hpp"
 

@@ -33,7 +33,7 @@ SlurmUser={user}
 SlurmdUser={user}
 SlurmctldPort={controller_port}
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge.sock
+AuthInfo=socket={folder}/munge.sock,cred_expire={requeue_delay}
 CredType=cred/munge
 StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/spool
@@ -122,7 +122,7 @@ def wait_for(question, what, patience=300):
 class PrivateSlurm:
     """Use as a context; `environment` leads Slurm's commands to it."""
 
-    def __init__(self, cpus=4, max_array=1001, accounting=False, max_jobs=10000, job_age=3600):
+    def __init__(self, cpus=4, max_array=1001, accounting=False, max_jobs=10000, job_age=3600, requeue_delay=120):
         self.accounting = accounting
         for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue", *(("slurmdbd", "mariadbd") if accounting else ())):
             if shutil.which(program) is None:
@@ -143,7 +143,7 @@ class PrivateSlurm:
         (self.folder / "slurmdbd.conf").chmod(0o600)
         (self.folder / "slurm.conf").write_text(
             CONFIGURATION.format(host=host, user=getpass.getuser(), folder=self.folder, listen=listen, controller_port=free_port(), node_port=free_port(),
-                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array, max_jobs=max_jobs, job_age=job_age, accounting=told)  # fmt: skip
+                                 cpus=cpus, memory=memory_of_machine(), max_array=max_array, max_jobs=max_jobs, job_age=job_age, requeue_delay=requeue_delay, accounting=told)  # fmt: skip
         )
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
         (self.folder / "plugstack.conf").write_text("")

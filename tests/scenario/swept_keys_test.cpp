@@ -28,7 +28,9 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     scenario.trough.waveform = std::make_shared<Waveform>();
     scenario.measure.max_core_time = 1;
     for (Key const& key : all_keys()) {
-        if (can_vary(key)) EXPECT_TRUE(key_value(scenario, key.path)) << key.path;
+        if (can_vary(key)) {
+            EXPECT_TRUE(key_value(scenario, key.path)) << key.path;
+        }
     }
     EXPECT_FALSE(key_value(scenario, "grains.diameters"));
     EXPECT_FALSE(key_value(scenario, "no.key"));

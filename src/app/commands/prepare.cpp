@@ -83,7 +83,7 @@ int run_prepare(PrepareArguments const& options) {
 void add_prepare(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<PrepareArguments>();
     CLI::App* const command =
-        program.add_subcommand("prepare", "Write a list of tasks for a scheduler other than Slurm");
+        program.add_subcommand("prepare", "Write a list of tasks for a scheduler that run does not know");
     options->shared.add_to(*command);
     command
         ->add_option("--task-list", options->task_list,
@@ -100,7 +100,7 @@ void add_prepare(CLI::App& program, int& exit_code) {
     command->footer(
         R"(The campaign is checked, the engine tested, and the decks of all cases that still need packings are
 written, as by 'vibrotrough run'; but nothing is simulated. Each line of the list is a task for 'vibrotrough work', which
-any scheduler can start, on any machine that sees the folder: PBS, LSF, HTCondor, GNU parallel. A campaign goes on in
+any scheduler can start, on any machine that sees the folder: LSF, HTCondor, GNU parallel. A campaign goes on in
 rounds, because the results decide which packings are needed next: call this command again when the tasks have ended,
 until the list is empty. Packings that a task simulates at that moment are left out. src/campaign/README.md has job
 scripts for several schedulers.

@@ -90,7 +90,7 @@ int report(campaign::Summary const& summary, campaign::Plan const& plan, campaig
 int run_run(RunArguments const& options) {
     ReadyCampaign ready = prepare_run(options.shared);
     if (ready.is_interrupted) return interrupted;
-    size_tasks(ready, ready.campaign.run.slurm.minutes_per_task);
+    size_tasks(ready, ready.campaign.run.batch(ready.campaign.run.executor).minutes_per_task);
     auto const until = options.wait ? campaign::Until::done : campaign::Until::submitted;
     campaign::Summary summary;
     {
@@ -125,7 +125,7 @@ still need is printed when it ends. A summary and the next command are printed a
 Ctrl-C stops the run cleanly. The same command continues it; a finished case is never simulated again. A case that
 is not precise is continued after measure.max_packings or measure.max_core_time has been raised.
 
-With executor = "slurm" under [run] in the campaign file, the next packings of each case are submitted as job arrays
+With the executor of a cluster under [run] in the campaign file, the next packings of each case are submitted as job arrays
 and the command returns. Call it again when they have ended, until it submits nothing more. With --wait it stays and
 submits further packings by itself. It also finds tasks that died and submits them again.
 

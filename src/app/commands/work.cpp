@@ -74,7 +74,7 @@ void add_work(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1.0, 3e7));
     add_allow_extra(*command, options->allow_extra);
     command->footer(
-        R"(The job script that 'vibrotrough run' writes for Slurm calls this command; for other schedulers
+        R"(The job script that 'vibrotrough run' writes for a cluster calls this command; for other schedulers
 'vibrotrough prepare' writes the list. Any number of these processes may work on one campaign at the same time: each
 packing is simulated by one of them, and the process that ends the last packing of a case writes the result of the case.
 A task with several packings simulates them one after the other; what is finished stays finished when it dies.
@@ -87,7 +87,7 @@ Exit codes:
   130  interrupted
 
 Example:
-  vibrotrough work runs/demo --task-list runs/demo/slurm/0001/tasks.txt --index 0)");
+  vibrotrough work runs/demo --task-list runs/demo/tasks.txt --index 0)");
     command->callback([options, &exit_code] { exit_code = run_work(*options); });
 }
 

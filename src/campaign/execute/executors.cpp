@@ -1,7 +1,7 @@
 #include "campaign/execute/executors.hpp"
 
+#include "campaign/execute/batch_executor.hpp"
 #include "campaign/execute/local_executor.hpp"
-#include "campaign/execute/slurm_executor.hpp"
 #include "campaign/execute/task_list_executor.hpp"
 #include "campaign/state/folder_lock.hpp"
 #include "core/error.hpp"
@@ -19,9 +19,18 @@ std::vector<PackingActivity> none(std::filesystem::path const&) {
     return {};
 }
 
-constexpr std::array kinds{
+/// Tasks of job arrays.
+template <Scheduler const& scheduler>
+ExecutorKind batch_kind() {
+    return {scheduler.name, scheduler.title,
+            [](ExecutorInputs const& inputs) { return make_batch_executor(scheduler, inputs); },
+            [](std::filesystem::path const& folder) { return batch_activity(scheduler, folder); }};
+}
+
+std::array const kinds{
     ExecutorKind{"local", "this machine", make_local_executor, none},
-    ExecutorKind{"slurm", "Slurm", make_slurm_executor, slurm_activity},
+    batch_kind<slurm>(),
+    batch_kind<pbs>(),
     // Not of campaign files: `vibrotrough prepare` uses it.
     ExecutorKind{"task-list", "a task list", make_task_list_executor, none},
 };

@@ -79,8 +79,11 @@ std::vector<Task> make_tasks(std::vector<PackingOrder> const& orders, TaskSize c
     double filled = 0;
     for (PackingOrder const& order : orders) {
         double const time = expected_time(order, size);
-        bool const fits = size.duration && !tasks.empty() && filled + time <= *size.duration &&
-                          tasks.back().size() < most_packings_per_task;
+        bool const has_idle_core =
+            !tasks.empty() && tasks.back().size() < static_cast<std::size_t>(size.engines);
+        bool const has_time =
+            !tasks.empty() && size.duration && filled + time <= *size.duration * size.engines;
+        bool const fits = (has_idle_core || has_time) && tasks.back().size() < most_packings_per_task;
         if (!fits) {
             tasks.emplace_back();
             filled = 0;

@@ -9,7 +9,7 @@
 
 namespace vibrotrough::campaign {
 
-/// What one task of a cluster simulates: packings, one after the other.
+/// What one task of a cluster simulates: packings, in this order.
 using Task = std::vector<PackingId>;
 
 /// Reads one line of a task list: "<case id> <packing>" once or several times.
@@ -28,14 +28,15 @@ struct TaskSize {
     std::optional<double> duration;  ///< s, that a task should take; none: one packing per task
     double speed;                    ///< grain-steps per second of one core, expected
     int ranks;                       ///< MPI ranks of each engine
+    int engines = 1;                 ///< that the task runs at the same time
 };
 
 /// Seconds that a packing will probably take, without settling.
 double expected_time(PackingOrder const& order, TaskSize const& size);
 
 /// Puts packings into tasks, in their order: a task takes further packings as long as it is expected to end
-/// within the duration asked for, and at most most_packings_per_task of them. A packing that takes longer by
-/// itself is a task of its own.
+/// within the duration asked for, and at most most_packings_per_task of them. A task takes at least one
+/// packing for each engine that it runs at the same time, as far as there are any.
 std::vector<Task> make_tasks(std::vector<PackingOrder> const& orders, TaskSize const& size);
 
 /// A task is not larger than this, however short its packings are.

@@ -13,12 +13,16 @@ bool is_letter_or_digit(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// Names of options that ask for resources or for mail, and do nothing else. --clusters is not among them:
-/// squeue and sacct would have to be told where the job went.
-constexpr std::array<std::string_view, 18> allowed_options{
-    "comment", "constraint",  "cores-per-socket", "exclude",   "exclusive", "gpus",     "gres",
-    "hint",    "licenses",    "mail-type",        "mail-user", "nice",      "nodelist", "oversubscribe",
-    "qos",     "reservation", "spread-job",       "tmp"};
+/// Names of options that ask for resources, for mail, or for a warning before the end, and do nothing else.
+/// --clusters is not among them: squeue and sacct would have to be told where the job went.
+constexpr std::array<std::string_view, 20> options_of_sbatch{
+    "comment",    "constraint", "cores-per-socket", "exclude",       "exclusive", "gpus",
+    "gres",       "hint",       "licenses",         "requeue",       "signal",    "mail-type",
+    "mail-user",  "nice",       "nodelist",         "oversubscribe", "qos",       "reservation",
+    "spread-job", "tmp"};
+
+/// Options of qsub that ask for resources or for mail, or say who pays.
+constexpr std::array<std::string_view, 5> options_of_qsub{"-l", "-m", "-M", "-p", "-P"};
 
 bool is_option_value(std::string_view text) {
     constexpr std::string_view others = "._,:@%+&|()[]*=-";
@@ -39,17 +43,33 @@ std::optional<PlainName> PlainName::from(std::string_view text) {
     return PlainName(text);
 }
 
-std::optional<SlurmOption> SlurmOption::from(std::string_view text) {
+std::optional<BatchOption> SlurmOption::from(std::string_view text) {
     if (text.size() > 200 || !text.starts_with("--")) return {};
     auto const equals = text.find('=');
     std::string_view const name = text.substr(2, equals == text.npos ? text.npos : equals - 2);
-    if (std::ranges::find(allowed_options, name) == allowed_options.end()) return {};
+    if (std::ranges::find(options_of_sbatch, name) == options_of_sbatch.end()) return {};
     if (equals != text.npos && !is_option_value(text.substr(equals + 1))) return {};
-    return SlurmOption(text);
+    return BatchOption(text);
 }
 
 std::string SlurmOption::names() {
-    return fmt::format("--{}", fmt::join(allowed_options, ", --"));
+    return fmt::format("--{}", fmt::join(options_of_sbatch, ", --"));
+}
+
+std::optional<BatchOption> PbsOption::from(std::string_view text) {
+    if (text.size() < 3 || text.size() > 200 || !is_option_value(text.substr(2))) return {};
+    if (std::ranges::find(options_of_qsub, text.substr(0, 2)) == options_of_qsub.end()) return {};
+    return BatchOption(text);
+}
+
+std::string PbsOption::names() {
+    return fmt::format("{}", fmt::join(options_of_qsub, ", "));
+}
+
+BatchSettings const& RunSettings::batch(std::string_view scheduler) const {
+    static BatchSettings const nothing{};
+    if (scheduler == "slurm") return slurm;
+    return scheduler == "pbs" ? pbs : nothing;
 }
 
 }  // namespace vibrotrough::scenario

@@ -12,8 +12,8 @@ namespace vibrotrough::scenario {
 bool is_plain_text(std::string_view text);
 
 /// A name that is safe in any command line and any file: 1 to 64 letters, digits, '.', '_' or '-', beginning
-/// with a letter or a digit. Names that are passed to Slurm have this type, so that they cannot be anything
-/// else.
+/// with a letter or a digit. Names that are passed to a scheduler have this type, so that they cannot be
+/// anything else.
 class PlainName {
   public:
     /// The text as a name, or nullopt when it is not such a name.
@@ -26,33 +26,48 @@ class PlainName {
     std::string text_;
 };
 
-/// An option of sbatch such as "--qos=short". Only options that ask for resources are allowed, and only
-/// values without a space, quote or slash: a campaign file must not name files that Slurm writes, or
-/// variables that a task sees.
-class SlurmOption {
+/// An option of the command that submits a job, such as "--qos=short". Only options that ask for resources
+/// are allowed, and only values without a space, quote or slash: a campaign file must not name files that a
+/// scheduler writes, or variables that a task sees.
+class BatchOption {
   public:
-    /// The text as an option, or nullopt when it is not an allowed one.
-    static std::optional<SlurmOption> from(std::string_view text);
-    /// The names that are allowed, for messages.
-    static std::string names();
     std::string const& str() const { return text_; }      ///< The option as one word of the command line.
-    bool operator==(SlurmOption const&) const = default;  ///< Whether the texts are equal.
+    bool operator==(BatchOption const&) const = default;  ///< Whether the texts are equal.
 
   private:
-    explicit SlurmOption(std::string_view text) : text_(text) {}
+    friend struct SlurmOption;
+    friend struct PbsOption;
+    explicit BatchOption(std::string_view text) : text_(text) {}
     std::string text_;
 };
 
-/// What is requested from Slurm for every packing. Slurm's own defaults apply to members without a value.
-struct SlurmSettings {
-    std::optional<PlainName> partition;  ///< name of the partition
+/// Options of sbatch.
+struct SlurmOption {
+    /// The text as an option, or nullopt when it is not an allowed one.
+    static std::optional<BatchOption> from(std::string_view text);
+    /// The names that are allowed, for messages.
+    static std::string names();
+};
+
+/// Options of qsub, such as "-lplace=excl": the letter and its value in one word.
+struct PbsOption {
+    /// The text as an option, or nullopt when it is not an allowed one.
+    static std::optional<BatchOption> from(std::string_view text);
+    /// The names that are allowed, for messages.
+    static std::string names();
+};
+
+/// What is requested from a scheduler for every packing. Its own defaults apply to members without a value.
+struct BatchSettings {
+    std::optional<PlainName> partition;  ///< name of the partition or queue
     std::optional<PlainName> account;    ///< account to which the time is charged
     std::optional<int> minutes;          ///< wall-clock time of a packing
     std::optional<std::int64_t> memory;  ///< MiB, of a packing
     std::optional<int>
         concurrent_tasks;  ///< largest number of packings of one array that run at the same time
     std::optional<int> minutes_per_task;  ///< that a task should take; none: one packing per task
-    std::vector<SlurmOption> extra;       ///< further options of sbatch
+    std::optional<int> cores_per_task;    ///< that a task keeps busy; none: those of one engine
+    std::vector<BatchOption> extra;       ///< further options of the command that submits
     std::vector<std::string>
         setup;  ///< lines of the shell that a task runs first; run only when the user allows it
 };
@@ -63,7 +78,11 @@ struct RunSettings {
     int retries = 0;           ///< how often a packing is run again where the table of outcomes allows it
     std::optional<int> ranks;  ///< MPI ranks of each engine; otherwise chosen from the number of grains
     std::optional<double> time_limit;  ///< largest wall-clock time of a packing, s
-    SlurmSettings slurm;               ///< only for the executor "slurm"
+    BatchSettings slurm;               ///< only for the executor "slurm"
+    BatchSettings pbs;                 ///< only for the executor "pbs"
+
+    /// What is asked of the scheduler with this name; of one without keys: nothing.
+    BatchSettings const& batch(std::string_view scheduler) const;
 };
 
 }  // namespace vibrotrough::scenario

@@ -18,6 +18,8 @@ class GivenValue {
     GivenValue(Key const& key, Content const& content, FilePosition where, FileSource const& source)
         : key_(key), content_(content), where_(where), source_(source) {}
 
+    /// The row of the key.
+    Key const& key() const { return key_; }
     /// The value of a quantity or a number, in SI units; 1 for true, 0 for false.
     double number() const { return std::get<double>(content_); }
     /// number() of a key whose values are whole numbers.

@@ -108,8 +108,8 @@ std::vector<std::string_view> choices(Key const& key);
 /// All keys that describe cases, in the order of the reference and of to_toml().
 std::span<Key const> all_keys();
 
-/// The keys of the sections [run] and [run.slurm], which set how a campaign is run and do not change its
-/// cases. They are not among all_keys().
+/// The keys of the section [run] and of its subsections, which set how a campaign is run and do not change
+/// its cases. They are not among all_keys().
 std::span<Key const> run_keys();
 
 /// The key of all_keys() with this path, or nullptr.

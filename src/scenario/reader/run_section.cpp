@@ -18,8 +18,7 @@ using enum KeyNeed;
 
 /// Schedulers that users know, for which there is no executor.
 bool is_other_scheduler(std::string_view name) {
-    constexpr std::array<std::string_view, 7> others{"pbs",      "torque", "lsf",     "sge",
-                                                     "htcondor", "flux",   "parallel"};
+    constexpr std::array<std::string_view, 6> others{"torque", "lsf", "sge", "htcondor", "flux", "parallel"};
     return std::ranges::find(others, name) != others.end();
 }
 
@@ -45,41 +44,49 @@ void set_executor(RunSettings& s, GivenValue const& v) {
                "write \"local\", and let 'vibrotrough prepare' write a list of tasks for this scheduler "
                "(src/campaign/README.md)");
     }
-    if (v.word() != "local" && v.word() != "slurm") v.refuse(v.word());
+    auto const known = choices(v.key());
+    if (std::ranges::find(known, v.word()) == known.end()) v.refuse(v.word());
     s.executor = v.word();
 }
 
-template <auto member>
+// The keys of a scheduler's section; `section` is the member of RunSettings that holds its settings.
+
+template <auto section, auto member>
 void set_name(RunSettings& s, GivenValue const& v) {
-    s.slurm.*member = PlainName::from(v.word());
-    if (!(s.slurm.*member)) v.refuse(v.word());
+    auto& name = (s.*section).*member;
+    name = PlainName::from(v.word());
+    if (!name) v.refuse(v.word());
 }
 
-/// Slurm counts whole minutes.
+/// Schedulers count whole minutes.
+template <auto section>
 void set_minutes(RunSettings& s, GivenValue const& v) {
-    s.slurm.minutes = static_cast<int>(std::ceil(v.number() / 60));
+    (s.*section).minutes = static_cast<int>(std::ceil(v.number() / 60));
 }
 
+template <auto section>
 void set_memory(RunSettings& s, GivenValue const& v) {
-    s.slurm.memory = parse_memory(v.word());
-    if (!s.slurm.memory) v.refuse(v.word());
+    (s.*section).memory = parse_memory(v.word());
+    if (!(s.*section).memory) v.refuse(v.word());
 }
 
+template <auto section, class Option>
 void set_extra_options(RunSettings& s, GivenValue const& v) {
     for (std::string const& text : v.words()) {
-        auto const option = SlurmOption::from(text);
+        auto const option = Option::from(text);
         if (!option)
             v.refuse(text, fmt::format("allowed are {} with a value that has no space, quote or slash",
-                                       SlurmOption::names()));
-        s.slurm.extra.push_back(*option);
+                                       Option::names()));
+        (s.*section).extra.push_back(*option);
     }
 }
 
+template <auto section>
 void set_setup(RunSettings& s, GivenValue const& v) {
     for (std::string const& text : v.words()) {
         bool const is_line = !text.empty() && text.size() <= 500 && core::harmless(text) == text;
         if (!is_line) v.refuse(text, "a line has 1 to 500 printable characters");
-        s.slurm.setup.push_back(text);
+        (s.*section).setup.push_back(text);
     }
 }
 
@@ -87,8 +94,8 @@ template <auto set>
 constexpr KeyAccess in_run{.set_run = set};
 
 constexpr std::array keys_of_run{
-    Key{"run.executor", KeyKind::choice, "", 0, 0, "local or slurm", "", optional, "\"slurm\"",
-        "what runs the packings: this machine, or job arrays of Slurm", in_run<set_executor>},
+    Key{"run.executor", KeyKind::choice, "", 0, 0, "local, slurm or pbs", "", optional, "\"slurm\"",
+        "what runs the packings: this machine, or job arrays of Slurm or of PBS", in_run<set_executor>},
     Key{"run.retries", KeyKind::integer, "", 0, 100, "0 to 100", "", 0.0, "2",
         "how often a packing is run again after an outcome for which the table of outcomes allows it",
         run_field<&RunSettings::retries>},
@@ -100,29 +107,56 @@ constexpr std::array keys_of_run{
         run_field<&RunSettings::time_limit>},
     Key{"run.slurm.partition", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
         optional, "\"compute\"", "partition; like all keys of this section, Slurm's default if not given",
-        in_run<set_name<&SlurmSettings::partition>>},
+        in_run<set_name<&RunSettings::slurm, &BatchSettings::partition>>},
     Key{"run.slurm.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
         optional, "\"granular\"", "account to which the computing time is charged",
-        in_run<set_name<&SlurmSettings::account>>},
+        in_run<set_name<&RunSettings::slurm, &BatchSettings::account>>},
     Key{"run.slurm.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional,
         "\"12 hours\"", "wall-clock time requested for a packing, rounded up to whole minutes",
-        in_run<set_minutes>},
+        in_run<set_minutes<&RunSettings::slurm>>},
     Key{"run.slurm.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
-        "memory requested for a packing; 1 GB is 1024 MB", in_run<set_memory>},
+        "memory requested for a packing; 1 GB is 1024 MB", in_run<set_memory<&RunSettings::slurm>>},
     Key{"run.slurm.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
         "largest number of packings of one array that run at the same time",
-        run_field<&RunSettings::slurm, &SlurmSettings::concurrent_tasks>},
+        run_field<&RunSettings::slurm, &BatchSettings::concurrent_tasks>},
     Key{"run.slurm.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
         "several packings are simulated one after the other in one task, so that it takes about this many "
         "minutes, for sites that refuse short tasks; one packing per task if not given",
-        run_field<&RunSettings::slurm, &SlurmSettings::minutes_per_task>},
+        run_field<&RunSettings::slurm, &BatchSettings::minutes_per_task>},
     Key{"run.slurm.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
-        "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch", in_run<set_extra_options>},
+        "[\"--qos=short\", \"--constraint=avx2\"]", "further options of sbatch",
+        in_run<set_extra_options<&RunSettings::slurm, SlurmOption>>},
     Key{"run.slurm.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional,
         "[\"module load openmpi\"]",
         "lines of the shell (bash) that each task runs before the engine; 'run' shows them and refuses "
         "unless --allow-setup is given, since they can do anything",
-        in_run<set_setup>},
+        in_run<set_setup<&RunSettings::slurm>>},
+    Key{"run.slurm.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
+        "cores of a task, which it keeps busy with as many packings as have room at once; those of one "
+        "engine "
+        "if not given",
+        run_field<&RunSettings::slurm, &BatchSettings::cores_per_task>},
+    Key{"run.pbs.queue", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "", optional,
+        "\"workq\"", "queue; like all keys of this section, PBS's default if not given",
+        in_run<set_name<&RunSettings::pbs, &BatchSettings::partition>>},
+    Key{"run.pbs.account", KeyKind::name, "", 0, 0, "a name of letters, digits, '.', '_' or '-'", "",
+        optional, "\"granular\"", "account to which the computing time is charged",
+        in_run<set_name<&RunSettings::pbs, &BatchSettings::account>>},
+    Key{"run.pbs.time", KeyKind::quantity, "s", 60, 3e7, "1 minute to 347 days", "", optional, "\"12 hours\"",
+        "as run.slurm.time", in_run<set_minutes<&RunSettings::pbs>>},
+    Key{"run.pbs.memory", KeyKind::name, "", 0, 0, "1 MB to 1000000 GB", "", optional, "\"2 GB\"",
+        "as run.slurm.memory", in_run<set_memory<&RunSettings::pbs>>},
+    Key{"run.pbs.concurrent_tasks", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "100",
+        "as run.slurm.concurrent_tasks", run_field<&RunSettings::pbs, &BatchSettings::concurrent_tasks>},
+    Key{"run.pbs.minutes_per_task", KeyKind::integer, "", 1, 1e5, "1 to 100000", "", optional, "30",
+        "as run.slurm.minutes_per_task", run_field<&RunSettings::pbs, &BatchSettings::minutes_per_task>},
+    Key{"run.pbs.extra", KeyKind::texts, "", 0, 0, "1 to 30 options that ask for resources", "", optional,
+        "[\"-lplace=excl\", \"-Pgranular\"]", "further options of qsub, each with its value in one word",
+        in_run<set_extra_options<&RunSettings::pbs, PbsOption>>},
+    Key{"run.pbs.setup", KeyKind::texts, "", 0, 0, "1 to 30 lines", "", optional, "[\"module load openmpi\"]",
+        "as run.slurm.setup", in_run<set_setup<&RunSettings::pbs>>},
+    Key{"run.pbs.cores_per_task", KeyKind::integer, "", 1, 1024, "1 to 1024", "", optional, "64",
+        "as run.slurm.cores_per_task", run_field<&RunSettings::pbs, &BatchSettings::cores_per_task>},
 };
 
 /// Reads the section [run].
@@ -132,8 +166,11 @@ class RunSection {
 
     RunSettings read(toml::table const& section) {
         for (auto const& [name, node] : section) {
-            if (name.str() == "slurm" && node.is_table()) {
-                for (auto const& [key, value] : *node.as_table()) read_entry("run.slurm.", key, value);
+            std::string const subsection = fmt::format("run.{}.", name.str());
+            bool const has_keys = std::ranges::any_of(
+                keys_of_run, [&](Key const& key) { return key.path.starts_with(subsection); });
+            if (has_keys && node.is_table()) {
+                for (auto const& [key, value] : *node.as_table()) read_entry(subsection, key, value);
             } else {
                 read_entry("run.", name, node);
             }
