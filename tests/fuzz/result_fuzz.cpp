@@ -1,7 +1,7 @@
 // Whatever bytes stand where a result or its summary should be: they are whole, or refused. Both carry a
-// digest of themselves, so that HDF5 and the reader of CBOR see only what the program has written. Three of the
-// kept inputs have a right digest and take a table from another file: external storage, an external link, a
-// virtual dataset. The other file is called `elsewhere`, and a result that names it must be refused.
+// digest of themselves, so that HDF5 and the reader of CBOR see only what the program has written. Three of
+// the kept inputs have a right digest and take a table from another file: external storage, an external link,
+// a virtual dataset. The other file is called `elsewhere`, and a result that names it must be refused.
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
