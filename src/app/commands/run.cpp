@@ -69,8 +69,11 @@ std::string describe_submission(campaign::Summary const& summary, std::string_vi
 }
 
 /// Writes the summary of the run to standard output and to the log, and returns the exit code.
-int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind) {
-    bool const runs_on = !summary.references.empty() || summary.in_queue > 0 || summary.not_taken > 0;
+int report(campaign::Summary const& summary, campaign::Plan const& plan, campaign::ExecutorKind const& kind,
+           campaign::Until until) {
+    bool const has_waited = until == campaign::Until::done && !summary.interrupted;
+    bool const is_queued = !summary.references.empty() || summary.in_queue > 0 || summary.not_taken > 0;
+    bool const runs_on = is_queued && !has_waited;
     std::string const end = describe(summary, plan.cases.size(), runs_on) +
                             (runs_on ? describe_submission(summary, kind.title) : "");
     CampaignLog(plan.folder).info("run ends: " + end);
@@ -100,7 +103,7 @@ int run_run(RunArguments const& options) {
                                          *ready.kind, ready.inputs, until, observer);
     }
     campaign::write_campaign_file(ready.plan);
-    return report(summary, ready.plan, *ready.kind);
+    return report(summary, ready.plan, *ready.kind, until);
 }
 
 }  // namespace
