@@ -113,7 +113,7 @@ class Prepare(EndToEndTest):
         self.assertEqual([line.split()[1] for line in self.tasks()], ["1"])
 
     def test_the_schedulers_that_there_is_no_executor_for(self):
-        for name in ("pbs", "lsf"):
+        for name in ("torque", "lsf"):
             campaign = self.write_campaign()
             campaign.write_text(campaign.read_text() + f'[run]\nexecutor = "{name}"\n')
             self.assert_one_line_error(self.call(*self.run_arguments(campaign)), 2, f"'{name}' is not an executor", "vibrotrough prepare")
