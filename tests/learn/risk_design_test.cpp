@@ -249,7 +249,7 @@ TEST(RiskDesign, ADeeperLayerThanTestedHasNoProbability) {
         std::string const text = design_text(task, deep);
         EXPECT_THAT(text,
                     testing::StartsWith("Not tested: no probability is known that this trough carries"));
-        EXPECT_THAT(text, testing::HasSubstr(" not known         13         not known    not known\n"));
+        EXPECT_THAT(text, testing::ContainsRegex(" not known +[0-9.]+ +not known +not known\n"));
         auto const json = design_json(task, deep);
         EXPECT_TRUE(json.at("probability").is_null());
         EXPECT_TRUE(json.at("models").at(0).at("probability").is_null());
