@@ -161,7 +161,7 @@ double rule_of_daesung(theory::Drive const& drive) {
 std::optional<double> factor_of_rolling_layers(double throw_number) {
     // "4 deep, free" of validation/why_theory_fails and "throw number" of validation/rolling_layer.
     constexpr std::array<double, 9> at{1.15, 1.35, 1.5, 1.6, 1.7, 1.9, 2.0, 2.15, 2.25};
-    constexpr std::array<double, 9> layer{.220, .368, .501, .625, .685, .786, .827, .869, .880};
+    constexpr std::array<double, 9> layer{.220, .368, .501, .625, .685, .786, .827, .869, .894};
     if (throw_number < 1.2 || throw_number > 2.3) return {};
     std::size_t i = 1;
     while (i + 1 < at.size() && at[i] < throw_number) ++i;
