@@ -16,12 +16,7 @@ SWEEP = {"layer.grains": [60, 70]}
 
 class Allocation(EndToEndTest):
     def start_slurm(self, **settings):
-        slurm = PrivateSlurm(**settings)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        return slurm
+        return PrivateSlurm.for_test(self, **settings)
 
     def run_in(self, output, asked):
         """Runs the campaign in one task. @return s, from the first word of the task to its last"""

@@ -122,6 +122,16 @@ def wait_for(question, what, patience=300):
 class PrivateSlurm:
     """Use as a context; `environment` leads Slurm's commands to it."""
 
+    @classmethod
+    def for_test(cls, test, **settings):
+        """One that runs, is the Slurm of all commands from now on, and ends with the test."""
+        slurm = cls(**settings)
+        slurm.__enter__()
+        test.addCleanup(slurm.__exit__)
+        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
+        test.addCleanup(os.environ.pop, "SLURM_CONF", None)
+        return slurm
+
     def __init__(self, cpus=4, max_array=1001, accounting=False, max_jobs=10000, job_age=3600, requeue_delay=120):
         self.accounting = accounting
         for program in ("munged", "slurmctld", "slurmd", "sbatch", "squeue", *(("slurmdbd", "mariadbd") if accounting else ())):

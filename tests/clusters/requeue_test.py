@@ -19,12 +19,7 @@ ENDLESS = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cy
 
 class Requeue(EndToEndTest):
     def start_slurm(self, **settings):
-        slurm = PrivateSlurm(**settings)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        return slurm
+        return PrivateSlurm.for_test(self, **settings)
 
     def submit(self, asked):
         campaign = self.folder / "campaign.toml"

@@ -30,12 +30,7 @@ class Slurm(EndToEndTest):
         self.output = self.folder / "runs $(touch hacked) & 'quoted'"
 
     def start_slurm(self, **settings):
-        slurm = PrivateSlurm(**settings)
-        slurm.__enter__()
-        self.addCleanup(slurm.__exit__)
-        os.environ["SLURM_CONF"] = slurm.environment["SLURM_CONF"]
-        self.addCleanup(os.environ.pop, "SLURM_CONF", None)
-        return slurm
+        return PrivateSlurm.for_test(self, **settings)
 
     def write_slurm_campaign(self, asked=RUN_ON_SLURM, changes=CHANGES, sweep=SWEEP):
         path = self.folder / "campaign.toml"

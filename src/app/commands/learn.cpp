@@ -7,6 +7,7 @@
 #include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -58,7 +59,10 @@ struct Whole {
 /// Says how learning ended. @return the exit code
 int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, Whole const& whole,
              std::string const& folder) {
-    bool const is_learnt = learn::Learner::has_reached(status, goal), reached = is_learnt && whole.left();
+    bool const is_learnt = learn::Learner::has_reached(status, goal);
+    constexpr double rounding = 1 + 1e-12;
+    double const largest = std::hypot(status.certainty.at_worst.half_width, whole.numerics);
+    bool const reached = is_learnt && largest <= rounding * whole.half_width;
     if (reached) {
         fmt::print(
             "the surface is known to +- {:g} everywhere in the domain: statistics {:.4f} at most, numerical "
@@ -66,9 +70,9 @@ int conclude(learn::LearnStatus const& status, learn::LearnGoal const& goal, Who
             whole.half_width, status.certainty.at_worst.half_width, whole.numerics);
     } else if (is_learnt) {
         fmt::print(
-            "not reached: the statistics are as asked ({:.4f} at most), but the numerical errors of the "
-            "simulations alone may be {:.4f}, which is too much for +- {:g}; stiffer grains and a larger box "
-            "make them smaller ('vibrotrough check' shows them)\n",
+            "not reached: the statistics are as asked ({:.4f} at most), but with the numerical errors of the "
+            "simulations, which may be {:.4f}, they are more than +- {:g}; stiffer grains and a larger box "
+            "make these errors smaller ('vibrotrough check' shows them)\n",
             status.certainty.at_worst.half_width, whole.numerics, whole.half_width);
     } else if (status.certainty.at_worst.half_width > goal.half_width) {
         fmt::print(
@@ -120,7 +124,9 @@ int run_learn(LearnArguments const& options) {
         auto const steps =
             learn::Learner::has_reached(status, goal) ? std::vector<learn::LearnStep>{} : learner.choose();
         if (steps.empty() || !take_steps(steps, ready.plan, wanted))
-            return conclude(status, goal, whole, core::shell_word(ready.plan.folder));
+            return conclude(status, goal,
+                            {whole.half_width, learn::campaign_points(ready.plan, maker).numerics},
+                            core::shell_word(ready.plan.folder));
     }
 }
 

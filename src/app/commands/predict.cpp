@@ -244,8 +244,9 @@ void add_predict(CLI::App& program, int& exit_code) {
 layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval, and the
 two parts of it: statistics (half_width in JSON and CSV), and the bound of the numerical errors of the cases
 (numerical_error, the largest of them: soft grains, a small box, the time step), which more cases do not make smaller.
-Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is predicted from all others (1: perfectly, 0: no better than the mean). Cases that are bistable or
-not steady are not part of the surface, and a place near them is marked.
+Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is predicted from
+all others (1: perfectly, 0: no better than the mean). Cases that are bistable or not steady are not part of the surface,
+and a place near them is marked.
 
 A key may be written without its section where no other varied key has the same name. Quantities have units as in the
 campaign file; bare numbers are SI.

@@ -33,7 +33,7 @@ void refuse_version_0_1(Json const& facts, fs::path const& folder) {
     if (!is_whole(facts) || facts.contains("frozen")) return;
     throw core::InputError(fmt::format(
         "{} is a campaign of version 0.1 of this program, which this version does not read any more; "
-        "read it with version 0.2.0, or run its campaign file in another folder",
+        "read it with version 0.1, or run its campaign file in another folder",
         folder.string()));
 }
 
