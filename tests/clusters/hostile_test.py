@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -71,7 +72,10 @@ class Hostile(EndToEndTest):
         for text in (campaign_text() + "#" * 50_000_000, "a = " + "[" * 1_000_000, "a" + ".a" * 1_000_000 + " = 1", "[" + "a." * 1_000_000 + "a]",
                      "a = " + "{a = " * 100_000, '"' * 3_000_000, "[[points]]\n" * 300_000):  # fmt: skip
             campaign.write_text(text)
+            start = time.monotonic()
             done = self.call("run", campaign, "--output", self.output, "--liggghts", self.engine)
+            # 0.1 s at most were measured; three million quotes once took two minutes, the square of their number.
+            self.assertLess(time.monotonic() - start, 20, text[:20])
             self.assert_one_line_error(done, 2)
             self.assertLess(len(done.stderr), 2000)
 

@@ -37,9 +37,10 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
             ++i;
         } else if (is_long) {
             if (text.substr(i, 3) != three) continue;
-            // The string may itself end with one or two quotes.
-            std::size_t const end = text.substr(i).find_first_not_of(quote);
-            return std::min(i + std::min<std::size_t>(end, 5), text.size());
+            // The string may itself end with one or two quotes. No more are looked at: a file of nothing but
+            // quotes would take a time that grows with the square of its size.
+            std::string_view const ending = text.substr(i, 5);
+            return i + std::min(ending.find_first_not_of(quote), ending.size());
         } else if (text[i] == quote || text[i] == '\n') {
             return i + 1;
         }
