@@ -1,7 +1,5 @@
 #include "core/parallel.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -9,6 +7,8 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include <sched.h>
 
 namespace vibrotrough::core {
 

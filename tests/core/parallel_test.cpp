@@ -1,13 +1,12 @@
 #include "core/parallel.hpp"
 
-#include <sched.h>
-
 #include <atomic>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 namespace vibrotrough::core {
 namespace {
