@@ -67,7 +67,7 @@ def main(scripts, sample, work):
     assert case["series/1/efficiency"].units == "1" and len(case["series/1/efficiency"]) == 3
     assert case["case/frequency"].units == "Hz" and float(case["case/frequency"]) == 13.5
     assert vibrotrough.open_result(folder / "cases" / "0123456789abcdef").attributes["case"] == "0123456789abcdef"
-    assert "case/speed" in case and "speed" not in case
+    assert "case/conveying_speed" in case and "conveying_speed" not in case
 
     # Every dataset of every kind of file tells its units, and one that does not is refused.
     for file in (campaign, case):
