@@ -1,14 +1,13 @@
 #pragma once
 
 #include "campaign/execute/campaign_driver.hpp"
+#include "core/parallel.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
 namespace CLI {
 class App;
@@ -28,7 +27,7 @@ struct RunOptions {
     bool allow_setup = false;           ///< let the tasks of a cluster run the lines of the key setup
     bool allow_extra = false;           ///< let the decks run the lines of engine.extra
     std::string templates;              ///< folder of templates of the decks; empty for the program's own
-    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));  ///< cores to use
+    int jobs = core::count_available_cores();  ///< cores to use
 
     /// Declares the options of a command.
     void add_to(CLI::App& command);

@@ -1,5 +1,7 @@
 #include "core/parallel.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -9,6 +11,15 @@
 #include <vector>
 
 namespace vibrotrough::core {
+
+int count_available_cores() {
+    cpu_set_t mask;
+    CPU_ZERO(&mask);
+    // A machine with more cores than the mask has bits (1024) refuses to fill it: then they all count.
+    if (sched_getaffinity(0, sizeof mask, &mask) != 0)
+        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return std::max(1, CPU_COUNT(&mask));
+}
 
 void for_each_index(std::size_t count, std::size_t least, std::function<IndexedWork()> const& make_work) {
     std::atomic<std::size_t> next = 0, first_failure = count;
@@ -27,7 +38,7 @@ void for_each_index(std::size_t count, std::size_t least, std::function<IndexedW
             }
         }
     };
-    std::size_t const cores = std::max(1u, std::thread::hardware_concurrency());
+    auto const cores = static_cast<std::size_t>(count_available_cores());
     std::vector<std::jthread> others;
     try {
         while (others.size() + 1 < std::min(cores, count / std::max<std::size_t>(1, least)))

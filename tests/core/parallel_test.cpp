@@ -1,5 +1,7 @@
 #include "core/parallel.hpp"
 
+#include <sched.h>
+
 #include <atomic>
 #include <stdexcept>
 #include <string>
@@ -17,6 +19,22 @@ TEST(Parallel, EachItemOnce) {
         for_each_index(count, 1, [&] { return [&](std::size_t i) { ++done[i]; }; });
         for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(done[i], 1) << i << " of " << count;
     }
+}
+
+// A task of a cluster may use the cores that were given to it, not all of the node's.
+TEST(Parallel, OnlyTheCoresOfTheAffinityMask) {
+    cpu_set_t before, one;
+    ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+    EXPECT_EQ(count_available_cores(), CPU_COUNT(&before));
+    CPU_ZERO(&one);
+    for (int core = 0; CPU_COUNT(&one) == 0; ++core)
+        if (CPU_ISSET(core, &before)) CPU_SET(core, &one);
+    ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+    EXPECT_EQ(count_available_cores(), 1);
+    std::atomic<int> made = 0;
+    for_each_index(1000, 1, [&] { return ++made, [](std::size_t) {}; });
+    EXPECT_EQ(made, 1);
+    ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
 // Few items are not worth a thread: the state of the work is made once.

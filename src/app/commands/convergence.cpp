@@ -11,6 +11,7 @@
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -19,7 +20,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ struct ConvergenceArguments {
     std::optional<double> half_width;
     bool accept_failed_probes = false;
     bool allow_extra = false;
-    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    int jobs = core::count_available_cores();
 };
 
 /// The campaign that is studied: a folder that was run, or a campaign file with the folder that it has or

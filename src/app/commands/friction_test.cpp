@@ -10,6 +10,7 @@
 #include "campaign/state/overview.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/shake_test.hpp"
@@ -18,7 +19,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ struct FrictionTestArguments {
     std::optional<double> machine_number;
     bool accept_failed_probes = false;
     bool allow_extra = false;
-    int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    int jobs = core::count_available_cores();
 };
 
 void print(evaluate::LayerFriction const& test) {

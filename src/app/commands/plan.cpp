@@ -13,6 +13,7 @@
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,6 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -164,7 +164,7 @@ void print_text(PlanView const& view) {
     if (view.campaign.excluded > 0) fmt::print(", {} left out by [[exclude]]", view.campaign.excluded);
     if (std::size_t const unused = campaign::count_left_aside(view.plan); unused > 0)
         fmt::print(", {} cases of an earlier version not used", unused);
-    unsigned const cores = std::max(1u, std::thread::hardware_concurrency());
+    int const cores = core::count_available_cores();
     fmt::print(
         "\nestimated cost: {:.3g} core-hours (probably {:.2g} to {:.2g}), {} on {} cores, at {:.2g} "
         "grain-steps per "

@@ -1,12 +1,11 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/python.hpp"
+#include "core/parallel.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +20,7 @@ struct ValidateArguments {
     std::vector<std::string> names;
     std::string output = "runs/validation", runs = "runs", python;
     bool list = false, long_ones = false, store = false, verbose = false, page = false, claims = false;
-    unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+    int jobs = core::count_available_cores();
     int points = 300;
 };
 
