@@ -30,7 +30,7 @@ TEST(Table, IsReadBackByVtk) {
     fs::path const path = folder.path() / "table.vtt";
     std::vector<compare::Row> rows{row_of("a", 1.7), row_of("b \xCE\xB2", 1e-300), row_of("", 2)};
     rows[1].layer_mode = "FP'N";
-    rows[1].packings = 3;
+    rows[1].set("packings", 3);
     rows[1].set("efficiency", 0.5);
     write_table(path, rows);
     EXPECT_EQ(core::read_file(path).find("<AppendedData"), std::string::npos);
