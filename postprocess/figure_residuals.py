@@ -27,8 +27,8 @@ def residuals(source: "Source") -> Floats:
     values = []
     for case in source.campaign["case"]:
         row = source.row_of(case)
-        known = row["efficiency_dem"] is not None and row["efficiency_theory"] is not None
-        values.append(row["efficiency_dem"] - row["efficiency_theory"] if known else np.nan)
+        known = row["efficiency"] is not None and row["efficiency_theory"] is not None
+        values.append(row["efficiency"] - row["efficiency_theory"] if known else np.nan)
     return np.array(values)
 
 

@@ -50,28 +50,28 @@ def mass_flow(case: Case) -> str:
 
 
 def speeds(cases: list[Case]) -> str:
-    known = [case for case in cases if case.get("speed_dem_m_per_s") is not None]
+    known = [case for case in cases if case.get("conveying_speed_m_per_s") is not None]
     if not known:
         return "No speed is known yet."
-    fastest = max(known, key=lambda case: float(case["speed_dem_m_per_s"]))
-    slowest = min(known, key=lambda case: float(case["speed_dem_m_per_s"]))
+    fastest = max(known, key=lambda case: float(case["conveying_speed_m_per_s"]))
+    slowest = min(known, key=lambda case: float(case["conveying_speed_m_per_s"]))
     flow = mass_flow(fastest)
-    most = interval(fastest["speed_dem_m_per_s"], fastest.get("speed_dem_half_width_m_per_s"), "m/s") + (f" ({flow})" if flow else "")
+    most = interval(fastest["conveying_speed_m_per_s"], fastest.get("conveying_speed_half_width_m_per_s"), "m/s") + (f" ({flow})" if flow else "")
     if len(known) == 1:
-        return f"The layer is conveyed at {most}, with a velocity efficiency \u03b7 of {fastest['efficiency_dem']:.2f}."
-    return (f"The layer is conveyed at {slowest['speed_dem_m_per_s']:.3f} to {fastest['speed_dem_m_per_s']:.3f} m/s. It is fastest, "
+        return f"The layer is conveyed at {most}, with a velocity efficiency \u03b7 of {fastest['efficiency']:.2f}."
+    return (f"The layer is conveyed at {slowest['conveying_speed_m_per_s']:.3f} to {fastest['conveying_speed_m_per_s']:.3f} m/s. It is fastest, "
             f"with {most}, {place_of(fastest)}.")
 
 
 def theory(cases: list[Case]) -> str:
-    known = [case for case in cases if case.get("efficiency_dem") is not None and case.get("efficiency_theory") is not None]
+    known = [case for case in cases if case.get("efficiency") is not None and case.get("efficiency_theory") is not None]
     if not known:
         return ""
 
     def difference(case: Case) -> float:
-        return float(case["efficiency_dem"] - case["efficiency_theory"])
+        return float(case["efficiency"] - case["efficiency_theory"])
 
-    agree = sum(abs(difference(case)) <= (case.get("efficiency_dem_whole_half_width") or 0.0) for case in known)
+    agree = sum(abs(difference(case)) <= (case.get("efficiency_whole_half_width") or 0.0) for case in known)
     worst = max(known, key=lambda case: abs(difference(case)))
     side = "faster" if difference(worst) > 0 else "slower"
     first = (f"The point-mass theory agrees with the layer to within the interval in {agree} of {len(known)} cases."
@@ -79,7 +79,7 @@ def theory(cases: list[Case]) -> str:
                                                                 else "does not agree with the layer to within the interval."))
     if agree == len(known):
         return first
-    return (f"{first} The difference is largest {place_of(worst)}, where the layer reaches \u03b7 = {worst['efficiency_dem']:.2f} and the "
+    return (f"{first} The difference is largest {place_of(worst)}, where the layer reaches \u03b7 = {worst['efficiency']:.2f} and the "
             f"theory {worst['efficiency_theory']:.2f}: there the layer is {side} than the theory says.")
 
 

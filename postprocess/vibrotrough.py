@@ -11,7 +11,8 @@
     theory = vibrotrough.open_theory("map.h5")                  # of 'theory map', or of 'theory batch'
     table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
 
-Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. The tables of names are in src/store/README.md.
+Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. `vibrotrough quantities` prints
+all names. A file of version 0.2.0 is read under today's names, and the names of that version are still understood.
 Needs h5py and numpy, and to_dataframe() pandas.
 """
 
@@ -72,6 +73,29 @@ def _read_fields(table: h5py.Dataset) -> Iterator[tuple[str, Array]]:
     for name, units, description in words:
         values = rows[name]
         yield name, Array(np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values, units, description)
+
+
+# Names of version 0.2.0 that were replaced, as `vibrotrough quantities --json` prints them. A value is found under both, and listed under
+# today's.
+OLD_NAMES = {
+    "speed": "conveying_speed",
+    "speed_half_width": "conveying_speed_half_width",
+    "efficiency_dem": "efficiency",
+    "efficiency_dem_half_width": "efficiency_half_width",
+    "efficiency_dem_whole_half_width": "efficiency_whole_half_width",
+    "efficiency_dem_numerical_error": "efficiency_numerical_error",
+    "speed_dem_m_per_s": "conveying_speed_m_per_s",
+    "speed_dem_half_width_m_per_s": "conveying_speed_half_width_m_per_s",
+    "mode_layer": "layer_mode",
+    "efficiency_normal_force": "efficiency_by_normal_force",
+    "wall_s": "wall_time_s",
+}
+
+
+def current_name(path: str) -> str:
+    """A path whose last part is today's name where it is an old one."""
+    before, slash, name = path.rpartition("/")
+    return before + slash + OLD_NAMES.get(name, name)
 
 
 _LARGEST_FILE = 4 << 30  # bytes
@@ -143,17 +167,17 @@ class File:
         if not isinstance(item, h5py.Dataset):
             return
         if item.dtype.names is None:
-            self._arrays[name] = _read(item)
+            self._arrays[current_name(name)] = _read(item)
         else:
-            self._arrays |= {f"{name}/{field}": values for field, values in _read_fields(item)}
+            self._arrays |= {current_name(f"{name}/{field}"): values for field, values in _read_fields(item)}
 
     def __getitem__(self, name: str) -> Array:
-        if name not in self._arrays:
+        if name not in self:
             raise KeyError(f"{self.path} has no '{name}'; it has {', '.join(self._arrays)}")
-        return self._arrays[name]
+        return self._arrays[current_name(name)]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._arrays
+        return isinstance(name, str) and current_name(name) in self._arrays
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)

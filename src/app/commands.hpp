@@ -30,6 +30,8 @@ void add_prepare(CLI::App& program, int& exit_code);
 void add_work(CLI::App& program, int& exit_code);
 /// Prints the reference of the campaign file.
 void add_keys(CLI::App& program, int& exit_code);
+/// Prints the reference of everything in the results.
+void add_quantities(CLI::App& program, int& exit_code);
 /// Writes LIGGGHTS decks without running them.
 void add_deck(CLI::App& program, int& exit_code);
 /// Measures a run that was made by hand.

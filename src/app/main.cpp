@@ -62,6 +62,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_prepare(program, exit_code);
     add_work(program, exit_code);
     add_keys(program, exit_code);
+    add_quantities(program, exit_code);
     add_deck(program, exit_code);
     add_measure(program, exit_code);
     add_status(program, exit_code);

@@ -1,8 +1,11 @@
 #include "compare/columns.hpp"
 
-#include "compare/machine_columns.hpp"
+#include "compare/drive_columns.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,43 +18,51 @@ template <auto member>
 constexpr auto field = +[](Row const& row) { return std::optional(row.*member); };
 
 std::optional<double> difference(Row const& row) {
-    if (!row.efficiency_dem || !row.efficiency_theory) return {};
-    return *row.efficiency_dem - *row.efficiency_theory;
+    auto const efficiency = row.number("efficiency");
+    if (!efficiency || !row.efficiency_theory) return {};
+    return *efficiency - *row.efficiency_theory;
 }
-
-/// The mean of a member of Row that is an interval.
-template <auto member>
-constexpr auto mean = +[](Row const& row) -> std::optional<double> {
-    if (!(row.*member)) return {};
-    return (row.*member)->mean;
-};
-
-/// The half-width of a member of Row that is an interval.
-template <auto member>
-constexpr auto half_width = +[](Row const& row) -> std::optional<double> {
-    if (!(row.*member)) return {};
-    return (row.*member)->half_width;
-};
 
 std::string three_digits(std::optional<double> const& value) {
     return value ? fmt::format("{:.3f}", *value) : "-";
 }
 
 std::string efficiency_cell(Row const& row) {
-    if (!row.efficiency_dem || !row.whole_half_width) return three_digits(row.efficiency_dem);
-    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.whole_half_width);
+    auto const efficiency = row.number("efficiency"), width = row.number("efficiency_whole_half_width");
+    return three_digits(efficiency) + (efficiency && width ? " +- " + three_digits(width) : "");
+}
+
+/// A mass flow in t/h with its half-width.
+std::string flow_cell(Row const& row, std::string const& quantity) {
+    constexpr double hours = 3.6;  // t/h in kg/s
+    auto const flow = row.number(quantity), width = row.number(quantity + "_half_width");
+    if (!flow) return "-";
+    std::string const mean = fmt::format("{:.3g}", hours * *flow);
+    return width ? fmt::format("{} +- {:.2g}", mean, hours * *width) : mean;
 }
 
 std::string cycles_cell(Row const& row) {
-    if (!row.cycles_measured || !row.cycles_discarded) return "-";
-    return fmt::format("{}+{}", *row.cycles_discarded, *row.cycles_measured);
+    auto const measured = row.number("cycles_measured"), discarded = row.number("cycles_discarded");
+    return measured && discarded ? fmt::format("{}+{}", *discarded, *measured) : "-";
+}
+
+/// Sets what the terminal shows of several quantities in one cell.
+void set_cells(std::vector<Column>& columns) {
+    auto const set = [&](std::string_view name, std::string (*cell)(Row const&)) {
+        std::ranges::find(columns, name, &Column::name)->cell = cell;
+    };
+    set("efficiency", efficiency_cell);
+    set("cycles_measured", cycles_cell);
+    set("mass_flow_t_per_h", [](Row const& row) { return flow_cell(row, "mass_flow"); });
+    set("mass_flow_per_width_t_per_h_m",
+        [](Row const& row) { return flow_cell(row, "mass_flow_per_width"); });
 }
 
 /// Colours that the colour-blind tell apart: yellow where the layer is faster than the theory, cyan where it
 /// is slower, bold from 0.1 on; none within the confidence interval.
 std::string difference_colour(Row const& row) {
     auto const value = difference(row);
-    if (!value || std::abs(*value) <= row.whole_half_width.value_or(0.0)) return {};
+    if (!value || std::abs(*value) <= row.number("efficiency_whole_half_width").value_or(0.0)) return {};
     return fmt::format("\x1b[{}{}m", std::abs(*value) >= 0.1 ? "1;" : "", *value > 0 ? 33 : 36);
 }
 
@@ -62,48 +73,8 @@ std::string outcome_colour(Row const& row) {
     return is_fine ? "" : "\x1b[31m";
 }
 
-std::vector<Column> efficiency_columns() {
+std::vector<Column> theory_columns() {
     return {
-        {.name = "efficiency_dem",
-         .unit = "1",
-         .value = field<&Row::efficiency_dem>,
-         .meaning = "Velocity efficiency \u03b7 of the simulated layer: its mean velocity relative to the "
-                    "trough over \u03c9 r cos \u03b2; unknown unless the layer became steady",
-         .format = "{:.3f}",
-         .position = 70,
-         .terminal = TerminalView{.heading = "eta DEM", .priority = always_shown, .cell = efficiency_cell},
-         .report = ReportView{.heading = "\u03b7, DEM"}},
-        {.name = "efficiency_dem_half_width",
-         .unit = "1",
-         .value = field<&Row::efficiency_dem_half_width>,
-         .meaning =
-             "Half-width of the confidence interval of efficiency_dem over all packings: statistics alone",
-         .format = "{:.3f}",
-         .position = 80,
-         .report = ReportView{.heading = "\u00b1 statistical"}},
-        {.name = "efficiency_dem_whole_half_width",
-         .unit = "1",
-         .value = field<&Row::whole_half_width>,
-         .meaning =
-             "Half-width of efficiency_dem for statistics and numerics together: the root of the sum of "
-             "squares of efficiency_dem_half_width and efficiency_dem_numerical_error",
-         .format = "{:.3f}",
-         .position = 87,
-         .report = ReportView{.heading = "\u00b1 together"}},
-        {.name = "speed_dem_m_per_s",
-         .unit = "m/s",
-         .value = mean<&Row::speed_dem>,
-         .meaning = "Conveying speed of the simulated layer: efficiency_dem times \u03c9 r cos \u03b2",
-         .format = "{:.3f}",
-         .position = 160,
-         .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 4},
-         .report = ReportView{.heading = "speed"}},
-        {.name = "speed_dem_half_width_m_per_s",
-         .unit = "m/s",
-         .value = half_width<&Row::speed_dem>,
-         .meaning = "Half-width of speed_dem_m_per_s, for statistics and numerics together",
-         .format = "{:.3f}",
-         .position = 161},
         {.name = "efficiency_theory",
          .unit = "1",
          .value = field<&Row::efficiency_theory>,
@@ -134,9 +105,9 @@ std::vector<Column> efficiency_columns() {
          .position = 140,
          .terminal = TerminalView{.heading = "mode", .subheading = "theory", .priority = 5},
          .report = ReportView{.heading = "mode, theory"}},
-        {.name = "mode_layer",
+        {.name = "layer_mode",
          .unit = "1",
-         .value = field<&Row::mode_layer>,
+         .value = field<&Row::layer_mode>,
          .meaning = "Mode of the simulated layer as a whole, in the same letters",
          .position = 150,
          .terminal =
@@ -147,21 +118,6 @@ std::vector<Column> efficiency_columns() {
 
 std::vector<Column> friction_columns() {
     return {
-        {.name = "efficiency_normal_force",
-         .unit = "1",
-         .value = field<&Row::efficiency_by_normal_force>,
-         .meaning = "Velocity efficiency of a point mass with the friction of a grain under the normal force "
-                    "that the layer itself exerts; unknown with side walls",
-         .format = "{:.3f}",
-         .position = 100,
-         .terminal =
-             TerminalView{
-                 .heading = "eta point", .subheading = "its force", .priority = 3, .only_when_known = true}},
-        {.name = "landing_friction",
-         .unit = "1",
-         .value = field<&Row::landing_friction>,
-         .meaning = "Tangential over normal impulse while the layer lands; unknown without landings and with "
-                    "side walls"},
         {.name = "friction_layer",
          .unit = "1",
          .value = field<&Row::friction_layer>,
@@ -198,39 +154,14 @@ std::vector<Column> friction_columns() {
 
 std::vector<Column> run_columns() {
     return {
-        {.name = "packings",
-         .unit = "1",
-         .value = field<&Row::packings>,
-         .meaning = "Number of independent packings that the confidence interval rests on"},
-        {.name = "cycles_measured",
-         .unit = "1",
-         .value = field<&Row::cycles_measured>,
-         .meaning = "Cycles kept for the mean, all packings together",
-         .position = 170,
-         .terminal =
-             TerminalView{.heading = "cycles", .subheading = "cut+kept", .priority = 2, .cell = cycles_cell},
-         .report = ReportView{.heading = "cycles kept"}},
-        {.name = "cycles_discarded",
-         .unit = "1",
-         .value = field<&Row::cycles_discarded>,
-         .meaning = "Cycles discarded as start-up, all packings together",
-         .position = 180,
-         .report = ReportView{.heading = "discarded"}},
-        {.name = "wall_s",
-         .unit = "s",
-         .value = field<&Row::wall_s>,
-         .meaning = "Wall time of the engine, all packings together",
-         .format = "{:.0f}",
-         .position = 190,
-         .report = ReportView{.heading = "wall time"}},
         {.name = "outcome",
          .unit = "1",
          .value = field<&Row::outcome>,
          .meaning = "How the case ended, or what it waits for",
          .position = 200,
-         .terminal =
-             TerminalView{.heading = "outcome", .priority = 6, .flush_left = true, .colour = outcome_colour},
-         .report = ReportView{.heading = "outcome"}},
+         .terminal = TerminalView{.heading = "outcome", .priority = 6, .flush_left = true},
+         .report = ReportView{.heading = "outcome"},
+         .colour = outcome_colour},
         {.name = "not_covered",
          .unit = "1",
          .value = field<&Row::not_covered>,
@@ -248,7 +179,7 @@ std::vector<Column> run_columns() {
          .value = field<&Row::soft>,
          .meaning =
              "\"soft\" when Young's modulus is too low for the depth and the drive of the layer, so that "
-             "efficiency_dem is probably wrong by more than half of measure.half_width; unknown otherwise",
+             "efficiency is probably wrong by more than half of measure.half_width; unknown otherwise",
          .position = 205,
          .terminal = TerminalView{.heading = "grains",
                                   .subheading = "too soft",
@@ -259,37 +190,22 @@ std::vector<Column> run_columns() {
         {.name = "difference",
          .unit = "1",
          .value = difference,
-         .meaning = "efficiency_dem minus efficiency_theory",
+         .meaning = "efficiency minus efficiency_theory",
          .format = "{:+.3f}",
          .position = 130,
          .in_data = false,
-         .terminal =
-             TerminalView{.heading = "difference", .priority = always_shown, .colour = difference_colour},
-         .report = ReportView{.heading = "difference"}},
+         .terminal = TerminalView{.heading = "difference", .priority = always_shown},
+         .report = ReportView{.heading = "difference"},
+         .colour = difference_colour},
     };
 }
 
-std::vector<Column> numerics_columns() {
+std::vector<Column> error_columns() {
     return {
-        {.name = "efficiency_dem_numerical_error",
-         .unit = "1",
-         .value = field<&Row::numerical_error>,
-         .meaning = "Numerical error of efficiency_dem by soft grains, box and time step: as 'vibrotrough "
-                    "convergence' measured it, else its bound at 95 %",
-         .format = "{:.3f}",
-         .position = 82,
-         .report = ReportView{.heading = "\u00b1 numerical"}},
-        {.name = "numerical_error_case",
-         .unit = "1",
-         .value = field<&Row::numerical_error_case>,
-         .meaning = "Case that was studied for efficiency_dem_numerical_error: this one, or the nearest one "
-                    "that was; unknown for a bound",
-         .position = 84,
-         .report = ReportView{.heading = "numerical error of case"}},
         {.name = "larger_error",
          .unit = "1",
          .value = larger_error,
-         .meaning = "Which error of efficiency_dem is larger: statistical (efficiency_dem_half_width) or "
+         .meaning = "Which error of efficiency is larger: statistical (efficiency_half_width) or "
                     "numerical",
          .position = 86,
          .report = ReportView{.heading = "larger error"}},
@@ -297,13 +213,38 @@ std::vector<Column> numerics_columns() {
 }
 
 std::string budget_cell(Row const& row) {
-    if (!row.efficiency_dem_half_width || !row.numerical_error) return efficiency_cell(row);
-    return three_digits(row.efficiency_dem) + " +- " + three_digits(row.efficiency_dem_half_width) + " +- " +
-           (is_bound(row) ? "<" : "") + three_digits(row.numerical_error) + (is_borrowed(row) ? "*" : "");
+    auto const statistical = row.number("efficiency_half_width"),
+               numerical = row.number("efficiency_numerical_error");
+    if (!statistical || !numerical) return efficiency_cell(row);
+    return three_digits(row.number("efficiency")) + " +- " + three_digits(statistical) + " +- " +
+           (is_bound(row) ? "<" : "") + three_digits(numerical) + (is_borrowed(row) ? "*" : "");
 }
 
 std::string larger_error_colour(Row const& row) {
     return larger_error(row) == "numerical" ? "\x1b[1m" : "";
+}
+
+/// What the names of columns in text files end in, because these files tell no units: t/h/m is _t_per_h_m.
+std::string unit_suffix(std::string_view unit) {
+    if (unit == "1") return "";
+    std::string suffix = "_";
+    for (char const c : unit) {
+        if (c == '/')
+            suffix += suffix.find("_per_") == suffix.npos ? "_per_" : "_";
+        else
+            suffix += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return suffix;
+}
+
+/// A function that stands for the type of the values of a quantity.
+Column::Function type_of(store::CaseNumber const& value) {
+    constexpr auto nothing = []<typename Type>(Type const&) {
+        return +[](Row const&) -> std::optional<Type> { return {}; };
+    };
+    if (std::holds_alternative<int>(value)) return nothing(0);
+    if (std::holds_alternative<std::string>(value)) return nothing(std::string());
+    return nothing(0.0);
 }
 
 }  // namespace
@@ -311,21 +252,27 @@ std::string larger_error_colour(Row const& row) {
 std::vector<Column> budget_columns(std::span<Column const> all) {
     std::vector<Column> columns(all.begin(), all.end());
     for (Column& column : columns) {
-        if (column.name == "efficiency_dem") {
+        if (column.name == "efficiency") {
             column.terminal->subheading = "+- stat. +- num.";
-            column.terminal->cell = budget_cell;
+            column.cell = budget_cell;
         } else if (column.name == "larger_error") {
-            column.terminal = TerminalView{
-                .heading = "larger", .subheading = "error", .priority = 8, .colour = larger_error_colour};
+            column.terminal = TerminalView{.heading = "larger", .subheading = "error", .priority = 8};
+            column.colour = larger_error_colour;
         }
     }
     return columns;
 }
 
 std::optional<Value> Column::of(Row const& row) const {
-    if (swept >= 0) {
-        auto const place = static_cast<std::size_t>(swept);
-        return place < row.swept.size() ? row.swept[place] : std::nullopt;
+    auto const at = [](std::vector<std::optional<Value>> const& values, int index) {
+        auto const i = static_cast<std::size_t>(index);
+        return i < values.size() ? values[i] : std::nullopt;
+    };
+    if (swept >= 0) return at(row.swept, swept);
+    if (measured >= 0) {
+        auto known = at(row.measured, measured);
+        if (known && std::holds_alternative<double>(*known)) known = unit_factor * std::get<double>(*known);
+        return known;
     }
     return std::visit(
         [&row](auto const function) -> std::optional<Value> {
@@ -343,12 +290,43 @@ std::string Column::shown(Row const& row) const {
     return std::visit([this](auto const& one) { return fmt::format(fmt::runtime(format), one); }, *known);
 }
 
+std::vector<Column> measured_columns() {
+    std::vector<Column> columns;
+    auto const& quantities = measured_quantities();
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+        store::Quantity const& one = *quantities[i];
+        for (store::View const& view : one.views) {
+            std::string const unit(view.unit.empty() ? one.units : view.unit);
+            columns.push_back({.name = std::string(one.name) + unit_suffix(unit),
+                               .unit = unit,
+                               .value = type_of(one.type_of_case()),
+                               .meaning = one.meaning_of_case(),
+                               .format = view.format,
+                               .position = view.position,
+                               .terminal = view.terminal,
+                               .report = view.report,
+                               .measured = static_cast<int>(i),
+                               .unit_factor = view.factor,
+                               .place = view.place});
+        }
+    }
+    return columns;
+}
+
 std::span<Column const> all_columns() {
     static std::vector<Column> const columns = [] {
-        std::vector<Column> all;
-        for (auto const& part : {drive_columns(), efficiency_columns(), machine_columns(), friction_columns(),
-                                 run_columns(), numerics_columns()})
-            all.insert(all.end(), part.begin(), part.end());
+        std::vector<Column> all = measured_columns();
+        set_cells(all);
+        // The places of the first column of each part, between which those of the quantities are.
+        for (auto const& [first, part] : {std::pair(10, drive_columns()), std::pair(160, theory_columns()),
+                                          std::pair(320, friction_columns()), std::pair(410, run_columns()),
+                                          std::pair(470, error_columns())}) {
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                all.push_back(part[i]);
+                all.back().place = first + 10 * static_cast<int>(i);
+            }
+        }
+        std::ranges::stable_sort(all, {}, &Column::place);
         return all;
     }();
     return columns;

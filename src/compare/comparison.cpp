@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -64,63 +65,29 @@ void add_layer_theory(Row& row, prepare::PointMassInputs const& point_mass,
     if (motion.converged) row.efficiency_theory_layer = motion.velocity_efficiency;
 }
 
-/// The mean over the packings that have the number.
-std::optional<double> mean_of(store::CaseRecord const& record,
-                              std::optional<double> measure::LayerMotion::*number) {
-    double sum = 0;
-    int count = 0;
-    for (store::PackingRecord const& packing : record.packings) {
-        std::optional<double> const value = packing.motion.*number;
-        if (!value) continue;
-        sum += *value;
-        ++count;
-    }
-    if (count == 0) return {};
-    return sum / count;
+/// A value of a quantity; none for a number or a word that does not exist.
+std::optional<Value> known_value(store::CaseNumber const& value) {
+    if (auto const* const whole = std::get_if<int>(&value)) return *whole;
+    if (auto const* const word = std::get_if<std::string>(&value))
+        return word->empty() ? std::nullopt : std::optional<Value>(*word);
+    auto const& number = std::get<std::optional<double>>(value);
+    return number && std::isfinite(*number) ? std::optional<Value>(*number) : std::nullopt;
 }
 
-Interval scaled(Interval const& interval, double factor) {
-    if (!interval.half_width) return {factor * interval.mean, {}};
-    return {factor * interval.mean, factor * *interval.half_width};
-}
-
-/// What the layer carries and does to its machine. The record's scenario gives the size of the layer.
-void add_machine(Row& row, store::CaseRecord const& record, scenario::Scenario const& s) {
-    double const area = s.layer.length * s.layer.width, mass = mass_per_area(s) * area;
-    row.mass_flow_per_width = scaled(*row.speed_dem, mass_per_area(s));
-    if (auto const width = trough_width(s)) row.mass_flow = scaled(*row.mass_flow_per_width, *width);
-    if (auto const power = mean_of(record, &measure::LayerMotion::trough_power))
-        row.power_per_area = *power / area;
-    if (auto const damping = mean_of(record, &measure::LayerMotion::damping))
-        row.damping_per_area = *damping / area;
-    if (auto const added = mean_of(record, &measure::LayerMotion::added_mass)) {
-        row.added_mass_per_area = *added / area;
-        row.added_mass_fraction = *added / mass;
+void add_measurement(Row& row, store::CaseRecord const& record) {
+    if (!record.layer_mode.empty()) row.layer_mode = record.layer_mode;
+    bool const mean = has_mean(record.outcome);  // no mean is reported unless the case is steady
+    for (store::Quantity const* const one : measured_quantities()) {
+        bool const is_shown = mean || one->known_without_mean;
+        row.measured.push_back(is_shown ? known_value(one->of_case(record)) : std::nullopt);
     }
 }
 
-void add_measurement(Row& row, store::CaseRecord const& record, prepare::PreparedCase const& prepared) {
-    row.packings = record.estimate.packings;
-    if (!record.layer_mode.empty()) row.mode_layer = record.layer_mode;
-    row.cycles_measured = row.cycles_discarded = 0;
-    row.wall_s = 0;
-    for (store::PackingRecord const& packing : record.packings) {
-        *row.cycles_measured += packing.estimate.measured;
-        *row.cycles_discarded += packing.estimate.discarded;
-        *row.wall_s += packing.wall_time;
-    }
-    if (!has_mean(record.outcome)) return;  // no mean is reported unless the case is steady
-    row.efficiency_dem = record.estimate.mean;
-    row.efficiency_dem_half_width = record.estimate.half_width;
-    row.numerical_error = record.numerical_error();
-    if (record.studied) row.numerical_error_case = record.studied->case_id;
-    row.whole_half_width = record.whole_half_width();
-    if (record.estimate.mean) {
-        row.speed_dem = scaled({*record.estimate.mean, row.whole_half_width}, prepared.velocity_scale);
-        add_machine(row, record, prepared.scenario);
-    }
-    row.efficiency_by_normal_force = mean_of(record, &measure::LayerMotion::efficiency_by_normal_force);
-    row.landing_friction = mean_of(record, &measure::LayerMotion::landing_friction);
+std::size_t place_of(std::string_view quantity) {
+    auto const& all = measured_quantities();
+    auto const found = std::ranges::find_if(all, [&](auto const* one) { return one->name == quantity; });
+    if (found == all.end()) throw std::out_of_range("no column shows " + std::string(quantity));
+    return static_cast<std::size_t>(found - all.begin());
 }
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -167,17 +134,48 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     return text;
 }
 
+std::vector<store::Quantity const*> const& measured_quantities() {
+    static std::vector<store::Quantity const*> const shown = [] {
+        std::vector<store::Quantity const*> found;
+        for (store::Quantity const& one : store::quantities())
+            if (!one.views.empty()) found.push_back(&one);
+        return found;
+    }();
+    return shown;
+}
+
+std::optional<Value> Row::of(std::string_view quantity) const {
+    std::size_t const place = place_of(quantity);
+    return place < measured.size() ? measured[place] : std::nullopt;
+}
+
+std::optional<double> Row::number(std::string_view quantity) const {
+    auto const value = of(quantity);
+    if (!value) return {};
+    auto const* const whole = std::get_if<int>(&*value);
+    return whole != nullptr ? *whole : std::get<double>(*value);
+}
+
+void Row::set(std::string_view quantity, std::optional<Value> const& value) {
+    std::size_t const place = place_of(quantity);
+    measured.resize(measured_quantities().size());
+    measured[place] = value;
+}
+
 bool is_bound(Row const& row) {
-    return row.numerical_error && !row.numerical_error_case;
+    return row.of("efficiency_numerical_error") && !row.of("numerical_error_case");
 }
 
 bool is_borrowed(Row const& row) {
-    return row.numerical_error_case && *row.numerical_error_case != row.id;
+    auto const studied = row.of("numerical_error_case");
+    return studied && *studied != Value(row.id);
 }
 
 std::optional<std::string> larger_error(Row const& row) {
-    if (!row.efficiency_dem_half_width || !row.numerical_error) return {};
-    return *row.numerical_error > *row.efficiency_dem_half_width ? "numerical" : "statistical";
+    auto const statistical = row.number("efficiency_half_width"),
+               numerical = row.number("efficiency_numerical_error");
+    if (!statistical || !numerical) return {};
+    return *numerical > *statistical ? "numerical" : "statistical";
 }
 
 Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
@@ -204,7 +202,7 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
     add_theory(row, prepared.point_mass);
     add_rolling_layer(row, prepared);
     if (friction) add_layer_theory(row, prepared.point_mass, *friction);
-    if (record) add_measurement(row, *record, prepared);
+    if (record) add_measurement(row, *record);
     return row;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "prepare/prepared_case.hpp"
-#include "store/case_record.hpp"
+#include "store/quantity.hpp"
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -13,58 +14,45 @@ namespace vibrotrough::compare {
 /// A known value of a column.
 using Value = std::variant<double, int, std::string>;
 
-/// A mean and the half-width of its interval, for statistics and numerics together; the latter is not known
-/// when the interval is unbounded.
-struct Interval {
-    double mean;                       ///< estimate
-    std::optional<double> half_width;  ///< at the campaign's confidence
-};
-
 /// One case: what was measured beside what the point-mass theory predicts. Members without a value are not
 /// known. The table of columns, columns.cpp, explains the members.
 struct Row {
-    std::string id;                                   ///< of the case
-    double throw_number;                              ///< Gamma = omega^2 r sin(beta) / (g cos(alpha))
-    double machine_number;                            ///< K = omega^2 r / g
-    double vibration_angle_deg;                       ///< beta, degrees
-    double inclination_deg;                           ///< alpha, degrees, positive when it conveys uphill
-    double friction;                                  ///< coefficient, grain on trough
-    double amplitude_m;                               ///< r in the direction of vibration, half the stroke, m
-    double frequency_hz;                              ///< Hz
-    std::optional<double> efficiency_dem;             ///< none when the layer never became steady
-    std::optional<double> efficiency_dem_half_width;  ///< of the interval at the campaign's confidence
-    std::optional<double> numerical_error;            ///< of efficiency_dem: as studied, else its bound
-    std::optional<std::string>
-        numerical_error_case;                     ///< id of the case that was studied for it; none: a bound
-    std::optional<double> whole_half_width;       ///< of efficiency_dem: statistics and numerics together
-    std::optional<Interval> speed_dem;            ///< efficiency_dem * omega r cos(beta), m/s
-    std::optional<Interval> mass_flow_per_width;  ///< speed_dem times the mass per area, kg/(s m)
-    std::optional<Interval> mass_flow;            ///< of the whole width of the trough, kg/s
-    std::optional<double> power_per_area;         ///< W/m^2, of the trough on the layer
-    std::optional<double> added_mass_per_area;    ///< kg/m^2, by which the layer loads the machine
-    std::optional<double> added_mass_fraction;    ///< added mass over the mass of the layer
-    std::optional<double> damping_per_area;       ///< kg/(s m^2), by which the layer damps the machine
-    std::optional<double> efficiency_theory;      ///< none when the point mass has no mean speed
-    std::optional<double> efficiency_rolling_layer;    ///< none outside the tested range of that law
-    std::optional<std::string> mode_theory;            ///< phases of that point mass in order
-    std::optional<std::string> mode_layer;             ///< phases of the layer as a whole in order
-    std::optional<double> efficiency_by_normal_force;  ///< of a point mass under the layer's own normal force
-    std::optional<double> landing_friction;         ///< tangential over normal impulse of the layer's landing
-    std::optional<double> friction_layer;           ///< of the layer as a whole, from a friction test
-    std::optional<double> friction_layer_low;       ///< lower end of its interval
-    std::optional<double> friction_layer_high;      ///< upper end of its interval
-    std::optional<double> efficiency_theory_layer;  ///< theory at the layer's friction
-    std::optional<std::string> mode_theory_layer;   ///< mode at the layer's friction
-    std::optional<int> packings;                    ///< number of packings in the interval
-    std::optional<int> cycles_measured;             ///< all packings together
-    std::optional<int> cycles_discarded;            ///< as start-up, all packings together
-    std::optional<double> wall_s;                   ///< wall time of the engine, all packings together, s
-    std::string outcome;                            ///< how the case ended, or what it waits for
+    std::string id;                                  ///< of the case
+    double throw_number;                             ///< Gamma = omega^2 r sin(beta) / (g cos(alpha))
+    double machine_number;                           ///< K = omega^2 r / g
+    double vibration_angle_deg;                      ///< beta, degrees
+    double inclination_deg;                          ///< alpha, degrees, positive when it conveys uphill
+    double friction;                                 ///< coefficient, grain on trough
+    double amplitude_m;                              ///< r in the direction of vibration, half the stroke, m
+    double frequency_hz;                             ///< Hz
+    std::optional<double> efficiency_theory;         ///< none when the point mass has no mean speed
+    std::optional<double> efficiency_rolling_layer;  ///< none outside the tested range of that law
+    std::optional<std::string> mode_theory;          ///< phases of that point mass in order
+    std::optional<std::string> layer_mode;           ///< phases of the layer as a whole in order
+    std::optional<double> friction_layer;            ///< of the layer as a whole, from a friction test
+    std::optional<double> friction_layer_low;        ///< lower end of its interval
+    std::optional<double> friction_layer_high;       ///< upper end of its interval
+    std::optional<double> efficiency_theory_layer;   ///< theory at the layer's friction
+    std::optional<std::string> mode_theory_layer;    ///< mode at the layer's friction
+    std::string outcome;                             ///< how the case ended, or what it waits for
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
+    /// Values of measured_quantities() in their order and units; empty without a result.
+    std::vector<std::optional<Value>> measured = {};
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
     std::optional<std::string> soft = {};         ///< "soft" when the grains are too soft for the layer
+
+    /// The value of one of measured_quantities(); none when it is not known.
+    /// @throws std::out_of_range when no quantity has this name
+    std::optional<Value> of(std::string_view quantity) const;
+    /// The same of a quantity with numbers.
+    std::optional<double> number(std::string_view quantity) const;
+    /// Sets it, or makes it unknown.
+    void set(std::string_view quantity, std::optional<Value> const& value);
 };
+
+/// The quantities of a result that have columns, in the order of store::quantities().
+std::vector<store::Quantity const*> const& measured_quantities();
 
 /// Whether the numerical error of a row is a bound that is known beforehand, and not one that was studied.
 bool is_bound(Row const& row);
@@ -72,7 +60,7 @@ bool is_bound(Row const& row);
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.
 bool is_borrowed(Row const& row);
 
-/// "statistical" or "numerical": the larger of the half-width of efficiency_dem and its numerical error. None
+/// "statistical" or "numerical": the larger of the half-width of the efficiency and its numerical error. None
 /// unless both are known.
 std::optional<std::string> larger_error(Row const& row);
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "store/reference.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,7 @@ constexpr std::size_t longest_shown = 60;
 
 /// Finds a column by name. @throws InputError naming the option and all columns when there is no such column
 Column const& find_column(std::span<Column const> columns, std::string_view option, std::string_view name) {
-    auto const found = std::ranges::find(columns, name, &Column::name);
+    auto const found = std::ranges::find(columns, store::current_name(name), &Column::name);
     if (found != columns.end()) return *found;
     // A swept key may be written in full (trough.friction), or without its section where that is unique.
     auto const by_key = std::ranges::find(columns, name, &Column::key);

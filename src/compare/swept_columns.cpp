@@ -45,10 +45,10 @@ std::string_view subheading_of(Key const& key) {
 Column column_of(Key const& key, int place) {
     scenario::ShownUnit const shown = scenario::shown_unit(key);
     bool const is_angle = key.unit == "radian";  // Row::swept holds degrees
-    return {.name = key.path,
-            .unit = unit_of(key),
+    return {.name = std::string(key.path),
+            .unit = std::string(unit_of(key)),
             .value = type_of(key),
-            .meaning = key.meaning,
+            .meaning = std::string(key.meaning),
             .format = has_words(key) || key.kind == KeyKind::integer ? "{}" : "{:.6g}",
             .position = first_position + place,
             .terminal = TerminalView{.heading = key.path.substr(key.path.find('.') + 1),

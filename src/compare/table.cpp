@@ -26,7 +26,7 @@ Columns terminal_columns(std::span<Column const> columns) {
 }
 
 std::string cell(Column const& column, Row const& row) {
-    return column.terminal->cell != nullptr ? column.terminal->cell(row) : column.shown(row);
+    return column.cell != nullptr ? column.cell(row) : column.shown(row);
 }
 
 /// Columns with the same value in all of several rows.
@@ -132,8 +132,9 @@ std::string to_table(std::vector<Row> const& rows, TableStyle const& style, std:
             TerminalView const& view = *shown[i]->terminal;
             std::string const padded = view.flush_left ? fmt::format("{:<{}}", lines[n][i], widths[i])
                                                        : fmt::format("{:>{}}", lines[n][i], widths[i]);
-            bool const coloured = style.colour && n >= headings && view.colour != nullptr;
-            line += painted(padded, coloured ? view.colour(rows[n - headings]) : "") + std::string(gap, ' ');
+            bool const coloured = style.colour && n >= headings && shown[i]->colour != nullptr;
+            line +=
+                painted(padded, coloured ? shown[i]->colour(rows[n - headings]) : "") + std::string(gap, ' ');
         }
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }

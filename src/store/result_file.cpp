@@ -30,12 +30,14 @@ Values stored_values(std::span<Record const> records, Function const& value_of) 
     return values;
 }
 
-Values stored_values(CaseValue const& value, std::span<CaseRecord const> cases) {
-    return std::visit([&](auto const function) { return stored_values(cases, function); }, value.value);
-}
-
-Values stored_values(PackingValue const& value, std::span<PackingRecord const> packings) {
-    return std::visit([&](auto const& field) { return stored_values(packings, field); }, value.field);
+/// The values of cases.
+Values stored_values(Quantity const& quantity, std::span<CaseRecord const> cases) {
+    return std::visit(
+        [&]<typename Type>(Type const&) {
+            return stored_values(
+                cases, [&](CaseRecord const& one) { return std::get<Type>(quantity.of_case(one)); });
+        },
+        quantity.type_of_case());
 }
 
 /// The path of a table of one packing.
@@ -51,22 +53,21 @@ std::string_view group_of(PackingTable const& table) {
     return table.group;
 }
 
-/// Reads one PackingValue of all packings.
-void read_column(Hdf5Table const& table, PackingValue const& value, std::vector<PackingRecord>& packings) {
-    if (value.may_be_missing && !table.has(std::string(value.entry.name))) return;
-    std::visit(
-        [&](auto const& field) {
-            using Stored = decltype(to_stored(field(packings.front())));
-            auto const values = table.values<Stored>(std::string(value.entry.name));
-            for (std::size_t i = 0; i < values.size(); ++i) from_stored(values[i], field(packings[i]));
-        },
-        value.field);
+/// Reads one quantity of all packings.
+void read_column(Hdf5Table const& table, Quantity const& quantity, std::vector<PackingRecord>& packings) {
+    std::string const name(quantity.name);
+    if (quantity.may_be_missing && !table.has(name)) return;
+    for_packings(quantity, [&](auto const& field) {
+        using Stored = decltype(to_stored(field(packings.front())));
+        auto const values = table.values<Stored>(name);
+        for (std::size_t i = 0; i < values.size(); ++i) from_stored(values[i], field(packings[i]));
+    });
 }
 
 void read_packings(Hdf5MemoryFileReader const& file, std::vector<PackingRecord>& packings) {
     Hdf5Table const table = file.table("packings", Rank::array);
     packings.resize(table.rows());
-    for (PackingValue const& value : packing_values()) read_column(table, value, packings);
+    for (Quantity const& quantity : quantities()) read_column(table, quantity, packings);
 }
 
 /// Reads the columns of all tables of a packing.
@@ -125,13 +126,31 @@ void add_tables(Hdf5MemoryFileWriter& file, std::size_t number, PackingRecord co
     for (auto const& [group, columns] : tables) file.table(packing_path(group, number), columns, Rank::array);
 }
 
-/// A table of values, one row per record.
-template <typename Entries, typename Record>
-std::vector<Hdf5Column> columns_of(Entries const& entries, std::span<Record const> records) {
+/// The quantities of the table `case`, with meanings that last as long as the program.
+std::vector<std::pair<Quantity const*, std::string>> const& case_columns() {
+    static std::vector<std::pair<Quantity const*, std::string>> const columns = [] {
+        std::vector<std::pair<Quantity const*, std::string>> all;
+        for (Quantity const& one : quantities())
+            if (one.is_of_case()) all.emplace_back(&one, one.meaning_of_case());
+        return all;
+    }();
+    return columns;
+}
+
+std::vector<Hdf5Column> case_table(CaseRecord const& record) {
     std::vector<Hdf5Column> columns;
-    for (auto const& value : entries) {
-        auto const& [name, units, meaning] = value.entry;
-        columns.push_back({name, units, meaning, stored_values(value, records)});
+    for (auto const& [one, meaning] : case_columns())
+        columns.push_back({one->name, one->units, meaning, stored_values(*one, std::span(&record, 1))});
+    return columns;
+}
+
+std::vector<Hdf5Column> packings_table(CaseRecord const& record) {
+    std::vector<Hdf5Column> columns;
+    for (Quantity const& one : quantities()) {
+        for_packings(one, [&](auto const& field) {
+            columns.push_back({one.name, one.units, one.meaning,
+                               stored_values(std::span<PackingRecord const>(record.packings), field)});
+        });
     }
     return columns;
 }
@@ -215,8 +234,8 @@ std::string result_bytes(CaseRecord const& record) {
     put(scenario_entry(), record.scenario_toml);
     put(certificate_entry(), record.provenance.engine_certificate);
     put(scenario_files_entry(), files_as_json(record.scenario));
-    file.table("case", columns_of(case_values(), std::span(&record, 1)), Rank::scalar);
-    file.table("packings", columns_of(packing_values(), std::span(record.packings)), Rank::array);
+    file.table("case", case_table(record), Rank::scalar);
+    file.table("packings", packings_table(record), Rank::array);
     measure::MassFlow const flow = mass_flow_of(record);
     std::vector<Hdf5Column> columns;
     for (auto const& [entry, field] : mass_flow_columns())
@@ -268,7 +287,8 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     };
     for (CaseFact const& fact : case_facts())
         std::visit([&](auto const& field) { put(fact.entry, stored_values(cases, field)); }, fact.field);
-    for (CaseValue const& value : case_values()) put(value.entry, stored_values(value, cases));
+    for (auto const& [one, meaning] : case_columns())
+        put({one->name, one->units, meaning}, stored_values(*one, cases));
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
     return file.bytes();
 }

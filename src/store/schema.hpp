@@ -2,20 +2,17 @@
 
 #include "measure/mass_flow.hpp"
 #include "scenario/reader/keys.hpp"
-#include "store/case_record.hpp"
+#include "store/quantity.hpp"
 
-#include <concepts>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
 /// @file
-/// The table of everything in the store's files. The README of this room has the same table, and a test
-/// compares both with files that were written.
+/// The table of everything in the store's files: beside the quantities the facts of a case, its series and
+/// its tables. `vibrotrough quantities` prints it, and a test compares it with files that were written.
 
 namespace vibrotrough::store {
 
@@ -26,71 +23,12 @@ struct Entry {
     std::string_view meaning;  ///< for people; the attribute `description`
 };
 
-/// The way to one field of a record. The same entry of the schema reads the field of a record that is written
-/// to a file and fills the field of a record that is read back.
-template <typename Record, typename Value>
-class Field {
-  public:
-    /// Takes a lambda without captures: [](auto& record) -> auto& { return record.part.field; }
-    template <typename Path>
-    requires std::is_empty_v<Path> && std::default_initializable<Path> Field(Path)
-        : read_([](Record const& record) -> Value const& { return Path{}(record); }),
-          change_([](Record& record) -> Value& { return Path{}(record); }) {}
-
-    /// The field of a record that is read.
-    Value const& operator()(Record const& record) const { return read_(record); }
-    /// The field of a record that is filled.
-    Value& operator()(Record& record) const { return change_(record); }
-
-  private:
-    Value const& (*read_)(Record const&);
-    Value& (*change_)(Record&);
-};
-
-/// The field that a path leads to, with the type that it has in the record.
-template <typename Record, typename Path>
-auto field_of(Path path) {
-    return Field<Record, std::remove_reference_t<decltype(path(std::declval<Record&>()))>>(path);
-}
-
-/// A field of a case's record.
-template <typename Path>
-auto case_field(Path path) {
-    return field_of<CaseRecord>(path);
-}
-
-/// A field of a packing's record.
-template <typename Path>
-auto packing_field(Path path) {
-    return field_of<PackingRecord>(path);
-}
-
 /// A text that identifies a case or tells where it was made: a root attribute of result.h5, a column of
 /// campaign.h5.
 struct CaseFact {
     Entry entry;  ///< its description
     /// Its place in the record.
     std::variant<Field<CaseRecord, std::string>, Field<CaseRecord, core::Outcome>> field;
-};
-
-/// One number of a case: `case/<name>` of result.h5, a column of campaign.h5.
-struct CaseValue {
-    Entry entry;  ///< its description
-    /// A function that computes a value of a case from its record.
-    using Function = std::variant<int (*)(CaseRecord const&), std::optional<double> (*)(CaseRecord const&),
-                                  std::string (*)(CaseRecord const&)>;
-    Function value;  ///< computes it from the record
-};
-
-/// One value per packing: `packings/<name>` of result.h5.
-struct PackingValue {
-    Entry entry;  ///< its description
-    /// Its place in the record.
-    std::variant<Field<PackingRecord, int>, Field<PackingRecord, double>,
-                 Field<PackingRecord, std::optional<double>>, Field<PackingRecord, std::string>,
-                 Field<PackingRecord, measure::Verdict>>
-        field;
-    bool may_be_missing = false;  ///< files of 0.2.0 that were written before it was added do not have it
 };
 
 /// The length of a series of n cycles.
@@ -123,10 +61,6 @@ struct MassFlowColumn {
 
 /// All facts of a case, in the order of the files.
 std::vector<CaseFact> const& case_facts();
-/// All values of a case, in the order of the files.
-std::vector<CaseValue> const& case_values();
-/// All values of each packing, in the order of the files.
-std::vector<PackingValue> const& packing_values();
 /// All series of a packing.
 std::vector<PackingSeries> const& packing_series();
 /// All columns of the tables of a packing.

@@ -21,11 +21,6 @@ std::string digest_of(std::span<std::uint8_t const> bytes) {
     return core::sha256_hex({reinterpret_cast<char const*>(bytes.data()), bytes.size()});
 }
 
-/// Long, and not a column of any table.
-bool is_long(PackingValue const& value) {
-    return value.entry.name == "deck";
-}
-
 Json to_json(int value) {
     return value;
 }
@@ -92,31 +87,29 @@ void for_estimate(Function const& function) {
         &E::below, &E::above);
 }
 
+/// Applies a function to the field of each quantity of packings that a summary holds.
+template <typename Function>
+void for_summary(Function const& function) {
+    for (Quantity const& quantity : quantities())
+        if (quantity.name != "deck") for_packings(quantity, function);  // long, and in no table of cases
+}
+
 Json packing_json(PackingRecord const& packing) {
     Json values = Json::array();
-    for (PackingValue const& value : packing_values()) {
-        if (is_long(value)) continue;
-        std::visit([&](auto const& field) { values.push_back(to_json(field(packing))); }, value.field);
-    }
+    for_summary([&](auto const& field) { values.push_back(to_json(field(packing))); });
     return values;
 }
 
 PackingRecord summary_of_packing(PackingRecord const& packing) {
     PackingRecord summary{};
-    for (PackingValue const& value : packing_values()) {
-        if (!is_long(value))
-            std::visit([&](auto const& field) { field(summary) = field(packing); }, value.field);
-    }
+    for_summary([&](auto const& field) { field(summary) = field(packing); });
     return summary;
 }
 
 PackingRecord packing_from(Json const& values) {
     PackingRecord packing{};
     std::size_t at = 0;
-    for (PackingValue const& value : packing_values()) {
-        if (is_long(value)) continue;
-        std::visit([&](auto const& field) { from_json(values.at(at++), field(packing)); }, value.field);
-    }
+    for_summary([&](auto const& field) { from_json(values.at(at++), field(packing)); });
     return packing;
 }
 
@@ -177,9 +170,9 @@ CaseRecord unpack_summary(std::span<std::uint8_t const> bytes, scenario::Scenari
 
 std::string summary_layout() {
     std::string layout = "summary";
-    auto const add = [&](Entry const& entry) { layout += " " + std::string(entry.name); };
-    for (CaseFact const& fact : case_facts()) add(fact.entry);
-    for (PackingValue const& value : packing_values()) add(value.entry);
+    for (CaseFact const& fact : case_facts()) layout += " " + std::string(fact.entry.name);
+    for (Quantity const& quantity : quantities())
+        if (quantity.is_of_packings()) layout += " " + std::string(quantity.name);
     return layout;
 }
 

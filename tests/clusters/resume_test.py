@@ -103,7 +103,7 @@ class Resume(EndToEndTest):
         undisturbed = self.folder / "undisturbed"
         self.call(*self.run_arguments(self.campaign, undisturbed))
         wanted = without_wall_time(self.table(undisturbed))
-        self.assertEqual({row["efficiency_dem"] is None for row in wanted} & {True}, set(), wanted)
+        self.assertEqual({row["efficiency"] is None for row in wanted} & {True}, set(), wanted)
         kills = 0
         campaigns = 0
         while kills < KILLS:

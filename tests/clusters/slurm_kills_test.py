@@ -136,7 +136,7 @@ class SlurmKills(EndToEndTest):
         undisturbed = self.folder / "undisturbed"
         self.call(*self.run_arguments(local, undisturbed))
         wanted = without_wall_time(self.table(undisturbed))
-        self.assertNotIn(None, [row["efficiency_dem"] for row in wanted], wanted)
+        self.assertNotIn(None, [row["efficiency"] for row in wanted], wanted)
         killed = collections.Counter()
         campaigns = 0
         while sum(killed.values()) < KILLS:

@@ -37,8 +37,9 @@ std::vector<Column> with_another_column() {
     columns.push_back({.name = "speed_number",
                        .unit = "1",
                        .value = [](Row const& row) -> std::optional<double> {
-                           if (!row.speed_dem) return {};
-                           return 100 * row.speed_dem->mean;
+                           auto const speed = row.number("conveying_speed");
+                           if (!speed) return {};
+                           return 100 * *speed;
                        },
                        .meaning = "A hundred times the speed, for the test",
                        .format = "{:.1f}",
@@ -51,7 +52,7 @@ std::vector<Column> with_another_column() {
 Row row_of(std::string const& id, std::optional<double> speed) {
     Row row{};
     row.id = id;
-    if (speed) row.speed_dem = Interval{*speed, {}};
+    if (speed) row.set("conveying_speed", *speed);
     return row;
 }
 
@@ -164,11 +165,10 @@ TEST(SweptColumns, OfTheDriveAreTheUsualOnes) {
     EXPECT_THAT(text, HasSubstr("open"));
 }
 
-// The list in the README is the program's own table: a second copy that drifts fails here.
-TEST(Columns, AreInTheReadme) {
-    EXPECT_NE(core::read_file(README_FILE).find(column_reference()), std::string::npos)
-        << "write this into src/compare/README.md:\n"
-        << column_reference();
+// The page is the program's own table: a copy that drifts fails here.
+TEST(Columns, AreInTheReference) {
+    EXPECT_NE(core::read_file(REFERENCE_FILE).find(column_reference()), std::string::npos)
+        << "write it again: vibrotrough quantities > src/store/quantities.md";
 }
 
 TEST(Columns, HaveNamesOfTheirOwnAndMeanings) {
@@ -191,7 +191,7 @@ TEST(Columns, KnowWhatIsNotKnown) {
         EXPECT_EQ(column.shown(known) == "-", !column.of(known)) << column.name;
         EXPECT_FALSE(column.shown(known).empty()) << column.name;
     }
-    auto const column = std::ranges::find(all_columns(), "efficiency_dem", &Column::name);
+    auto const column = std::ranges::find(all_columns(), "efficiency", &Column::name);
     EXPECT_EQ(column->shown(known), "0.820");
     EXPECT_EQ(column->shown(open), "-");
 }

@@ -32,13 +32,13 @@ class NeverForgets(EndToEndTest):
             self.assertTrue(math.isnan(case["efficiency"]))
         self.assertGreater(above - below, 0.1, "three half-widths")
         row = self.table()[0]
-        self.assertEqual((row["outcome"], row["efficiency_dem"]), ("bistable-or-slow", None))
+        self.assertEqual((row["outcome"], row["efficiency"]), ("bistable-or-slow", None))
         told = self.call("status", self.output).stdout
         self.assertIn(f"velocity efficiency {below:.3f} +- ", told)
         self.assertIn("when it starts below", told)
         self.assertIn(f"{above:.3f} +- ", told)
         [line] = csv.DictReader(io.StringIO(self.call("compare", self.output, "--csv").stdout))
-        self.assertEqual((line["outcome"], line["efficiency_dem"]), ("bistable-or-slow", ""))
+        self.assertEqual((line["outcome"], line["efficiency"]), ("bistable-or-slow", ""))
 
     def test_the_sum_that_friction_cannot_change(self):
         """What makes the case special: v + (2/5) R w stays at 0 for a packing that starts at rest, to 1 % of the trough's speed. (The

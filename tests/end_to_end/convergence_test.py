@@ -51,12 +51,12 @@ class Convergence(EndToEndTest):
         self.assertAlmostEqual(budget["numerical_error"], math.sqrt(squares), delta=1e-12)
         self.assertIn(f"{budget['numerical_error']:.4f}", done.stdout)
 
-        self.assertEqual(row["efficiency_dem_numerical_error"], budget["numerical_error"])
+        self.assertEqual(row["efficiency_numerical_error"], budget["numerical_error"])
         self.assertEqual(row["numerical_error_case"], row["case"])
-        larger = "numerical" if budget["numerical_error"] > row["efficiency_dem_half_width"] else "statistical"
+        larger = "numerical" if budget["numerical_error"] > row["efficiency_half_width"] else "statistical"
         self.assertEqual(row["larger_error"], larger)
         shown = self.call("compare", self.output, "--budget").stdout
-        wanted = f"{row['efficiency_dem']:.3f} +- {row['efficiency_dem_half_width']:.3f} +- {budget['numerical_error']:.3f}"
+        wanted = f"{row['efficiency']:.3f} +- {row['efficiency_half_width']:.3f} +- {budget['numerical_error']:.3f}"
         self.assertIn(wanted, shown)
         with h5py.File(self.output / "campaign.h5") as file:
             self.assertEqual(file["efficiency_numerical_error"][0], budget["numerical_error"])
@@ -125,7 +125,7 @@ class Convergence(EndToEndTest):
         self.run_campaign(campaign)
         self.assert_one_line_error(self.call("convergence", self.output, "--output", self.output), 2, "--output")
         (row,) = self.table()
-        self.assertIsNone(row["efficiency_dem_numerical_error"])
+        self.assertIsNone(row["efficiency_numerical_error"])
         self.assertIsNone(row["larger_error"])
         (self.output / "numerics.json").write_text("{")
         self.assert_one_line_error(self.call("compare", self.output), 2, "numerics.json is damaged")

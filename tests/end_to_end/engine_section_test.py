@@ -271,8 +271,8 @@ class EngineSection(EndToEndTest):
         self.run_campaign(self.write_campaign({**ONE_SIZE, "trough.friction": 0.4}, name="key.toml"), output=by_key)
         # The packings start with the speed that the theory expects at the friction of the campaign file: the same layer, not the same digits.
         (wanted,) = self.table(by_key)
-        spread = wanted["efficiency_dem_half_width"] + row["efficiency_dem_half_width"]
-        self.assertAlmostEqual(row["efficiency_dem"], wanted["efficiency_dem"], delta=2 * spread)
+        spread = wanted["efficiency_half_width"] + row["efficiency_half_width"]
+        self.assertAlmostEqual(row["efficiency"], wanted["efficiency"], delta=2 * spread)
         # A finished case is not run again; without the option it is the first case again.
         self.take_starts()
         self.assertEqual(self.call(*arguments).returncode, 0)

@@ -33,7 +33,7 @@ class FailingEngine(EndToEndTest):
             self.assertEqual(failure["attempts"], attempts)
         table = self.table()
         self.assertEqual([row["outcome"] for row in table], [outcome] * 2)
-        self.assertEqual([row["efficiency_dem"] for row in table], [None] * 2)
+        self.assertEqual([row["efficiency"] for row in table], [None] * 2)
         self.assertEqual(self.ask_json("status")["failed"], 2)
 
     def test_failures_are_named_and_mended(self):

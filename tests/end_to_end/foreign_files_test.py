@@ -158,7 +158,7 @@ class ForeignFiles(EndToEndTest):
             (result.parent / "summary").unlink(missing_ok=True)
             with self.subTest(kind):
                 (row,) = self.table()
-                self.assertEqual((row["outcome"], row["efficiency_dem"]), ("interrupted", None), "like any damaged result, it is made again")
+                self.assertEqual((row["outcome"], row["efficiency"]), ("interrupted", None), "like any damaged result, it is made again")
                 with self.assertRaisesRegex(ValueError, "takes data from other files"):
                     vibrotrough.open_result(result)
         result.write_bytes(whole)
@@ -192,7 +192,7 @@ class ForeignFiles(EndToEndTest):
         with self.assertRaisesRegex(ValueError, "result.h5 is damaged"):
             vibrotrough.open_result(result)
         damaged, sound = self.table()
-        self.assertEqual((damaged["outcome"], damaged["efficiency_dem"]), ("interrupted", None))
+        self.assertEqual((damaged["outcome"], damaged["efficiency"]), ("interrupted", None))
         self.assertEqual(sound, before[1])
         for command in ("plot", "report"):
             done = self.call(command, self.output)
@@ -200,14 +200,14 @@ class ForeignFiles(EndToEndTest):
             self.assertEqual(list(self.output.glob(f"report/*-{drawn}.*")), [])
         self.assertEqual(list(vibrotrough.open_campaign(self.output)["case"]), [sound["case"]])
         data = json.loads((self.output / "report" / "data" / "campaign.json").read_text())
-        self.assertEqual([row["efficiency_dem"] for row in data["cases"]], [None, sound["efficiency_dem"]])
+        self.assertEqual([row["efficiency"] for row in data["cases"]], [None, sound["efficiency"]])
         self.assertEqual(self.call("export", self.output, "--table").returncode, 0)
         table = (self.output / "view" / "campaign.vtt").read_text(encoding="utf-8")
-        (least, most) = re.search(r'Name="efficiency_dem"[^>]*RangeMin="([^"]*)" *RangeMax="([^"]*)"', table).groups()
-        self.assertEqual((float(least), float(most)), (sound["efficiency_dem"],) * 2, "only the sound result is in ParaView's table")
+        (least, most) = re.search(r'Name="efficiency"[^>]*RangeMin="([^"]*)" *RangeMax="([^"]*)"', table).groups()
+        self.assertEqual((float(least), float(most)), (sound["efficiency"],) * 2, "only the sound result is in ParaView's table")
         # What compare and status advise helps: run sees the damage, too.
         self.run_campaign(campaign, wanted=None)
-        self.assertEqual([row["efficiency_dem"] for row in self.table()], [row["efficiency_dem"] for row in before])
+        self.assertEqual([row["efficiency"] for row in self.table()], [row["efficiency"] for row in before])
 
     def assert_left_aside(self, *parts, archive="--partial", draw=True):
         """Every command that shows the campaign says in one line what it leaves aside, and archive refuses it."""

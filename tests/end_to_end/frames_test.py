@@ -142,7 +142,7 @@ class Frames(EndToEndTest):
         path = self.output / "view" / "campaign.vtt"
         before = path.read_bytes()
         self.assertEqual(float(read_array(path, "throw_number")[0]), row["throw_number"])
-        self.assertEqual(float(read_array(path, "efficiency_dem")[0]), row["efficiency_dem"])
+        self.assertEqual(float(read_array(path, "efficiency")[0]), row["efficiency"])
         done = self.call("export", self.output, "--table")
         self.assertEqual((done.returncode, path.read_bytes()), (0, before), done.stderr)
         self.assertEqual(done.stdout.count("\n"), 1)

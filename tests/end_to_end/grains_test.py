@@ -24,7 +24,7 @@ class Grains(EndToEndTest):
             {"grains.rolling_friction": 0.1, "measure.max_cycles": 60},
             {"grains.rotation": ["free", "rolling", "blocked"], "layer.grains": [100]},
         )
-        free, rolling, blocked = (row["efficiency_dem"] for row in rows)
+        free, rolling, blocked = (row["efficiency"] for row in rows)
         # The facts sheet's layer has 0.83, 0.73 and 0.62: the order is what a small layer shows as well.
         self.assertGreater(free, blocked)
         self.assertGreater(rolling, blocked)
@@ -73,11 +73,11 @@ class Block(EndToEndTest):
         # Throw number 2 is where a contact that bounces or springs along the trough is up to 0.1 too fast; 0.0064 is the
         # worst of the whole grid with this contact (validation/rigid_block).
         for row in self.run_blocks("point", [0.8, 2.0, 2.5]):
-            self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.01, msg=str(row))
+            self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.01, msg=str(row))
 
     def test_a_plate_moves_as_the_theory_says(self):
         for row in self.run_blocks("plate", [0.8, 3.0]):
-            self.assertAlmostEqual(row["efficiency_dem"], row["efficiency_theory"], delta=0.02, msg=str(row))
+            self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.02, msg=str(row))
 
     def test_a_block_needs_one_packing(self):
         self.run_blocks("point", [1.3])

@@ -74,7 +74,7 @@ class Interruption(EndToEndTest):
         for row, other in zip(without_wall_time(table), undisturbed):
             if self.output / "cases" / row["case"] / "result.h5" in kept:
                 self.assertEqual(row, other)
-            self.assertAlmostEqual(row["efficiency_dem"], other["efficiency_dem"], delta=0.15)
+            self.assertAlmostEqual(row["efficiency"], other["efficiency"], delta=0.15)
 
     def test_killed_driver(self):
         driver = self.start_campaign(self.campaign)
@@ -145,7 +145,7 @@ class Interruption(EndToEndTest):
 
         row = next(row for row in self.table() if row["case"] == case)
         self.assertEqual(row["outcome"], "engine-crashed")
-        self.assertIsNone(row["efficiency_dem"])
+        self.assertIsNone(row["efficiency"])
         self.assertIsNotNone(row["efficiency_theory"])
         listed = next(one for one in self.ask_json("status")["cases"] if one["case"] == case)
         self.assertEqual(listed["message"], failure["message"])

@@ -17,8 +17,8 @@ from trough_program import PROGRAM, EndToEndTest, fingerprint, without_wall_time
 SWEEP = {"trough.tan_vibration_angle": [0.25, 0.5]}
 COLUMNS = {
     "case", "throw_number", "machine_number", "vibration_angle_deg", "inclination_deg", "friction", "amplitude_m",
-    "frequency_hz", "efficiency_dem", "efficiency_dem_half_width", "speed_dem_m_per_s", "efficiency_theory",
-    "mode_theory", "mode_layer", "packings", "cycles_measured", "cycles_discarded", "wall_s", "outcome",
+    "frequency_hz", "efficiency", "efficiency_half_width", "conveying_speed_m_per_s", "efficiency_theory",
+    "mode_theory", "layer_mode", "packings", "cycles_measured", "cycles_discarded", "wall_time_s", "outcome",
 }  # fmt: skip
 # Student's t for 95 % and one degree of freedom (two packings), from any table of it.
 
@@ -44,10 +44,10 @@ class Run(EndToEndTest):
     def check_campaign_file(self, table):
         same = {
             "throw_number": "throw_number", "machine_number": "machine_number", "friction": "friction",
-            "amplitude": "amplitude_m", "frequency": "frequency_hz", "efficiency": "efficiency_dem",
-            "efficiency_half_width": "efficiency_dem_half_width", "speed": "speed_dem_m_per_s",
+            "amplitude": "amplitude_m", "frequency": "frequency_hz", "efficiency": "efficiency",
+            "efficiency_half_width": "efficiency_half_width", "conveying_speed": "conveying_speed_m_per_s",
             "packings": "packings", "cycles_measured": "cycles_measured", "cycles_discarded": "cycles_discarded",
-            "wall_time": "wall_s",
+            "wall_time": "wall_time_s",
         }  # fmt: skip
         with h5py.File(self.output / "campaign.h5") as file:
             self.assert_described(file)
@@ -79,17 +79,17 @@ class Run(EndToEndTest):
                 # the six digits that the engine averages with.
                 period = 1 / file["case"]["frequency"]
                 np.testing.assert_allclose(series["mean_velocity"] * period, displacement, rtol=0, atol=1e-3 * amplitude_x)
-            self.assertAlmostEqual(row["efficiency_dem"], np.mean(means), delta=1e-12)
+            self.assertAlmostEqual(row["efficiency"], np.mean(means), delta=1e-12)
             # Two packings: Student's t with one degree of freedom at the level 97.5 %, which is a tangent, unless the
             # fluctuations within the runs say that the two agree by chance. What may be left of a common start-up is added in
             # squares (measure/drift.hpp, with tests of its own), so that this is the least that the interval can be.
             scatter = math.tan(math.pi * 0.4875) * np.std(means, ddof=1) / math.sqrt(2)
             if np.std(means, ddof=1) > file["case"]["packing_deviation_within"]:
-                self.assertGreaterEqual(row["efficiency_dem_half_width"], scatter - 1e-9)
+                self.assertGreaterEqual(row["efficiency_half_width"], scatter - 1e-9)
             else:
                 normal = 2.1 * file["case"]["packing_deviation_within"] / math.sqrt(2)
-                self.assertGreaterEqual(row["efficiency_dem_half_width"], normal)
-            self.assertLessEqual(row["efficiency_dem_half_width"], file["case"]["half_width_wanted"])
+                self.assertGreaterEqual(row["efficiency_half_width"], normal)
+            self.assertLessEqual(row["efficiency_half_width"], file["case"]["half_width_wanted"])
             # The deck in the file is the deck that ran.
             deck = (self.output / "cases" / row["case"] / "packing-1" / "in.liggghts").read_text()
             self.assertEqual(file["packings"]["deck"][0].decode(), deck)
@@ -174,7 +174,7 @@ class Run(EndToEndTest):
         self.assertIn("0 of 1 cases finished, 1 not steady or not precise", done.stdout)
         (row,) = self.table()
         self.assertIn(row["outcome"], ("not-steady", "not-precise"))
-        self.assertEqual(row["efficiency_dem"] is None, row["outcome"] == "not-steady")
+        self.assertEqual(row["efficiency"] is None, row["outcome"] == "not-steady")
         self.assertEqual(row["cycles_measured"] + row["cycles_discarded"], 20)
         # It has its answer: more cycles are not allowed, so that it is not run again.
         self.assertEqual(len(self.take_starts()), 1)

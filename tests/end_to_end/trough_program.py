@@ -229,4 +229,4 @@ class EndToEndTest(unittest.TestCase):
 
 def without_wall_time(table):
     """The rows with what two runs of the same campaign must have in common: all but the time they took."""
-    return [{name: value for name, value in row.items() if name != "wall_s"} for row in table]
+    return [{name: value for name, value in row.items() if name != "wall_time_s"} for row in table]

@@ -70,7 +70,7 @@ class Units(EndToEndTest):
             self.assertAlmostEqual(case["mass_per_area"] / per_area, 1, 1)
             # A layer of 8 mm with 600 kg/m3, in whole grains.
             self.assertAlmostEqual(case["mass_per_area"] / (600 * 0.008), 1, delta=0.5 / case["layer_grains"])
-            flow = 3.6 * case["speed"] * case["mass_per_area"] * 0.3
+            flow = 3.6 * case["conveying_speed"] * case["mass_per_area"] * 0.3
             self.assertAlmostEqual(row["mass_flow_t_per_h"], flow, 9)
             # P = c |V|^2 / 2 per area; on a level trough it is what the layer dissipates, to the two packings' scatter.
             speed = case["velocity_scale"] / math.cos(math.radians(30))
@@ -80,7 +80,7 @@ class Units(EndToEndTest):
             self.assertAlmostEqual(row["power_per_area_w_per_m2"] / dissipated, 1, 1)
             self.assertLess(abs(row["added_mass_fraction"]), 1)
         self.assertAlmostEqual(row["mass_flow_half_width_t_per_h"] / row["mass_flow_t_per_h"],
-                               row["efficiency_dem_whole_half_width"] / row["efficiency_dem"], 9)
+                               row["efficiency_whole_half_width"] / row["efficiency"], 9)
 
     def test_swept_keys_are_in_every_view(self):
         sweep = {"grains.rolling_friction": [0.05, 0.2], "layer.width": ["15 mm", "18 mm"]}

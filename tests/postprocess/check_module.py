@@ -1,10 +1,12 @@
 """Opens the sample's campaign.h5 and result.h5 with postprocess/vibrotrough.py and holds it to h5py itself.
 
-usage: check_module.py SCRIPTS SAMPLE WORK
+usage: check_module.py SCRIPTS SAMPLE WORK VIBROTROUGH
 """
 
+import json
 import pathlib
 import shutil
+import subprocess
 import sys
 
 import h5py
@@ -22,7 +24,30 @@ def raises(error, call, *parts):
     raise AssertionError(f"no {error.__name__}")
 
 
-def main(scripts, sample, work):
+def check_old_names(vibrotrough, campaign, folder, program):
+    """A file of version 0.2.0 has today's names, scripts of that version find today's values, and program and module know the
+    same old names."""
+    printed = json.loads(subprocess.run([program, "quantities", "--json"], capture_output=True, check=True).stdout)
+    assert vibrotrough.OLD_NAMES == printed["old_names"]
+    files = {row["name"].rpartition("/")[2] for file in ("result.h5", "campaign.h5") for row in printed[file]}
+    columns = {column["name"] for column in printed["columns"]}
+    assert set(printed["old_names"].values()) <= files | columns, "an old name leads to a name that there is"
+    assert not set(printed["old_names"]) & (files | columns), "no name is an old one"
+
+    shutil.copy(folder / "campaign.h5", folder / "old.h5")
+    with h5py.File(folder / "old.h5", "a") as file:
+        file.move("conveying_speed", "speed")
+        file.move("conveying_speed_half_width", "speed_half_width")
+    sign(folder / "old.h5")
+    old = vibrotrough.open_campaign(folder / "old.h5")
+    for file in (old, campaign):
+        for name in ("conveying_speed", "speed"):
+            np.testing.assert_array_equal(np.asarray(file[name]), np.asarray(campaign["conveying_speed"]))
+            assert name in file
+    assert set(old.names()) == set(campaign.names())
+
+
+def main(scripts, sample, work, program):
     sys.path.insert(0, scripts)
     sys.dont_write_bytecode = True
     import vibrotrough
@@ -67,7 +92,9 @@ def main(scripts, sample, work):
     assert case["series/1/efficiency"].units == "1" and len(case["series/1/efficiency"]) == 3
     assert case["case/frequency"].units == "Hz" and float(case["case/frequency"]) == 13.5
     assert vibrotrough.open_result(folder / "cases" / "0123456789abcdef").attributes["case"] == "0123456789abcdef"
-    assert "case/speed" in case and "speed" not in case
+    assert "case/conveying_speed" in case and "conveying_speed" not in case
+
+    check_old_names(vibrotrough, campaign, folder, program)
 
     # Every dataset of every kind of file tells its units, and one that does not is refused.
     for file in (campaign, case):
@@ -99,6 +126,6 @@ def main(scripts, sample, work):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 5:
         sys.exit(__doc__)
     main(*sys.argv[1:])

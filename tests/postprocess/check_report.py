@@ -60,15 +60,15 @@ def make_campaign(sample, columns, work):
     data = folder / "report" / "data"
     (data / "point_mass").mkdir(parents=True)
     row = {"throw_number": 2.1, "machine_number": 4.4, "vibration_angle_deg": 28.6479, "inclination_deg": -2.86, "friction": 0.23,
-           "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency_dem": 0.82, "efficiency_dem_half_width": 0.127, "efficiency_dem_whole_half_width": 0.13,
-           "speed_dem_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
-           "wall_s": 23.75, "difference": 0.27, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
-    row |= {"stroke_mm": 12.0, "turns_per_minute": 810.0, "speed_dem_half_width_m_per_s": 0.057, "mass_flow_t_per_h": 4.25,
+           "amplitude_m": 0.006, "frequency_hz": 13.5, "efficiency": 0.82, "efficiency_half_width": 0.127, "efficiency_whole_half_width": 0.13,
+           "conveying_speed_m_per_s": 0.37, "mode_theory": "FN'", "packings": 2, "cycles_measured": 2, "cycles_discarded": 2,
+           "wall_time_s": 23.75, "difference": 0.27, "outcome": "not-precise", "message": "", "packings_done": 2, "packings_wanted": 2}
+    row |= {"stroke_mm": 12.0, "turns_per_minute": 810.0, "conveying_speed_half_width_m_per_s": 0.057, "mass_flow_t_per_h": 4.25,
             "mass_flow_half_width_t_per_h": 0.66, "label": ""}
     cases = [dict(row, case=case, throw_number=2.1 + number, efficiency_theory=theory, label=f"throw_number {2.1 + number}")
              for number, (case, theory) in enumerate(CASES.items())]
-    failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency_dem=None,
-                  efficiency_dem_half_width=None, efficiency_dem_whole_half_width=None, efficiency_theory=0.1)
+    failed = dict(row, case="aaaaaaaaaaaa", throw_number=1.0, outcome="lost-grains", message=HOSTILE, efficiency=None,
+                  efficiency_half_width=None, efficiency_whole_half_width=None, efficiency_theory=0.1)
     (data / "campaign.json").write_text(json.dumps({
         "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
         "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "swept": [], "cases": [*cases, failed]}), encoding="utf-8")
@@ -152,9 +152,9 @@ def check_words(scripts):
     sys.path.insert(0, str(scripts))
     from report_words import conclusion
 
-    case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency_dem": 0.5, "efficiency_dem_whole_half_width": 0.02,
-            "efficiency_theory": 0.51, "speed_dem_m_per_s": 0.25, "speed_dem_half_width_m_per_s": 0.01}
-    other = dict(case, case="b", label="friction 0.3", efficiency_dem=0.8, speed_dem_m_per_s=0.4, mass_flow_per_width_t_per_h_m=14.1,
+    case = {"case": "a", "label": "friction 0.2", "outcome": "finished", "efficiency": 0.5, "efficiency_whole_half_width": 0.02,
+            "efficiency_theory": 0.51, "conveying_speed_m_per_s": 0.25, "conveying_speed_half_width_m_per_s": 0.01}
+    other = dict(case, case="b", label="friction 0.3", efficiency=0.8, conveying_speed_m_per_s=0.4, mass_flow_per_width_t_per_h_m=14.1,
                  mass_flow_per_width_half_width_t_per_h_m=0.35)
     said = conclusion([case, other])
     assert said[0] == ("The layer is conveyed at 0.250 to 0.400 m/s. It is fastest, with 0.400 \u00b1 0.010 m/s "
@@ -164,7 +164,7 @@ def check_words(scripts):
     assert said[2].startswith("All 2 cases are finished"), said
     assert conclusion([case])[1].endswith("agrees with the layer to within the interval."), conclusion([case])
     assert conclusion([])[0] == "No speed is known yet." and "no cases" in conclusion([])[-1]
-    unknown = dict(case, outcome="not-steady", efficiency_dem=None, speed_dem_m_per_s=None)
+    unknown = dict(case, outcome="not-steady", efficiency=None, conveying_speed_m_per_s=None)
     assert conclusion([unknown]) == ["No speed is known yet.", "0 of 1 cases are finished; the others are: 1 not-steady."]
 
 
@@ -224,7 +224,7 @@ def check_that_figures_belong_to_the_data(scripts, folder):
     # The figures of an earlier state of the campaign are not shown beside the table of today.
     data = json.loads((report / "data" / "campaign.json").read_text(encoding="utf-8"))
     kept = (report / "data" / "campaign.json").read_bytes()
-    data["cases"] = [dict(row, outcome="open", efficiency_dem=None) for row in data["cases"]]
+    data["cases"] = [dict(row, outcome="open", efficiency=None) for row in data["cases"]]
     (report / "data" / "campaign.json").write_text(json.dumps(data), encoding="utf-8")
     assert figures_in(scripts, folder) == []
     # What is written is never written through a link.

@@ -43,7 +43,7 @@ Efficiencies efficiencies_of(compare::ComparedCases const& compared) {
     Efficiencies found;
     for (compare::Row const& row : compared.rows) {
         auto const object = compare::to_object(row, compared.columns);
-        auto const& value = object.at("efficiency_dem");
+        auto const& value = object.at("efficiency");
         found[object.at("case")] = value.is_null() ? std::nullopt : std::optional(value.get<double>());
     }
     return found;

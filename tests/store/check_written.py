@@ -1,10 +1,12 @@
-"""Reads the sample's result.h5 and campaign.h5 with h5py and holds them to the table in src/store/README.md.
+"""Reads the sample's result.h5 and campaign.h5 with h5py and holds them to what the program prints of them.
 
-usage: check_written.py FOLDER README
+usage: check_written.py FOLDER VIBROTROUGH
 """
 
+import json
 import math
 import re
+import subprocess
 import sys
 
 import h5py
@@ -15,11 +17,9 @@ SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins":
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
-def documented(readme, heading):
-    """Rows of the first table below a heading: name -> its other cells."""
-    section = re.search(rf"^## `{re.escape(heading)}`$(.*?)(?=^## |\Z)", readme, re.M | re.S).group(1)
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if line.startswith("| `")]
-    return {row[0].strip("`"): row[1:] for row in rows}
+def documented(reference, heading):
+    """The names of a file in the reference: name -> type, shape, units and meaning."""
+    return {row["name"]: [row["type"], row["shape"], row["units"], row["meaning"]] for row in reference[heading]}
 
 
 def written(file):
@@ -55,8 +55,8 @@ def check_dataset(name, data, row, shapes):
     assert found_shape == shapes[shape], f"{name}: shape {found_shape}, documented {shape}"
 
 
-def check_file(path, heading, readme):
-    table = documented(readme, heading)
+def check_file(path, heading, reference):
+    table = documented(reference, heading)
     seen = set()
     with h5py.File(path) as file:
         for name, data in written(file).items():
@@ -103,16 +103,16 @@ def check_result_values(file):
         "machine_number": omega**2 * 0.006 / 9.81,
         "throw_number": omega**2 * 0.006 * math.sin(0.5) / (9.81 * math.cos(-0.05)),
         "velocity_scale": omega * 0.006 * math.cos(0.5),
-        "speed": 0.82 * omega * 0.006 * math.cos(0.5),
-        "speed_half_width": case["efficiency_whole_half_width"] * omega * 0.006 * math.cos(0.5),
+        "conveying_speed": 0.82 * omega * 0.006 * math.cos(0.5),
+        "conveying_speed_half_width": case["efficiency_whole_half_width"] * omega * 0.006 * math.cos(0.5),
     }
     for name, value in wanted.items():
         assert math.isclose(case[name], value, rel_tol=1e-14), f"{name}: {case[name]}, wanted {value}"
     # The mass of 500 grains in three sizes 0.9, 1 and 1.1 d, per area; speed times that; powers per area.
     mass = 500 * 1400 * math.pi / 6 * 0.003**3 * (0.9**3 + 1 + 1.1**3) / 3 / (0.036 * 0.018)
     assert math.isclose(case["mass_per_area"], mass, rel_tol=1e-13)
-    assert math.isclose(case["mass_flow_per_width"], wanted["speed"] * mass, rel_tol=1e-13)
-    assert math.isclose(case["mass_flow_per_width_half_width"], wanted["speed_half_width"] * mass, rel_tol=1e-13)
+    assert math.isclose(case["mass_flow_per_width"], wanted["conveying_speed"] * mass, rel_tol=1e-13)
+    assert math.isclose(case["mass_flow_per_width_half_width"], wanted["conveying_speed_half_width"] * mass, rel_tol=1e-13)
     assert math.isclose(case["power_per_area"], 0.75 / (0.036 * 0.018), rel_tol=1e-13) and case["damping"] == 0.5
     assert math.isnan(case["trough_width"])
     # Stored as given: exact.
@@ -128,7 +128,7 @@ def check_result_values(file):
     # Student's t for one degree of freedom is tan(0.95 pi / 2); two packings with 2.5 and 3.
     assert case["coordination_number"] == 2.75 and list(file["packings"]["coordination_number"]) == [2.5, 3.0]
     assert math.isclose(case["coordination_number_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
-    assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["speed"], rel_tol=1e-13)
+    assert math.isclose(case["gravity_power"], 0.0099 * 9.81 * math.sin(0.05) * wanted["conveying_speed"], rel_tol=1e-13)
     assert math.isclose(case["dissipated_power"], 13.5 * (0.001 + 0.25 / 1024), rel_tol=1e-13)
     check_mass_flow(file)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
@@ -167,11 +167,11 @@ def check_campaign_values(file):
     assert list(file["layer_mode"].asstr()) == ["FP'N"] * 2 and list(file["flight_number"]) == [0.625] * 2
 
 
-def main(folder, readme_path):
-    with open(readme_path, encoding="utf-8") as text:
-        readme = text.read()
-    check_file(f"{folder}/result.h5", "result.h5", readme)
-    check_file(f"{folder}/campaign.h5", "campaign.h5", readme)
+def main(folder, program):
+    printed = subprocess.run([program, "quantities", "--json"], capture_output=True, check=True).stdout
+    reference = json.loads(printed)
+    check_file(f"{folder}/result.h5", "result.h5", reference)
+    check_file(f"{folder}/campaign.h5", "campaign.h5", reference)
     with h5py.File(f"{folder}/result.h5") as file:
         check_result_values(file)
     with h5py.File(f"{folder}/campaign.h5") as file:

@@ -29,9 +29,9 @@ TEST(Table, IsReadBackByVtk) {
     core::TemporaryFolder const folder;
     fs::path const path = folder.path() / "table.vtt";
     std::vector<compare::Row> rows{row_of("a", 1.7), row_of("b \xCE\xB2", 1e-300), row_of("", 2)};
-    rows[1].mode_layer = "FP'N";
-    rows[1].packings = 3;
-    rows[1].efficiency_dem = 0.5;
+    rows[1].layer_mode = "FP'N";
+    rows[1].set("packings", 3);
+    rows[1].set("efficiency", 0.5);
     write_table(path, rows);
     EXPECT_EQ(core::read_file(path).find("<AppendedData"), std::string::npos);
     vtkNew<vtkXMLTableReader> reader;
@@ -46,9 +46,9 @@ TEST(Table, IsReadBackByVtk) {
     ASSERT_NE(texts, nullptr);
     EXPECT_EQ(numbers->GetValue(0), 1.7);
     EXPECT_EQ(numbers->GetValue(1), 1e-300);
-    auto const* const efficiencies = vtkDoubleArray::SafeDownCast(table.GetColumnByName("efficiency_dem"));
+    auto const* const efficiencies = vtkDoubleArray::SafeDownCast(table.GetColumnByName("efficiency"));
     auto const* const packings = vtkDoubleArray::SafeDownCast(table.GetColumnByName("packings"));
-    auto* const modes = vtkStringArray::SafeDownCast(table.GetColumnByName("mode_layer"));
+    auto* const modes = vtkStringArray::SafeDownCast(table.GetColumnByName("layer_mode"));
     ASSERT_TRUE(efficiencies != nullptr && packings != nullptr && modes != nullptr);
     EXPECT_EQ(efficiencies->GetValue(1), 0.5);
     EXPECT_EQ(packings->GetValue(1), 3);

@@ -67,12 +67,12 @@ def rows_of(domain: str, folder: pathlib.Path, answers: list[Row]) -> list[list[
     """Rows of POINTS from those of `compare`, without bistable and unsteady cases."""
     table: list[list[object]] = []
     for row in answers:
-        if row["outcome"] not in STEADY or not row["efficiency_dem"]:
+        if row["outcome"] not in STEADY or not row["efficiency"]:
             continue
         frozen = tomllib.loads((folder / "cases" / row["case"] / "scenario.toml").read_text(encoding="utf-8"))
         trough, grains = frozen["trough"], frozen["grains"]
-        table.append([domain, trough["throw_number"], trough["tan_vibration_angle"], grains["rolling_friction"], row["efficiency_dem"],
-                      row["efficiency_dem_half_width"], row["efficiency_theory"], row["outcome"]])
+        table.append([domain, trough["throw_number"], trough["tan_vibration_angle"], grains["rolling_friction"], row["efficiency"],
+                      row["efficiency_half_width"], row["efficiency_theory"], row["outcome"]])
     return table
 
 

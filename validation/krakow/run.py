@@ -66,11 +66,11 @@ def simulate(run: ValidationCase, rows: list[Row]) -> None:
     frequencies = [f"{row['revolutions']} / minute" for row in rows]
     lines = []
     for answer in run.campaign("layers", {}, {"trough.friction": LAYER_FRICTIONS, "trough.frequency": frequencies}):
-        frequency, eta = float(answer["frequency_hz"]), float(answer["efficiency_dem"])
+        frequency, eta = float(answer["frequency_hz"]), float(answer["efficiency"])
         result = vibrotrough.open_result(run.runs / "layers" / "cases" / answer["case"] / "result.h5")
         modulus = float(result["case/grain_youngs_modulus"]) / 1e6
         unit = 2 * math.pi * frequency * float(answer["amplitude_m"]) * math.cos(math.radians(float(answer["vibration_angle_deg"])))
-        lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_dem_half_width']) * unit:.5f}",
+        lines.append([round(60 * frequency), answer["friction"], f"{eta * unit:.5f}", f"{float(answer['efficiency_half_width']) * unit:.5f}",
                       f"{float(answer['efficiency_theory']) * unit:.5f}", answer["cycles_measured"], answer["outcome"], f"{modulus:g}"])
     run.write_table("result.csv", LAYER_COLUMNS, lines)
 

@@ -73,12 +73,12 @@ def described(row: Row, result: File | None) -> list[str]:
     shape = str(result["case/grain_shape"])
     grains = shape if shape != "sphere" else str(result["case/grain_rotation"])
     means = " ".join(f"{value:.4f}" for value in result["packings/efficiency"])
-    steady = row["efficiency_dem"] != ""
+    steady = row["efficiency"] != ""
     gradients = np.asarray(result["packings/velocity_gradient"] * result["packings/efficiency"])
     gradient = gradients[~np.isnan(gradients)].mean() if steady and not np.isnan(gradients).all() else math.nan
     overlap = float(result["case/largest_overlap"] / result["case/grain_diameter"])
-    eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency_dem", "efficiency_dem_half_width")]
-    return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["mode_layer"],
+    eta = [f"{float(row[name]):.4f}" if steady else "" for name in ("efficiency", "efficiency_half_width")]
+    return [grains, *inputs, *eta, f"{gradient:.4f}", f"{overlap:.4f}", means, row["cycles_measured"], row["layer_mode"],
             row["outcome"], f"{float(result['case/grain_youngs_modulus']) / 1e6:g}"]
 
 
@@ -110,9 +110,9 @@ def surface(run: ValidationCase) -> None:
     for row, folder, result in whole_cases(run, "waves"):
         length = metres(tomllib.loads(str(result["scenario"]))["layer"]["length"])
         found = waves(folder / "packing-1", length, int(result["packings/steps_per_cycle"][0]), 2 if run.quick else START)
-        rows.append([f"{float(row['throw_number']):.4g}", row["efficiency_dem"], row["frequency_hz"],
+        rows.append([f"{float(row['throw_number']):.4g}", row["efficiency"], row["frequency_hz"],
                      *(f"{1e3 * found[name]:.3f}" for name in ("all", "amplitude", "highest", "wavelength")), f"{found['share']:.3f}",
-                     f"{found['turnover']:.3f}", row["mode_layer"]])
+                     f"{found['turnover']:.3f}", row["layer_mode"]])
         shapes += [[f"{float(row['throw_number']):.4g}", cycle, f"{1e3 * x:.2f}", f"{1e3 * z:.3f}"]
                    for cycle, heights in enumerate(found["two"]) for x, z in zip(found["x"], heights)]
     run.write_table("waves.csv", ["throw_number", "efficiency", "frequency_hz", "unevenness_mm", "amplitude_mm",

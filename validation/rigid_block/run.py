@@ -74,7 +74,7 @@ def grid(run: ValidationCase) -> None:
     table = run.campaign("grid", {}, {"trough.tan_inclination": slopes, "trough.friction": frictions,
                                       "trough.tan_vibration_angle": tangents, "trough.throw_number": numbers})
     run.write_table("result.csv", POINT_COLUMNS + ["efficiency_block", "efficiency_theory", "mode", "cycles", "outcome"],
-                    [values(p) + [r["efficiency_dem"], r["efficiency_theory"], r["mode_theory"],
+                    [values(p) + [r["efficiency"], r["efficiency_theory"], r["mode_theory"],
                                   int(r["cycles_measured"] or 0) + int(r["cycles_discarded"] or 0), r["outcome"]]
                      for p, r in zip(points, table)])
 
@@ -85,7 +85,7 @@ def stiffness(run: ValidationCase) -> None:
     for number, point in enumerate(HARD[:1] if run.quick else HARD):
         sweep = {"solver.block_stiffness": STIFFNESSES[:2] if run.quick else STIFFNESSES}
         table = run.campaign(f"stiffness-{number + 1}", deck_changes(point), sweep)
-        rows += [values(point) + [contacts, row["efficiency_dem"], row["outcome"]]
+        rows += [values(point) + [contacts, row["efficiency"], row["outcome"]]
                  for contacts, row in zip(sweep["solver.block_stiffness"], table)]
     run.write_table("stiffness.csv", POINT_COLUMNS + ["contacts_per_cycle", "efficiency_block", "outcome"], rows)
 

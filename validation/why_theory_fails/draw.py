@@ -61,7 +61,7 @@ def steps(rungs: Rungs, axes: Axes, gamma: float) -> None:
         if rung is None:
             value, width = rungs.number("4 deep, free", gamma, "efficiency_theory"), 0.0
         elif rung == "normal force":
-            value, width = rungs.number("4 deep, free", gamma, "efficiency_normal_force"), 0.0
+            value, width = rungs.number("4 deep, free", gamma, "efficiency_by_normal_force"), 0.0
         else:
             value, width = rungs.number(rung, gamma), rungs.number(rung, gamma, "half_width")
             axes.errorbar(value, place, xerr=[[part] for part in rungs.span(rung, gamma)], color="black", lw=3, zorder=3)

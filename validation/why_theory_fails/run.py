@@ -13,8 +13,8 @@ import vibrotrough  # noqa: E402
 from campaign_program import Row  # noqa: E402
 
 COLUMNS = ["rung", "throw_number", "vibration_angle_deg", "friction", "efficiency", "half_width", "efficiency_theory", "mode_theory",
-           "mode_layer", "efficiency_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome", "modulus_MPa"]
-NAMES = {"efficiency": "efficiency_dem", "half_width": "efficiency_dem_half_width"}
+           "layer_mode", "efficiency_by_normal_force", "landing_friction", "packings", "packing_efficiencies", "outcome", "modulus_MPa"]
+NAMES = {"efficiency": "efficiency", "half_width": "efficiency_half_width"}
 GAP, BEYOND = [1.5, 1.7, 2.0], [2.5, 3.0]
 
 
@@ -87,7 +87,7 @@ def judge(run: ValidationCase, rungs: Rungs) -> None:
                     rungs.number("4 deep, free", gamma) - theory[gamma], -0.08, 0.08, "defaults are off by up to 0.03 each")
     for gamma in ladder.ALL:
         run.check(f"layer without rotation less theory, Gamma {gamma}", rungs.number("4 deep, blocked", gamma), theory[gamma], 0.12,
-                  "a layer lands over some hundredths of the cycle, which moves a point mass by up to 0.13 (efficiency_normal_force)")
+                  "a layer lands over some hundredths of the cycle, which moves a point mass by up to 0.13 (efficiency_by_normal_force)")
     for depth in ("2 deep", "4 deep", "8 deep"):
         for gamma in ladder.PAIR:
             run.between(f"what rotation adds, {depth}, Gamma {gamma}", rungs.step(f"{depth}, free", f"{depth}, blocked", gamma), 0.1, 0.6,

@@ -1,0 +1,231 @@
+#include "store/layer_quantities.hpp"
+
+#include "measure/mass_flow.hpp"
+
+#include <cmath>
+
+namespace vibrotrough::store {
+namespace {
+
+using Case = CaseRecord const&;
+using Packing = PackingRecord const&;
+using Real = std::optional<double> (*)(Case);
+using Motion = measure::LayerMotion;
+using enum OverPackings;
+
+/// A member of a packing's LayerMotion.
+template <auto member>
+auto motion() {
+    return packing_field([](auto& packing) -> auto& { return packing.motion.*member; });
+}
+
+auto coordination_number() {
+    return packing_field([](auto& packing) -> auto& { return packing.rolling.coordination_number; });
+}
+
+std::optional<double> scaled(double factor, std::optional<double> const& value) {
+    if (!value) return {};
+    return factor * *value;
+}
+
+double area_of(Case record) {
+    return record.scenario.layer.length * record.scenario.layer.width;
+}
+
+/// The mean over the packings of a member of LayerMotion, per area of trough.
+template <auto member>
+std::optional<double> per_area(Case record) {
+    auto const mean = mean_over_packings(record, motion<member>());
+    if (!mean) return {};
+    return *mean / area_of(record);
+}
+
+/// The mean over the packings of the dissipation over the kinetic energy scale of the layer, m (omega r)^2.
+std::optional<double> dissipation_fraction(Case record) {
+    scenario::Trough const& trough = record.scenario.trough;
+    double const speed = angular_frequency(trough) * trough.amplitude;
+    double sum = 0;
+    int count = 0;
+    for (Packing packing : record.packings) {
+        if (!packing.motion.dissipation) continue;
+        sum += *packing.motion.dissipation / (packing.mass * speed * speed);
+        ++count;
+    }
+    if (count == 0) return {};
+    return sum / count;
+}
+
+/// Half-width of Student's interval of the mean over the packings that have this number; none with fewer than
+/// two.
+std::optional<double> coordination_half_width(Case record) {
+    std::vector<double> values;
+    for (Packing packing : record.packings) {
+        if (auto const& value = packing.rolling.coordination_number) values.push_back(*value);
+    }
+    return measure::student_half_width(values, record.scenario.measure.confidence);
+}
+
+/// None when no mean is known.
+std::optional<double> gravity_power(Case record) {
+    if (record.packings.empty() || !record.estimate.mean) return {};
+    scenario::Trough const& trough = record.scenario.trough;
+    return -record.packings.front().mass * scenario::gravity * std::sin(trough.inclination) *
+           *record.estimate.mean * velocity_scale(trough);
+}
+
+std::optional<double> added_mass_fraction(Case record) {
+    auto const added = mean_over_packings(record, motion<&Motion::added_mass>());
+    if (!added) return {};
+    return *added / (mass_per_area(record.scenario) * area_of(record));
+}
+
+/// A quantity that older files lack.
+Quantity added_later(Quantity row) {
+    row.may_be_missing = true;
+    return row;
+}
+
+std::vector<Quantity> machine_quantities() {
+    return {
+        added_later(
+            {"added_mass", "kg",
+             "Mass that the layer adds to the trough, from the first harmonic of its force in phase with the "
+             "acceleration; may be negative",
+             motion<&Motion::added_mass>(), mean}),
+        added_later({"damping", "kg/s",
+                     "Damping that the layer adds to the trough, from the first harmonic of its force in "
+                     "phase with the "
+                     "velocity",
+                     motion<&Motion::damping>(), mean}),
+        added_later(
+            {"trough_power", "W", "Mean power of the trough on the layer", motion<&Motion::trough_power>()}),
+        {"power_per_area",
+         "W/m2",
+         "Mean power of the trough on the layer over the area of trough; mean over the packings",
+         Real(per_area<&Motion::trough_power>),
+         nothing,
+         {{.place = 260, .format = "{:.3g}", .position = 167, .report = ReportView{"power per area"}}}},
+        {"added_mass_per_area",
+         "kg/m2",
+         "Mean of added_mass over the area of trough",
+         Real(per_area<&Motion::added_mass>),
+         nothing,
+         {{.place = 270}}},
+        {"added_mass_fraction",
+         "1",
+         "Mean of added_mass over the mass of the layer: 1 when the layer moves as a part of the trough",
+         Real(added_mass_fraction),
+         nothing,
+         {{.place = 280, .format = "{:.3f}", .position = 168, .report = ReportView{"added mass / mass"}}}},
+        {"damping_per_area",
+         "N s/m3",
+         "Mean of damping over the area of trough",
+         Real(per_area<&Motion::damping>),
+         nothing,
+         {{.place = 290, .format = "{:.3g}", .position = 169, .report = ReportView{"damping per area"}}}},
+    };
+}
+
+std::vector<Quantity> motion_quantities() {
+    return {
+        {"layer_mode", "1", "The bulk's mode in the theory's letters, read from the mean curves in phases",
+         motion<&Motion::mode>()},
+        {"period_cycles", "1", "Cycles after which the layer's motion repeats, 1 to 8",
+         motion<&Motion::period_cycles>(), largest},
+        {"take_off_phase", "rad",
+         "Phase at which the layer takes off for its longest flight; NaN without flight",
+         motion<&Motion::take_off_phase>(), mean},
+        {"landing_phase", "rad", "Phase at which it lands, above take_off_phase; NaN without flight",
+         motion<&Motion::landing_phase>(), mean},
+        {"flight_number", "1", "Duration of the longest flight in cycles, 0 without flight",
+         motion<&Motion::flight_number>(), mean},
+        {"effective_restitution", "1",
+         "Bulk restitution: largest rising speed of the centre of mass relative to the trough between "
+         "landing and next take-off over its falling speed before landing; NaN without landings",
+         motion<&Motion::restitution>(), mean},
+        added_later({"coordination_number", "1",
+                     "Mean contacts per grain, with other grains (counted for both) and with the floor, over "
+                     "the cycle; "
+                     "NaN without measure.rolling",
+                     coordination_number(), mean}),
+        {"coordination_number_half_width", "1",
+         "Half-width of the interval of coordination_number at measure.confidence, Student's t over the "
+         "packings; NaN with one packing",
+         Real(coordination_half_width)},
+        added_later({"rolling_problem", "1",
+                     "Why the table rolling is empty although measure.rolling asks for it; else empty",
+                     packing_field([](auto& packing) -> auto& { return packing.rolling_problem; })}),
+        {"gravity_power", "W",
+         "Mean power of gravity on the conveyed layer, negative uphill: - m g sin(alpha) times the conveying "
+         "speed",
+         Real(gravity_power)},
+        {"dissipated_power", "W",
+         "Dissipation times frequency; of a steady layer it is the power of the trough and of gravity",
+         Real([](Case c) {
+             return scaled(c.scenario.trough.frequency,
+                           mean_over_packings(c, motion<&Motion::dissipation>()));
+         })},
+        {"dissipation", "J",
+         "Energy dissipated per cycle: work of trough and gravity on the layer less its gain of kinetic "
+         "energy",
+         motion<&Motion::dissipation>(), mean},
+        {"dissipation_fraction", "1", "Dissipation over m (omega r)^2; mean over the packings",
+         Real(dissipation_fraction)},
+    };
+}
+
+std::vector<Quantity> contact_quantities() {
+    return {
+        {"floor_slip", "m/s",
+         "Slip speed of the touching grains' surface on the floor, mean over grains and phases of its "
+         "magnitude",
+         motion<&Motion::floor_slip>(), mean},
+        {"friction_ratio", "1",
+         "Tangential over normal force while the layer slides, apart from the ends of slides; NaN without "
+         "slides",
+         motion<&Motion::friction_ratio>(), mean},
+        {"landing_friction",
+         "1",
+         "Tangential over normal impulse of the layer on the trough from its landing until its centre of "
+         "mass no longer falls against the trough; NaN without landings and with side walls",
+         motion<&Motion::landing_friction>(),
+         mean,
+         {{.place = 310}}},
+        {"efficiency_by_normal_force",
+         "1",
+         "Velocity efficiency of a point mass with Coulomb friction under the layer's own normal force; NaN "
+         "with side walls",
+         motion<&Motion::efficiency_by_normal_force>(),
+         mean,
+         {{.place = 300,
+           .format = "{:.3f}",
+           .position = 100,
+           .terminal = TerminalView{.heading = "eta point",
+                                    .subheading = "its force",
+                                    .priority = 3,
+                                    .only_when_known = true}}}},
+        {"largest_overlap", "m", "Largest overlap of two grains", motion<&Motion::largest_overlap>(),
+         largest},
+        {"largest_floor_overlap", "m", "Largest overlap of a grain and the floor",
+         motion<&Motion::largest_floor_overlap>(), largest},
+        {"velocity_gradient", "1",
+         "Velocity along the trough of the upper third of the layer less that of the lower third, over the "
+         "conveying speed; NaN when it is not conveyed",
+         packing_field([](auto& packing) -> auto& { return packing.profiles.velocity_gradient; }), mean},
+        {"wiggle_amplitude", "m",
+         "Amplitude of a sinusoid with the variance of the surface's height along the trough, root mean "
+         "square over the snapshots",
+         packing_field([](auto& packing) -> auto& { return packing.surface.wiggle_amplitude; }), mean},
+    };
+}
+
+}  // namespace
+
+std::vector<Quantity> layer_quantities() {
+    std::vector<Quantity> all;
+    for (auto const& part : {machine_quantities(), motion_quantities(), contact_quantities()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace vibrotrough::store
