@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -12,10 +13,6 @@
 
 namespace vibrotrough::compare {
 namespace {
-
-/// The value of a member of Row, which may be optional.
-template <auto member>
-constexpr auto field = +[](Row const& row) { return std::optional(row.*member); };
 
 std::optional<double> difference(Row const& row) {
     auto const efficiency = row.number("efficiency");
@@ -34,11 +31,10 @@ std::string efficiency_cell(Row const& row) {
 
 /// A mass flow in t/h with its half-width.
 std::string flow_cell(Row const& row, std::string const& quantity) {
-    constexpr double hours = 3.6;  // t/h in kg/s
     auto const flow = row.number(quantity), width = row.number(quantity + "_half_width");
     if (!flow) return "-";
-    std::string const mean = fmt::format("{:.3g}", hours * *flow);
-    return width ? fmt::format("{} +- {:.2g}", mean, hours * *width) : mean;
+    std::string const mean = fmt::format("{:.3g}", store::tonnes_per_hour * *flow);
+    return width ? fmt::format("{} +- {:.2g}", mean, store::tonnes_per_hour * *width) : mean;
 }
 
 std::string cycles_cell(Row const& row) {
@@ -49,7 +45,9 @@ std::string cycles_cell(Row const& row) {
 /// Sets what the terminal shows of several quantities in one cell.
 void set_cells(std::vector<Column>& columns) {
     auto const set = [&](std::string_view name, std::string (*cell)(Row const&)) {
-        std::ranges::find(columns, name, &Column::name)->cell = cell;
+        auto const found = std::ranges::find(columns, name, &Column::name);
+        if (found == columns.end()) throw std::logic_error("no column " + std::string(name));
+        found->cell = cell;
     };
     set("efficiency", efficiency_cell);
     set("cycles_measured", cycles_cell);
@@ -247,6 +245,30 @@ Column::Function type_of(store::CaseNumber const& value) {
     return nothing(0.0);
 }
 
+/// The columns of quantities, one for each of their views.
+std::vector<Column> measured_columns() {
+    std::vector<Column> columns;
+    auto const& quantities = measured_quantities();
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+        store::Quantity const& one = *quantities[i];
+        for (store::View const& view : one.views) {
+            std::string const unit(view.unit.empty() ? one.units : view.unit);
+            columns.push_back({.name = std::string(one.name) + unit_suffix(unit),
+                               .unit = unit,
+                               .value = type_of(one.type_of_case()),
+                               .meaning = one.meaning_of_case(),
+                               .format = view.format,
+                               .position = view.position,
+                               .terminal = view.terminal,
+                               .report = view.report,
+                               .measured = static_cast<int>(i),
+                               .unit_factor = view.factor,
+                               .place = view.place});
+        }
+    }
+    return columns;
+}
+
 }  // namespace
 
 std::vector<Column> budget_columns(std::span<Column const> all) {
@@ -288,29 +310,6 @@ std::string Column::shown(Row const& row) const {
     if (auto const* const number = std::get_if<double>(&*known))
         return fmt::format(fmt::runtime(format), factor * *number);
     return std::visit([this](auto const& one) { return fmt::format(fmt::runtime(format), one); }, *known);
-}
-
-std::vector<Column> measured_columns() {
-    std::vector<Column> columns;
-    auto const& quantities = measured_quantities();
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-        store::Quantity const& one = *quantities[i];
-        for (store::View const& view : one.views) {
-            std::string const unit(view.unit.empty() ? one.units : view.unit);
-            columns.push_back({.name = std::string(one.name) + unit_suffix(unit),
-                               .unit = unit,
-                               .value = type_of(one.type_of_case()),
-                               .meaning = one.meaning_of_case(),
-                               .format = view.format,
-                               .position = view.position,
-                               .terminal = view.terminal,
-                               .report = view.report,
-                               .measured = static_cast<int>(i),
-                               .unit_factor = view.factor,
-                               .place = view.place});
-        }
-    }
-    return columns;
 }
 
 std::span<Column const> all_columns() {

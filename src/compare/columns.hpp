@@ -62,9 +62,6 @@ struct Column {
     std::string shown(Row const& row) const;
 };
 
-/// The columns of quantities, of all of which JSON and CSV have at least one.
-std::vector<Column> measured_columns();
-
 /// All columns, in the order of JSON and CSV.
 std::span<Column const> all_columns();
 

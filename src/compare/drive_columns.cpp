@@ -3,10 +3,6 @@
 namespace vibrotrough::compare {
 namespace {
 
-/// The value of a member of Row, which may be optional.
-template <auto member>
-constexpr auto field = +[](Row const& row) { return std::optional(row.*member); };
-
 std::optional<double> stroke(Row const& row) {
     return 2e3 * row.amplitude_m;
 }

@@ -54,8 +54,6 @@ std::optional<double> whole_flow(Case record, std::optional<double> const& effic
     return *flow * *width;
 }
 
-constexpr double hours = 3.6;  // t/h in kg/s
-
 /// A quantity that `compare` shows also of a case that has no mean.
 Quantity also_without_mean(Quantity row) {
     row.known_without_mean = true;
@@ -170,7 +168,7 @@ std::vector<Quantity> flow_quantities() {
          nothing,
          {{.place = 200,
            .unit = "t/h",
-           .factor = hours,
+           .factor = tonnes_per_hour,
            .format = "{:.3g}",
            .position = 164,
            .terminal =
@@ -185,7 +183,7 @@ std::vector<Quantity> flow_quantities() {
          nothing,
          {{.place = 210,
            .unit = "t/h",
-           .factor = hours,
+           .factor = tonnes_per_hour,
            .format = "{:.2g}",
            .position = 165,
            .report = ReportView{"\u00b1 mass flow"}},
@@ -197,7 +195,7 @@ std::vector<Quantity> flow_quantities() {
          nothing,
          {{.place = 240,
            .unit = "t/h/m",
-           .factor = hours,
+           .factor = tonnes_per_hour,
            .format = "{:.3g}",
            .position = 166,
            .terminal =
@@ -209,7 +207,7 @@ std::vector<Quantity> flow_quantities() {
          "Half-width of mass_flow_per_width, for statistics and numerics together",
          real([](Case c) { return mass_flow(c, whole_half_width(c)); }),
          nothing,
-         {{.place = 250, .unit = "t/h/m", .factor = hours}}},
+         {{.place = 250, .unit = "t/h/m", .factor = tonnes_per_hour}}},
         also_without_mean({"packings",
                            "1",
                            "Number of independent packings in the mean",

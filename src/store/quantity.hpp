@@ -65,6 +65,8 @@ struct TerminalView {
     bool only_when_known = false;  ///< left out when no case has a value
 };
 
+constexpr double tonnes_per_hour = 3.6;  ///< in one kg/s
+
 /// Columns of this priority are never left out of the terminal's table.
 constexpr int always_shown = 9;
 

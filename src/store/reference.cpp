@@ -111,17 +111,14 @@ std::string file_reference() {
     std::vector<NameInFile> own = names_in_campaign();
     std::erase_if(own,
                   [](NameInFile const& row) { return row.shape == "cases" && row.units != "of the key"; });
-    return "## result.h5\n\n" + table_of(names_in_result()) +
-           "\n## campaign.h5\n\nEach `case/NAME` of result.h5 is a dataset NAME with one value per case, and "
-           "so "
-           "is each root attribute\nof result.h5 that belongs to the case: " +
-           [] {
-               std::string names;
-               for (CaseFact const& fact : case_facts())
-                   names += fmt::format("{}`{}`", names.empty() ? "" : ", ", fact.entry.name);
-               return names;
-           }() +
-           ".\n\n" + table_of(own);
+    std::string facts;
+    for (CaseFact const& fact : case_facts())
+        facts += fmt::format("{}`{}`", facts.empty() ? "" : ", ", fact.entry.name);
+    return fmt::format(
+        "## result.h5\n\n{}\n## campaign.h5\n\n"
+        "Each `case/NAME` of result.h5 is a dataset NAME with one value per case, and so is each "
+        "root attribute\nof result.h5 that belongs to the case: {}.\n\n{}",
+        table_of(names_in_result()), facts, table_of(own));
 }
 
 std::vector<OldName> const& old_names() {

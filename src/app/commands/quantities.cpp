@@ -15,10 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string reference() {
-    return "# Everything in the results\n\nPrinted by `vibrotrough quantities`. What the shapes, the tables "
-           "and "
-           "the missing values mean is explained in\n[src/store](README.md) and "
-           "[src/compare](../compare/README.md).\n\n" +
+    return "# Everything in the results\n\n"
+           "Printed by `vibrotrough quantities`. What the shapes, the tables and the missing values mean is "
+           "explained in\n[src/store](README.md) and [src/compare](../compare/README.md).\n\n" +
            store::file_reference() + "\n## Columns of compare\n\n" + compare::column_reference();
 }
 
