@@ -49,7 +49,7 @@ void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
     if (!prepared.point_mass.is_plain || !spheres || grains.rotation == scenario::Rotation::blocked) return;
     theory::RollingLaw law;
     if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
-    double const depth = prepared.layer_height / grains.diameter;
+    double const depth = prepared.layer_height / mean_diameter(prepared.scenario);
     row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law, depth);
 }
 

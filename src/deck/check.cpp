@@ -73,7 +73,7 @@ void check_time_step(std::vector<Finding>& findings, prepare::PreparedCase const
 void check_overlaps(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     prepare::TimeGrid const& time = c.time;
-    double const diameter = s.grains.diameter;
+    double const diameter = mean_diameter(s);
     bool const hooke = s.engine.contact == scenario::ContactModel::hooke;
     char const* const stiffen =
         hooke ? "raise it: the overlap scales as E^(-4/5) at rest and as E^(-2/5) at impact"
@@ -107,7 +107,7 @@ void check_cohesion(std::vector<Finding>& findings, prepare::PreparedCase const&
     findings.push_back(most("bond number / throw number", key, bond / c.throw_number, 1, never,
                             "lower it: the trough cannot throw off a single grain that rests on it"));
     findings.push_back(most("overlap by attraction alone / diameter", "grains.youngs_modulus",
-                            overlap_under(c, 0) / s.grains.diameter, 0.01, 0.1,
+                            overlap_under(c, 0) / mean_diameter(s), 0.01, 0.1,
                             "stiffen the grains, and raise the cohesion as E^(2/3) to keep the bond number"));
 }
 
@@ -124,7 +124,7 @@ void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase co
     prepare::TimeGrid const& time = c.time;
     double const speed = time.impact_speed / 2;
     double const contact = impact_duration(c, speed), cycle = 1 / s.trough.frequency;
-    double const layers = is_block(s) ? 1 : std::max(1.0, c.layer_height / s.grains.diameter);
+    double const layers = is_block(s) ? 1 : std::max(1.0, c.layer_height / mean_diameter(s));
     std::string const key = stiffness_key(s);
     std::string const stiffen = is_block(s) ? "raise it: the contact time is inversely proportional to it"
                                             : "raise it: the contact time scales as E^(-2/5)";
@@ -142,7 +142,7 @@ void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase co
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
 void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    double const diameter = s.grains.diameter;
+    double const diameter = mean_diameter(s);
     findings.push_back(
         least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
               "lengthen the box, so that grains do not interact with their own periodic images"));
@@ -196,6 +196,7 @@ void check_sizes(std::vector<Finding>& findings, prepare::PreparedCase const& c)
     double ratio = c.classes.front().diameter / c.classes.back().diameter;
     char const* key = "grains.diameter_spread";
     if (c.scenario.grains.size_law == scenario::SizeLaw::listed) key = "grains.diameters";
+    if (c.materials.size() > 1) key = "materials.1.diameter";
     if (c.clump) {
         auto const [small, large] = std::ranges::minmax(c.clump->spheres, {}, &scenario::Sphere::radius);
         ratio *= large.radius / small.radius;

@@ -46,7 +46,7 @@ std::string tidy(std::string_view text) {
 std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
-                 edge = 3 * scenario.grains.diameter;
+                 edge = 3 * mean_diameter(scenario);
     std::map<std::string, std::string> files{{"trough.stl", flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
@@ -59,7 +59,7 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
 std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
-    std::array<double, 5> const shape{scenario.layer.length, scenario.layer.width, scenario.grains.diameter,
+    std::array<double, 5> const shape{scenario.layer.length, scenario.layer.width, mean_diameter(scenario),
                                       scenario.trough.side_wall_friction ? 1.0 : 0.0, prepared.wall_height};
     thread_local std::array<double, 5> last_shape{};
     thread_local std::map<std::string, std::string> last;

@@ -1,5 +1,6 @@
 #include "deck/deck_data.hpp"
 
+#include "deck/atom_types.hpp"
 #include "deck/drive_formula.hpp"
 #include "deck/estimates.hpp"
 
@@ -29,12 +30,16 @@ bool is_body(scenario::Scenario const& s) {
     return is_clump(s.grains) || s.layer.block == scenario::Block::plate;
 }
 
-std::string template_of(prepare::PreparedCase const& n, double diameter, int index) {
+scenario::Material const& material_of(prepare::PreparedCase const& n, prepare::ClassCount const& size) {
+    return n.materials[static_cast<std::size_t>(size.material)];
+}
+
+std::string template_of(prepare::PreparedCase const& n, prepare::ClassCount const& size, int index) {
     scenario::Scenario const& s = n.scenario;
-    std::string const start =
-        fmt::format("{} {} atom_type 1 density constant {}", is_body(s) ? "multisphere" : "sphere",
-                    seed_number(4000 + index), s.grains.density);
-    if (!n.clump) return fmt::format("{} radius constant {}", start, diameter / 2);
+    std::string const start = fmt::format(
+        "{} {} atom_type {} density constant {}", is_body(s) ? "multisphere" : "sphere",
+        seed_number(4000 + index), atom_type_of(n, size.material), material_of(n, size).grains.density);
+    if (!n.clump) return fmt::format("{} radius constant {}", start, size.diameter / 2);
     std::vector<std::string> spheres, inertia;
     for (scenario::Sphere const& sphere : n.clump->spheres)
         spheres.push_back(fmt::format("{} {} {} {}", sphere.x, sphere.y, sphere.z, sphere.radius));
@@ -57,8 +62,10 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
         entry.set("count", std::to_string(size.count));
+        entry.set("of_material", n.materials.size() == 1 ? std::string()
+                                                         : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
-        entry.set("template", template_of(n, size.diameter, index));
+        entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
         list.push_back(std::move(entry));
@@ -95,38 +102,47 @@ void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("gravity_z", text(-std::cos(s.trough.inclination)));
 }
 
-/// Properties of pairs of types: grain with grain, grain with floor, grain with side wall. The engine
-/// requires values also for pairs that never touch.
-std::string per_pair(int types, double grain, double floor, double wall) {
-    std::vector<std::string> values;
-    for (int i = 0; i < types; ++i) {
-        for (int j = 0; j < types; ++j) {
-            int const highest = std::max(i, j);
-            values.push_back(text(highest == 0 ? grain : highest == 1 ? floor : wall));
-        }
-    }
-    return fmt::format("{}", fmt::join(values, " "));
-}
-
 std::string repeated(int times, double value) {
     return fmt::format(
         "{}", fmt::join(std::vector<std::string>(static_cast<std::size_t>(times), text(value)), " "));
 }
 
+/// The materials other than that of [grains], for the head of the decks.
+std::vector<core::TemplateData> describe_materials(prepare::PreparedCase const& n) {
+    std::vector<core::TemplateData> list;
+    for (std::size_t i = 1; i < n.materials.size(); ++i) {
+        scenario::Material const& material = n.materials[i];
+        core::TemplateData entry;
+        entry.set("name", material.name);
+        entry.set("type", std::to_string(atom_type_of(n, static_cast<int>(i))));
+        entry.set("density", text(material.grains.density));
+        entry.set("friction", text(material.grains.friction));
+        entry.set("restitution", text(material.grains.restitution));
+        entry.set("trough_friction", text(material.trough_friction));
+        entry.set("trough_restitution", text(material.trough_restitution));
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
 void describe_block_contact(core::TemplateData& data, prepare::PreparedCase const& n, int types) {
     scenario::Scenario const& s = n.scenario;
     prepare::BlockContact const contact = prepare::block_contact(s, n.mass, n.spheres_per_grain);
-    auto const everywhere = [&](double value) { return per_pair(types, value, value, value); };
     data.set("contact_stiffness", rounded(contact.stiffness));
-    data.set("contact_stiffnesses", everywhere(contact.stiffness));
-    data.set("contact_dampings", everywhere(contact.damping));
+    data.set("contact_stiffnesses", repeated(types * types, contact.stiffness));
+    data.set("contact_dampings", repeated(types * types, contact.damping));
 }
 
 void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const block = s.layer.block != scenario::Block::none,
                rolls = s.grains.rotation == scenario::Rotation::rolling;
-    int const types = s.trough.side_wall_friction ? 3 : 2;
+    std::vector<AtomType> const all_types = atom_types(n);
+    int const types = static_cast<int>(all_types.size());
+    std::vector<std::string> type_names;
+    for (int type = 2; type <= types; ++type)
+        type_names.push_back(fmt::format("type {}: {}", type, all_types[static_cast<std::size_t>(type) - 1].name));
+    PairTables const tables = pair_tables(n);
     std::string const model = block ? "hooke/stiffness tangential no_history"
                                     : fmt::format("{} tangential history", name_of(s.engine.contact));
     std::string const attraction = s.engine.cohesion > 0 ? " cohesion sjkr" : "";
@@ -134,14 +150,15 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
         fmt::format("limitForce {} tangential_damping {}",
                     s.layer.block == scenario::Block::plate ? "off" : "on", block ? "on" : "off");
     std::string const wall_model = model + attraction + (rolls ? " rolling_friction epsd2" : "");
-    double const wall_friction = s.trough.side_wall_friction.value_or(0);
     data.set("block", block);
     data.set("rolls", rolls);
     data.set("types", std::to_string(types));
+    data.set("other_types", fmt::format("{}", fmt::join(type_names, ", ")));
+    data.set("materials", describe_materials(n));
     data.set("hooke", !block && s.engine.contact == scenario::ContactModel::hooke);
     data.set("coheres", s.engine.cohesion > 0);
     data.set("cohesion", text(s.engine.cohesion));
-    data.set("cohesions", per_pair(types, s.engine.cohesion, s.engine.cohesion, s.engine.cohesion));
+    data.set("cohesions", repeated(types * types, s.engine.cohesion));
     data.set("wall_model", wall_model);
     data.set("contact_options", options);
     data.set("contact_model", wall_model + " " + options);
@@ -151,11 +168,9 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
              !block &&
                  s.grains.youngs_modulus.value() < 5e6);  // LIGGGHTS then requires the command soft_particles
     data.set("hard", !block && s.grains.youngs_modulus.value() > 1e9);  // or the command hard_particles
-    data.set("restitutions",
-             per_pair(types, s.grains.restitution, s.trough.restitution, s.trough.restitution));
-    data.set("frictions", per_pair(types, s.grains.friction, s.trough.friction, wall_friction));
-    double const rolling = s.grains.rolling_friction;
-    data.set("rolling_frictions", per_pair(types, rolling, rolling, rolling));
+    data.set("restitutions", tables.restitutions);
+    data.set("frictions", tables.frictions);
+    data.set("rolling_frictions", repeated(types * types, s.grains.rolling_friction));
     if (block) describe_block_contact(data, n, types);
 }
 
@@ -256,7 +271,7 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
 void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     bool const walls = s.trough.side_wall_friction.has_value();
-    double const extent = n.largest_extent, diameter = s.grains.diameter, step = n.settle_time_step;
+    double const extent = n.largest_extent, diameter = mean_diameter(s), step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
     double const chunk_time = std::sqrt(diameter / scenario::gravity);
     double const mean_mass = n.mass / s.layer.grains;

@@ -27,7 +27,7 @@ bool is_plain_hertz(scenario::EnginePlan const& engine) {
 
 /// A mean grain on the trough.
 prepare::ContactPair mean_grain(scenario::Scenario const& s) {
-    return {s.grains.diameter / 2, s.grains.density * mean_grain_volume(s.grains)};
+    return {mean_diameter(s) / 2, mean_density(s) * mean_grain_volume(s)};
 }
 
 double sphere_count(prepare::PreparedCase const& c) {
@@ -35,20 +35,20 @@ double sphere_count(prepare::PreparedCase const& c) {
 }
 
 double mean_mass(scenario::Scenario const& s) {
-    return s.grains.density * mean_grain_volume(s.grains);
+    return mean_density(s) * mean_grain_volume(s);
 }
 
 }  // namespace
 
 double bottom_load(prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
-    return c.weight * s.grains.diameter * s.grains.diameter / (s.layer.length * s.layer.width);
+    return c.weight * mean_diameter(s) * mean_diameter(s) / (s.layer.length * s.layer.width);
 }
 
 double overlap_under(prepare::PreparedCase const& c, double force) {
     scenario::Scenario const& s = c.scenario;
     if (!is_plain_hertz(s.engine)) return overlap_under_force(s, mean_grain(s), force, c.time.impact_speed);
-    return std::pow(0.75 * force / (prepare::effective_modulus(s.grains) * std::sqrt(s.grains.diameter / 2)),
+    return std::pow(0.75 * force / (prepare::effective_modulus(s.grains) * std::sqrt(mean_diameter(s) / 2)),
                     2.0 / 3);
 }
 
@@ -57,7 +57,7 @@ double overlap_at_impact(prepare::PreparedCase const& c, double speed) {
     if (!is_plain_hertz(s.engine)) return overlap_of_impact(s, mean_grain(s), speed, c.time.impact_speed);
     double const energy = mean_mass(s) * speed * speed / 2;
     return std::pow(
-        15.0 / 8 * energy / (prepare::effective_modulus(s.grains) * std::sqrt(s.grains.diameter / 2)), 0.4);
+        15.0 / 8 * energy / (prepare::effective_modulus(s.grains) * std::sqrt(mean_diameter(s) / 2)), 0.4);
 }
 
 double impact_duration(prepare::PreparedCase const& c, double speed) {
@@ -69,7 +69,7 @@ double impact_duration(prepare::PreparedCase const& c, double speed) {
             .duration;
     }
     double const modulus = prepare::effective_modulus(s.grains), mass = mean_mass(s);
-    return 2.87 * std::pow(mass * mass / (s.grains.diameter / 2 * modulus * modulus * speed), 0.2);
+    return 2.87 * std::pow(mass * mass / (mean_diameter(s) / 2 * modulus * modulus * speed), 0.2);
 }
 
 double bond_number(prepare::PreparedCase const& c) {
@@ -93,7 +93,7 @@ double flight_time(prepare::PreparedCase const& c) {
 
 double steps_between_rebuilds(prepare::PreparedCase const& c, double speed) {
     scenario::Scenario const& s = c.scenario;
-    return skin_in_diameters * s.grains.diameter / 2 / (speed * c.time.time_step);
+    return skin_in_diameters * mean_diameter(s) / 2 / (speed * c.time.time_step);
 }
 
 double trusted_half_width(int packings, scenario::MeasurementPlan const& statistics, double whole) {
@@ -156,8 +156,8 @@ double largest_bytes(prepare::PreparedCase const& c) {
 double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) {
     scenario::Scenario const& s = c.scenario;
     double const spheres = sphere_count(c);
-    double const bins = std::ceil((c.box_top - c.box_bottom) / (s.grains.diameter / 2));
-    double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * s.grains.diameter)));
+    double const bins = std::ceil((c.box_top - c.box_bottom) / (mean_diameter(s) / 2));
+    double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * mean_diameter(s))));
     double const snapshots = static_cast<double>(profiles_per_cycle) / profile_stride;
     // Mean lengths of the rows of phases.csv, cycles.csv, profiles.N.txt, surface.N.txt and of a dump.
     double const per_cycle = 253.0 * prepare::phases_per_cycle +

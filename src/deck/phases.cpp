@@ -10,7 +10,7 @@ namespace vibrotrough::deck {
 std::map<std::string, std::string> phase_sampling(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& s = prepared.scenario;
     prepare::TimeGrid const& time = prepared.time;
-    double const diameter = s.grains.diameter;
+    double const diameter = mean_diameter(s);
     // A whole number of columns about 1.5 diameters wide, so that the last one is not narrower.
     double const columns = std::max(1.0, std::round(s.layer.length / (1.5 * diameter)));
     // Slightly more than the exact width, so that rounding does not add a column at the end of the box.

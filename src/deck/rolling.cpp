@@ -31,8 +31,8 @@ void describe_rolling(core::TemplateData& data, prepare::PreparedCase const& pre
     double const limit = of_the_limit * s.trough.friction;
     data.set("rolling_steps", std::to_string(steps));
     data.set("sliding_limit", fmt::format("{}", limit * limit));
-    data.set("first_top", fmt::format("{}", s.grains.diameter));
-    data.set("second_top", fmt::format("{}", 2 * s.grains.diameter));
+    data.set("first_top", fmt::format("{}", mean_diameter(s)));
+    data.set("second_top", fmt::format("{}", 2 * mean_diameter(s)));
     std::vector<core::TemplateData> columns;
     std::string header = "step", values = "${now}";
     auto const add = [&](std::string_view name, std::string const& value) {

@@ -42,7 +42,7 @@ void scale_solid_fraction(measure::Profiles& profiles, scenario::Scenario const&
     while (bins < profiles.phase.size() && profiles.phase[bins] == profiles.phase[0])
         sum += profiles.solid_fraction[bins++];
     if (!(sum > 0)) return;
-    double const wanted = mass / (s.grains.density * s.layer.length * s.layer.width * s.grains.diameter / 2);
+    double const wanted = mass / (mean_density(s) * s.layer.length * s.layer.width * mean_diameter(s) / 2);
     for (double& fraction : profiles.solid_fraction) fraction *= wanted / sum;
 }
 
@@ -82,7 +82,7 @@ void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& pr
     record.motion = measure::layer_motion(series, facts);
     if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
     add_friction_numbers(record.motion, prepared);
-    measure::ProfileFacts profile{s.grains.density,
+    measure::ProfileFacts profile{mean_density(s),
                                   prepared.time.steps_per_cycle,
                                   facts.discarded,
                                   facts.used,

@@ -17,7 +17,7 @@ void refuse(store::PackingRecord& record, std::string const& reason) {
 measure::RollingFacts facts_of(store::PackingRecord const& record, scenario::Scenario const& s) {
     auto const& velocity = record.motion.curves.trough_velocity_x;  // the first cycle of the layer's period
     return {static_cast<double>(s.layer.grains),
-            s.layer.length * s.layer.width * s.grains.diameter,
+            s.layer.length * s.layer.width * mean_diameter(s),
             record.estimate.discarded,
             record.estimate.discarded + record.estimate.measured,
             {velocity.begin(), velocity.begin() + measure::PhaseSeries::per_cycle}};

@@ -31,7 +31,7 @@ NumericalErrors numerical_errors(scenario::Scenario const& s) {
 }
 
 double box_bound(scenario::Scenario const& s) {
-    double const d = s.grains.diameter;
+    double const d = mean_diameter(s);
     double const width = s.trough.side_wall_friction ? box_width : s.layer.width / d;
     double const area = s.layer.length / d * width;
     double const depth = layer_height(s) / d;

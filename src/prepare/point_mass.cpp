@@ -8,7 +8,8 @@
 namespace vibrotrough::prepare {
 namespace {
 
-theory::Inputs plain_inputs(scenario::Trough const& trough) {
+theory::Inputs plain_inputs(scenario::Scenario const& scenario) {
+    scenario::Trough const& trough = scenario.trough;
     theory::Inputs inputs;
     if (trough.given.throw_number) {
         inputs.set(theory::Input::throw_number, *trough.given.throw_number);
@@ -19,7 +20,7 @@ theory::Inputs plain_inputs(scenario::Trough const& trough) {
     }
     inputs.set(theory::Input::tan_vibration_angle, std::tan(trough.vibration_angle));
     inputs.set(theory::Input::tan_inclination, std::tan(trough.inclination));
-    inputs.set(theory::Input::friction, trough.friction);
+    inputs.set(theory::Input::friction, mean_trough_friction(scenario));
     return inputs;
 }
 
@@ -75,7 +76,7 @@ void set_drive(PointMassInputs& inputs, scenario::Trough const& trough, scenario
 PointMassInputs point_mass_inputs(scenario::Scenario const& scenario, scenario::DriveMotion const& motion,
                                   double layer_height) {
     scenario::Trough const& trough = scenario.trough;
-    PointMassInputs inputs{plain_inputs(trough).conveyor(), 0,
+    PointMassInputs inputs{plain_inputs(scenario).conveyor(), 0,
                            is_plain_sinusoid(trough) && !trough.side_wall_friction};
     set_drive(inputs, trough, motion);
     if (trough.side_wall_friction) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace vibrotrough::prepare {
@@ -14,16 +15,30 @@ constexpr double poured_solid_fraction = 0.2;
 
 /// Numbers of grains whose running sums are closest to those of the fractions, so that the mean size is kept
 /// and a single grain has the middle size.
-std::vector<ClassCount> count_classes(scenario::Grains const& grains, int count) {
-    std::vector<ClassCount> classes;
+template <typename Part>
+std::vector<int> count_parts(std::vector<Part> const& parts, int count) {
+    std::vector<int> counts;
     double fraction = 0;
     int so_far = 0;
-    for (scenario::SizeClass const& size : size_classes(grains)) {
-        fraction += size.number_fraction;
-        int const target = static_cast<int>(std::lround(fraction * count));
-        if (target > so_far) classes.push_back({size.diameter, target - so_far});
-        so_far = std::max(so_far, target);
+    for (Part const& part : parts) {
+        fraction += part.number_fraction;
+        int const target = std::max(so_far, static_cast<int>(std::lround(fraction * count)));
+        counts.push_back(target - so_far);
+        so_far = target;
     }
+    return counts;
+}
+
+std::vector<ClassCount> count_classes(std::vector<scenario::Material> const& materials, int grains) {
+    std::vector<ClassCount> classes;
+    std::vector<int> const of_material = count_parts(materials, grains);
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        auto const sizes = size_classes(materials[m].grains);
+        std::vector<int> const of_size = count_parts(sizes, of_material[m]);
+        for (std::size_t i = 0; i < sizes.size(); ++i)
+            if (of_size[i] > 0) classes.push_back({sizes[i].diameter, of_size[i], static_cast<int>(m)});
+    }
+    std::ranges::stable_sort(classes, std::greater(), &ClassCount::diameter);
     return classes;
 }
 
@@ -46,13 +61,14 @@ void prepare_drive(PreparedCase& c) {
 
 void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     scenario::Scenario const& s = c.scenario;
-    c.classes = count_classes(s.grains, s.layer.grains);
+    c.materials = materials(s);
+    c.classes = count_classes(c.materials, s.layer.grains);
     if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
     if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
     for (ClassCount const& size : c.classes) {
         double const sphere = std::numbers::pi / 6 * std::pow(size.diameter, 3);
-        c.mass += size.count * s.grains.density * (c.clump ? c.clump->volume : sphere);
+        c.mass += size.count * c.materials[static_cast<std::size_t>(size.material)].grains.density * (c.clump ? c.clump->volume : sphere);
     }
     c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
     c.layer_height = layer_height(s);
@@ -89,7 +105,7 @@ void prepare_filling(PreparedCase& c) {
 void prepare_time(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
     // The spheres of a plate have the diameter of the grains, so only clumps need a radius of their own.
-    double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s.grains) / 2;
+    double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s) / 2;
     StepLimits const limits{radius, c.largest_speed, highest_order(c.motion)};
     c.settle_speed = settling_speed(c.fill_top);
     c.settle_time_step = settling_time_step(s, limits, c.fill_top);

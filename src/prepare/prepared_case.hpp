@@ -11,10 +11,11 @@
 
 namespace vibrotrough::prepare {
 
-/// How many grains of one size a layer has.
+/// How many grains of one size and material a layer has.
 struct ClassCount {
-    double diameter;  ///< m
-    int count;        ///< number of grains, at least 1
+    double diameter;   ///< m
+    int count;         ///< number of grains, at least 1
+    int material = 0;  ///< index in `materials`
 };
 
 /// Everything that follows from a scenario and that more than one room needs. It is worked out once and read
@@ -31,6 +32,7 @@ struct PreparedCase {
     double largest_speed;          ///< m/s, upper bound of the speed of the trough
 
     // Grains and layer.
+    std::vector<scenario::Material> materials;  ///< that of [grains] first
     std::vector<ClassCount> classes;     ///< largest first, because large grains are the hardest to insert
     std::shared_ptr<Clump const> clump;  ///< shape of every grain; nullptr for single spheres
     int spheres_per_grain;               ///< 1 without a clump

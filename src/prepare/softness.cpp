@@ -19,6 +19,7 @@ constexpr double largest_of_key = 1e12;  // scenario/reader/keys.cpp
 double wave_number(scenario::Scenario const& s, double modulus) {
     scenario::Grains grains = s.grains;
     grains.youngs_modulus = modulus;
+    grains.density = mean_density(s);
     double const depth = layer_height(s);
     double const gravity = scenario::gravity * std::cos(s.trough.inclination);
     double const pressure = scenario::settled_solid_fraction * grains.density * depth * gravity *

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <ranges>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,27 +23,62 @@ constexpr double block_steps = 20;    ///< per contact, which is 2 per time cons
 constexpr double block_damping = 10;  ///< damping in units of m / duration of the contact
 constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 
-double rayleigh_time(scenario::Scenario const& s, double radius) {
-    double const nu = s.grains.poisson_ratio;
-    double const shear_modulus = s.grains.youngs_modulus.value() / (2 * (1 + nu));
-    return std::numbers::pi * radius * std::sqrt(s.grains.density / shear_modulus) / (0.1631 * nu + 0.8766);
+/// The smallest grains of one material.
+struct SmallestGrains {
+    scenario::Grains grains;
+    double radius;       ///< m
+    double restitution;  ///< the lower one of those on themselves and on the trough
+    ContactPair pair;    ///< two of them
+};
+
+/// Those of each material. A clump has a radius of its own, that of its smallest sphere.
+std::vector<SmallestGrains> smallest_grains(scenario::Scenario const& s, double smallest_radius) {
+    std::vector<SmallestGrains> all;
+    for (scenario::Material const& material : materials(s)) {
+        scenario::Grains const& grains = material.grains;
+        double const radius = s.materials.empty() ? smallest_radius : smallest_diameter(grains) / 2;
+        all.push_back({grains, radius, std::min(grains.restitution, material.trough_restitution),
+                       two_grains(grains, radius)});
+    }
+    return all;
 }
 
-double hertz_time(scenario::Scenario const& s, double radius, double speed) {
-    double const nu = s.grains.poisson_ratio;
-    double const mass =
-        s.grains.density * std::numbers::pi / 6 * std::pow(2 * radius, 3) / 2;     // m* of two equal grains
-    double const modulus = s.grains.youngs_modulus.value() / (2 * (1 - nu * nu));  // E* of two equal grains
-    return 2.87 * std::pow(mass * mass / (radius / 2 * modulus * modulus * speed), 0.2);
+double rayleigh_time(SmallestGrains const& smallest) {
+    double const nu = smallest.grains.poisson_ratio;
+    double const shear_modulus = smallest.grains.youngs_modulus.value() / (2 * (1 + nu));
+    return std::numbers::pi * smallest.radius * std::sqrt(smallest.grains.density / shear_modulus) /
+           (0.1631 * nu + 0.8766);
 }
 
-/// Duration of the shortest contact: of two of the smallest grains at this speed.
-double contact_time(scenario::Scenario const& s, double radius, double speed) {
-    if (s.engine.contact == scenario::ContactModel::hertz) return hertz_time(s, radius, speed);
-    ContactPair const pair = two_grains(s.grains, radius);
-    double const restitution = std::min(s.grains.restitution, s.trough.restitution);
+double rayleigh_time(scenario::Scenario const& s, double smallest_radius) {
+    auto const all = smallest_grains(s, smallest_radius);
+    return std::ranges::min(all | std::views::transform([](auto const& one) { return rayleigh_time(one); }));
+}
+
+double contact_time(scenario::Scenario const& s, ContactPair const& pair, double restitution, double speed) {
+    if (s.engine.contact == scenario::ContactModel::hertz) {
+        double const modulus = effective_modulus(s.grains);
+        return 2.87 * std::pow(pair.mass * pair.mass / (pair.radius * modulus * modulus * speed), 0.2);
+    }
     return linear_impact(hooke_stiffness(s.grains, pair, speed), pair.mass, damping_ratio(restitution))
         .duration;
+}
+
+/// Duration of the shortest contact at this speed: of the smallest grains of each material, with themselves
+/// and with those of the others. With R* and m* halved for two equal grains, R* and m* of two unequal ones
+/// are the harmonic means of these.
+double contact_time(scenario::Scenario const& s, double smallest_radius, double speed) {
+    auto const all = smallest_grains(s, smallest_radius);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (SmallestGrains const& one : all) {
+        for (SmallestGrains const& other : all) {
+            ContactPair const pair{scenario::harmonic_mean(one.pair.radius, other.pair.radius),
+                                   scenario::harmonic_mean(one.pair.mass, other.pair.mass)};
+            double const restitution = std::min(one.restitution, other.restitution);
+            shortest = std::min(shortest, contact_time(s, pair, restitution, speed));
+        }
+    }
+    return shortest;
 }
 
 double block_duration(scenario::Scenario const& s) {

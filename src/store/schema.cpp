@@ -79,7 +79,7 @@ std::vector<MassFlowColumn> const& mass_flow_columns() {
 measure::MassFlow mass_flow_of(CaseRecord const& record) {
     std::vector<measure::Profiles const*> profiles;
     for (PackingRecord const& packing : record.packings) profiles.push_back(&packing.profiles);
-    return measure::mass_flow(profiles, record.scenario.grains.density, record.scenario.measure.confidence);
+    return measure::mass_flow(profiles, mean_density(record.scenario), record.scenario.measure.confidence);
 }
 
 Entry scenario_entry() {

@@ -28,7 +28,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     scenario.trough.waveform = std::make_shared<Waveform>();
     scenario.measure.max_core_time = 1;
     for (Key const& key : all_keys()) {
-        if (can_vary(key)) {
+        if (can_vary(key) && !is_list_section(key.path.substr(0, key.path.find('.')))) {
             EXPECT_TRUE(key_value(scenario, key.path)) << key.path;
         }
     }

@@ -49,7 +49,7 @@ double bulk_density(Grains const& grains) {
 }
 
 double mass_per_area(Scenario const& s) {
-    return s.layer.grains * s.grains.density * mean_grain_volume(s.grains) / (s.layer.length * s.layer.width);
+    return s.layer.grains * mean_density(s) * mean_grain_volume(s) / (s.layer.length * s.layer.width);
 }
 
 std::optional<double> trough_width(Scenario const& s) {
@@ -60,7 +60,7 @@ std::optional<double> trough_width(Scenario const& s) {
 
 double layer_height(Scenario const& s) {
     if (s.layer.height) return *s.layer.height;
-    return s.layer.grains * mean_grain_volume(s.grains) /
+    return s.layer.grains * mean_grain_volume(s) /
            (settled_solid_fraction * s.layer.length * s.layer.width);
 }
 

@@ -3,6 +3,7 @@
 #include "scenario/model/drive.hpp"
 #include "scenario/model/engine_plan.hpp"
 #include "scenario/model/grains.hpp"
+#include "scenario/model/materials.hpp"
 
 #include <optional>
 #include <string>
@@ -101,12 +102,14 @@ struct SolverPlan {
 struct Scenario {
     std::string campaign;     ///< name of the campaign: letters, digits, '.', '_', '-'
     Trough trough;            ///< and its drive
-    Grains grains;            ///< size, shape and material
+    Grains grains;            ///< size, shape and material; of the first material if there are several
     Layer layer;              ///< size of the layer
     MeasurementPlan measure;  ///< packings, cycles, precision
     OutputPlan output;        ///< frames and checkpoints
     SolverPlan solver = {};   ///< numerical settings
     EnginePlan engine = {};   ///< what is asked of the engine beyond what its probes test
+    std::vector<AddedMaterial> materials = {};  ///< that are mixed with the grains; see materials()
+    std::vector<MaterialPair> pairs = {};       ///< contacts of two materials
 };
 
 double angular_frequency(Trough const& trough);  ///< Angular frequency omega, rad/s.

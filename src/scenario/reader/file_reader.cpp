@@ -112,7 +112,8 @@ class CampaignFileReader {
     static std::vector<std::string_view> sections_of_keys() {
         std::vector<std::string_view> names;
         for (Key const& key : all_keys()) {
-            if (names.empty() || names.back() != section_of(key)) names.push_back(section_of(key));
+            std::string_view const name = key.path.substr(0, key.path.find('.'));
+            if (names.empty() || names.back() != name) names.push_back(name);
         }
         return names;
     }
@@ -125,6 +126,10 @@ class CampaignFileReader {
         }
         if (is_design_section(name.str())) {
             read_design_section(name.str(), node, file_, result_);
+            return;
+        }
+        if (is_list_section(name.str())) {
+            read_list(name.str(), where, node);
             return;
         }
         if (!is_section(name.str()) && name.str() != "sweep" && !node.is_table()) {
@@ -148,6 +153,21 @@ class CampaignFileReader {
             } else {
                 read_key(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
             }
+        }
+    }
+
+    /// The entries of [[materials]] or [[pairs]]; the first one's keys are "materials.1.name" and so on.
+    void read_list(std::string_view section, Position where, toml::node const& node) {
+        std::size_t const most = section == pairs_section ? most_pairs : most_materials;
+        toml::array const* const list = node.as_array();
+        if (list == nullptr || !std::ranges::all_of(*list, [](toml::node const& e) { return e.is_table(); }))
+            fail(where, section, "is a list of tables", fmt::format("write [[{}]] above each entry", section));
+        if (list->size() > most)
+            fail(where, section, fmt::format("has {} entries, more than {}", list->size(), most),
+                 "leave out the others");
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            for (auto const& [key, value] : in_file_order(*(*list)[i].as_table()))
+                read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()), *value);
         }
     }
 
@@ -180,19 +200,22 @@ class CampaignFileReader {
                  fmt::format("{}: {}, beginning with a letter, a digit or '_'", write_instead(key),
                              key.range));
         }
-        result_.name = name;
+        if (key.path == "campaign.name") result_.name = name;
         result_.base[key.path] = {name, where};
     }
 
     /// A swept key may be written in quotes ("trough.friction" = ...) or as a dotted key (trough.friction =
     /// ...).
-    void read_sweep_entry(toml::key const& name, toml::node const& node) {
-        if (!is_section(name.str()) || !node.is_table()) {
-            read_axis(std::string(name.str()), position_of(name.source()), node);
+    void read_sweep_entry(toml::key const& name, toml::node const& node, std::string const& above = "") {
+        std::string const path = above + std::string(name.str());
+        bool const is_part = std::ranges::any_of(
+            all_keys(), [&](Key const& key) { return key.path.starts_with(path + "."); });
+        if (!is_part || !node.is_table()) {
+            read_axis(path, position_of(name.source()), node);
             return;
         }
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            read_axis(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
+            read_sweep_entry(*key, *value, path + ".");
         }
     }
 

@@ -50,10 +50,20 @@ Json table_of(Json properties) {
     return {{"type", "object"}, {"properties", std::move(properties)}};
 }
 
+/// Adds a key of an entry of a list to the schema of all its entries.
+void add_to_list(Json& root, std::string_view list, Key const& key) {
+    Json& section = root["properties"][std::string(list)];
+    if (section.is_null()) section = {{"type", "array"}, {"items", table_of(Json::object())}};
+    section["items"]["additionalProperties"] = false;
+    section["items"]["properties"][std::string(last_name(key.path))] = explained(key, value_schema(key));
+}
+
 /// Adds a key to the schema of its section, which may be part of another section.
 void add(Json& root, Key const& key) {
     Json* section = &root;
     std::string_view rest = key.path;
+    std::string_view const first = rest.substr(0, rest.find('.'));
+    if (is_list_section(first)) return add_to_list(root, first, key);
     for (auto dot = rest.find('.'); dot != rest.npos; dot = rest.find('.')) {
         Json& inner = (*section)["properties"][std::string(rest.substr(0, dot))];
         if (inner.is_null()) inner = table_of(Json::object());

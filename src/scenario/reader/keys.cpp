@@ -17,7 +17,7 @@ namespace {
 std::vector<Key> const& table() {
     static std::vector<Key> const rows = [] {
         std::vector<Key> all;
-        for (auto const part : {trough_keys(), grains_keys(), plan_keys()})
+        for (auto const part : {trough_keys(), grains_keys(), material_keys(), plan_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();
@@ -68,7 +68,11 @@ bool can_vary(Key const& key) {
 }
 
 std::string_view section_of(Key const& key) {
-    return key.path.substr(0, key.path.find('.'));
+    return key.path.substr(0, key.path.rfind('.'));
+}
+
+bool is_list_section(std::string_view section) {
+    return section == materials_section || section == pairs_section;
 }
 
 std::string_view last_name(std::string_view path) {
@@ -104,6 +108,9 @@ std::string key_reference() {
     std::vector<Key> all = table();
     all.insert(all.end(), run_keys().begin(), run_keys().end());
     for (Key const& key : all) {
+        bool const is_further_entry = is_list_section(key.path.substr(0, key.path.find('.'))) &&
+                                      !section_of(key).ends_with(".1");
+        if (is_further_entry) continue;
         std::string needed = is_optional(key) ? default_text(key) : "required";
         if (!key.group.empty()) needed = "exactly one of these";
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example, key.range, needed,

@@ -89,7 +89,7 @@ bool has_words(Key const& key);
 /// Whether a key can be varied: it has a single value and is not the name of the campaign.
 bool can_vary(Key const& key);
 
-/// The section of a key, such as "trough".
+/// The section of a key, such as "trough", or "materials.1" for the first entry of a list.
 std::string_view section_of(Key const& key);
 
 /// The last part of a key's path, without its sections.
@@ -104,6 +104,16 @@ std::string default_text(Key const& key);
 
 /// The words of a choice: "a, b or c" is {a, b, c}.
 std::vector<std::string_view> choices(Key const& key);
+
+/// The sections that are lists, [[materials]] and [[pairs]]. The keys of their entries count them from 1:
+/// "materials.2.density".
+inline constexpr std::string_view materials_section = "materials", pairs_section = "pairs";
+
+/// How many entries these lists may have: four materials with that of [grains], and all their pairs.
+inline constexpr std::size_t most_materials = 3, most_pairs = 6;
+
+/// Whether a section is a list.
+bool is_list_section(std::string_view section);
 
 /// All keys that describe cases, in the order of the reference and of to_toml().
 std::span<Key const> all_keys();

@@ -31,13 +31,13 @@ void check_floor(Layer const& layer, double diameter, GivenKeys const& given) {
 }
 
 int grains_for(double height, Scenario const& scenario, GivenKeys const& given) {
-    double const diameter = scenario.grains.diameter;
+    double const diameter = mean_diameter(scenario);
     if (height < diameter) {
         given.fail("layer.height", fmt::format("{:.6g} m is less than one grain diameter", height),
                    fmt::format("write at least \"{:.6g} mm\"", 1e3 * diameter));
     }
     double const count = settled_solid_fraction * scenario.layer.length * scenario.layer.width * height /
-                         mean_grain_volume(scenario.grains);
+                         mean_grain_volume(scenario);
     Key const& key = *find_key("layer.grains");
     if (count > key.most) {
         given.fail("layer.height",
@@ -47,16 +47,28 @@ int grains_for(double height, Scenario const& scenario, GivenKeys const& given) 
     return std::max(1, static_cast<int>(std::lround(count)));
 }
 
+/// Every material has at least one grain.
+void check_counts(Scenario const& scenario, GivenKeys const& given) {
+    for (Material const& material : materials(scenario)) {
+        if (material.number_fraction * scenario.layer.grains >= 1) continue;
+        given.fail(given.has("layer.height") ? "layer.height" : "layer.grains",
+                   fmt::format("the layer has {} grains, and fewer than one grain of '{}'",
+                               scenario.layer.grains, material.name),
+                   "take a larger layer or a larger share");
+    }
+}
+
 }  // namespace
 
 void complete_layer(Scenario& scenario, GivenKeys const& given) {
     Layer& layer = scenario.layer;
-    double const largest = largest_diameter(scenario.grains);
+    double const largest = largest_diameter(scenario);
     check_box("layer.length", layer.length, largest, given);
     check_box("layer.width", layer.width, largest, given);
     check_floor(layer, largest, given);
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
+    check_counts(scenario, given);
     std::size_t const spheres =
         static_cast<std::size_t>(layer.grains) * shape_spheres(scenario.grains).size();
     if (spheres > most_spheres)

@@ -70,8 +70,10 @@ std::string to_toml(Scenario const& scenario) {
         auto const value = written_value(key, scenario);
         if (!value) continue;
         if (section_of(key) != section) {
-            fmt::format_to(std::back_inserter(text), "{}[{}]\n", section.empty() ? "" : "\n",
-                           section_of(key));
+            std::string_view const list = section_of(key).substr(0, section_of(key).find('.'));
+            bool const is_list = is_list_section(list);
+            fmt::format_to(std::back_inserter(text), "{}{}{}{}\n", section.empty() ? "" : "\n",
+                           is_list ? "[[" : "[", list, is_list ? "]]" : "]");
             section = section_of(key);
         }
         add_line(text, last_name(key.path), key, *value);

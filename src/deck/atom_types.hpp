@@ -1,0 +1,38 @@
+#pragma once
+
+#include "prepare/prepared_case.hpp"
+
+#include <string>
+#include <vector>
+
+/// @file
+/// What the atom types of a deck stand for, and the tables of the contacts between them.
+
+namespace vibrotrough::deck {
+
+/// One atom type of the engine.
+struct AtomType {
+    enum class Kind { grains, trough, side_wall };
+    Kind kind;                                    ///< what it stands for
+    scenario::Material const* material = nullptr; ///< of grains
+    std::string name;                             ///< of the material, "trough" or "side walls"
+};
+
+/// The types in the order of their numbers, which begin with 1: the material of [grains], the trough, the
+/// side walls if there are any, and the other materials. They refer to the case.
+std::vector<AtomType> atom_types(prepare::PreparedCase const& prepared);
+
+/// The number of a material's atom type.
+/// @param material  index in PreparedCase::materials
+int atom_type_of(prepare::PreparedCase const& prepared, int material);
+
+/// Friction and restitution of all pairs of types, row by row, as the engine takes them. It requires values
+/// also for pairs that never touch.
+struct PairTables {
+    std::string frictions, restitutions;
+};
+
+/// The tables of a case.
+PairTables pair_tables(prepare::PreparedCase const& prepared);
+
+}  // namespace vibrotrough::deck
