@@ -267,6 +267,24 @@ void describe_output(core::TemplateData& data, scenario::Scenario const& s, prep
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));
 }
 
+/// The columns of cycles.csv that a mixture has in addition: where the centre of mass of each material is.
+void describe_material_columns(core::TemplateData& data, prepare::PreparedCase const& n) {
+    std::vector<core::TemplateData> groups;
+    std::string columns, values;
+    for (int i = 0; n.materials.size() > 1 && i < static_cast<int>(n.materials.size()); ++i) {
+        core::TemplateData group;
+        group.set("number", std::to_string(i));
+        group.set("type", std::to_string(atom_type_of(n, i)));
+        groups.push_back(std::move(group));
+        columns += fmt::format(",x_{0},z_{0}", i);
+        values += fmt::format(",${{x_{0}}},${{z_{0}}}", i);
+    }
+    data.set("mixture", n.materials.size() > 1);
+    data.set("material_groups", std::move(groups));
+    data.set("material_columns", columns);
+    data.set("material_values", values);
+}
+
 /// Where the grains are poured, and how long settling may take.
 void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
@@ -328,6 +346,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_packing(data, n);
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);
+    describe_material_columns(data, n);
     return data;
 }
 

@@ -131,7 +131,7 @@ int first_round_cycles(scenario::Scenario const& scenario) {
     double cycles = most;
     if (plan.packings > 1 && may_start_moving(scenario))
         cycles = std::clamp(std::round(cycles_times_half_width / plan.half_width), fewest, most);
-    return std::min(static_cast<int>(cycles), plan.max_cycles);
+    return std::min(std::max(static_cast<int>(cycles), plan.min_cycles.value_or(0)), plan.max_cycles);
 }
 
 double expected_cycles(scenario::Scenario const& scenario, Experience const& experience) {

@@ -2,6 +2,7 @@
 
 #include "evaluate/layer.hpp"
 #include "scenario/reader/written_campaign.hpp"
+#include "store/material_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ void add_estimate(store::CaseRecord& record) {
         packing.estimate =
             measure::estimate_packing_after(record.estimate.discarded, packing.efficiency, wanted);
     }
+    store::add_materials(record);
     record.outcome = outcome_of(record.estimate, record.scenario);
     if (has_mean(record.outcome)) return;
     // No mean is reported unless the case is steady; the cycles stay in the record.

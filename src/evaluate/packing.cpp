@@ -37,7 +37,8 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
 }
 
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
-    return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains);
+    return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
+                                 static_cast<int>(prepared.materials.size()));
 }
 
 measure::CycleSeries first_of(measure::CycleSeries const& series, int cycles, fs::path const& folder) {

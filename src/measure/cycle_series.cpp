@@ -5,6 +5,7 @@
 
 #include <numeric>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -14,7 +15,19 @@ namespace {
 
 constexpr std::string_view header =
     "step,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction";
+
+/// The header of a layer of so many materials.
+std::string header_of(int materials) {
+    std::string text(header);
+    for (int i = 0; materials > 1 && i < materials; ++i) text += fmt::format(",x_{0},z_{0}", i);
+    return text;
+}
+
 void append(CycleSeries& series, std::span<double const> row) {
+    for (std::size_t column = 9, i = 0; column + 1 < row.size(); column += 2, ++i) {
+        series.materials.at(i).x.push_back(row[column]);
+        series.materials.at(i).z.push_back(row[column + 1]);
+    }
     series.x.push_back(row[2]);
     series.z.push_back(row[3]);
     series.vz.push_back(row[4]);
@@ -27,13 +40,14 @@ void append(CycleSeries& series, std::span<double const> row) {
 
 }  // namespace
 
-CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains) {
-    return parse_cycles(core::read_text_file(path), steps_per_cycle, grains);
+CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains, int materials) {
+    return parse_cycles(core::read_text_file(path), steps_per_cycle, grains, materials);
 }
 
-CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains) {
+CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains, int materials) {
     CycleSeries series;
-    TableFormat const format{"cycles", header, 0, steps_per_cycle};
+    std::string const columns = header_of(materials);
+    TableFormat const format{"cycles", columns, 0, steps_per_cycle};
     parse_table(file, format, [&](int line_number, std::span<double const> row) {
         if (row[1] != grains) {
             throw core::InputError(fmt::format("{}:{}: {} grains instead of {}", file.path.string(),
@@ -50,6 +64,11 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles) {
     };
     CycleSeries result = series;
     for (auto* const at_ends : {&result.x, &result.z, &result.vz}) cut(*at_ends, cycles + 1);
+    for (MaterialSeries& one : result.materials) {
+        if (one.x.empty()) continue;
+        cut(one.x, cycles + 1);
+        cut(one.z, cycles + 1);
+    }
     for (auto* const over_cycles :
          {&result.normal_force, &result.tangential_force, &result.flight_fraction, &result.mean_velocity}) {
         cut(*over_cycles, cycles);

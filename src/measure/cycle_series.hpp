@@ -2,10 +2,20 @@
 
 #include "core/atomic_file.hpp"
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
 namespace vibrotrough::measure {
+
+/// Where the centre of mass of one material is at the end of cycles 0 ... n.
+struct MaterialSeries {
+    std::vector<double> x;  ///< m, along the trough
+    std::vector<double> z;  ///< m, above the position of the floor at rest
+};
+
+/// How many materials a layer can have.
+inline constexpr int most_materials = 4;
 
 /// The results that the run of one packing wrote for each cycle. At the end of every cycle the trough is back
 /// at its initial position, so that the displacement of the centre of mass is its displacement relative to
@@ -21,6 +31,9 @@ struct CycleSeries {
     std::vector<double> tangential_force;  ///< N, of the layer on the trough, along x
     std::vector<double> flight_fraction;   ///< fraction of the steps without contact with the trough
 
+    /// Of each material of a mixture, that of [grains] first; empty for the others and without a mixture.
+    std::array<MaterialSeries, most_materials> materials;
+
     /// Number of whole cycles n.
     int cycles() const { return static_cast<int>(normal_force.size()); }
 };
@@ -29,10 +42,11 @@ struct CycleSeries {
 /// may still be writing it.
 /// @throws InputError naming file and line when a line is damaged, or a cycle or grains are missing
 /// @throws MissingError if the file does not exist
-CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains);
+/// @param materials  how many materials the layer has; with one there are no columns of materials
+CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains, int materials = 1);
 
 /// The same for a file that has already been read. @throws InputError
-CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains);
+CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains, int materials = 1);
 
 /// The first `cycles` cycles of a series that has at least that many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);

@@ -33,6 +33,8 @@ struct PackingRecord {
     measure::Profiles profiles;         ///< of the same cycles
     measure::Surface surface;           ///< of the layer in the same cycles
     measure::RollingCurves rolling;     ///< of the same cycles, when measure.rolling asks for it
+    std::optional<double> segregation;  ///< of the first of [[materials]], see measure/segregation.hpp
+    std::optional<double> material_lead;  ///< its velocity efficiency less that of the grains
     std::string rolling_problem;        ///< why `rolling` is empty although it was asked for; else empty
 };
 

@@ -1,6 +1,7 @@
 #include "prepare/numerical_errors.hpp"
 #include "prepare/softness.hpp"
 #include "store/layer_quantities.hpp"
+#include "store/material_quantities.hpp"
 #include "store/quantity.hpp"
 
 #include <limits>
@@ -356,7 +357,7 @@ std::vector<Quantity> const& quantities() {
         std::vector<Quantity> rows;
         for (auto const& part :
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
-              start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities()})
+              start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(), material_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

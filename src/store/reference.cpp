@@ -1,5 +1,6 @@
 #include "store/reference.hpp"
 
+#include "store/material_quantities.hpp"
 #include "store/schema.hpp"
 
 #include <algorithm>
@@ -67,6 +68,12 @@ void add_packings(std::vector<NameInFile>& names) {
             add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
                 table.entry);
     }
+    for (PackingTable const& table : material_tables(measure::most_materials))
+        add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
+    for (Entry const& entry : materials_entries())
+        add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
+    for (Entry const& entry : segregation_entries())
+        add(names, "segregation/", real_type, "cycles + 1", entry);
     for (MassFlowColumn const& column : mass_flow_columns())
         add(names, "mass_flow/", real_type, "slabs", column.entry);
 }

@@ -6,6 +6,7 @@
 #include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
+#include "store/material_quantities.hpp"
 #include "store/schema.hpp"
 
 #include <map>
@@ -199,6 +200,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
     for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], rolling_tables());
+    for (std::size_t i = 0; i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
         if (!packing.motion.added_mass)
             measure::add_reaction(packing.motion, record.scenario.trough.frequency);
@@ -212,6 +215,17 @@ std::string files_as_json(scenario::Scenario const& scenario) {
     nlohmann::json files = nlohmann::json::object();
     for (scenario::NamedFile const& file : named_files(scenario)) files[file.name] = file.content;
     return files.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A table that follows from the packings; none when it has no columns.
+void add_case_table(Hdf5MemoryFileWriter& file, std::string const& name, std::vector<Entry> const& entries,
+                    std::vector<CaseValues> const& values) {
+    std::vector<Hdf5Column> columns;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        auto const& [column, units, meaning] = entries[i];
+        std::visit([&](auto const& list) { columns.push_back({column, units, meaning, list}); }, values[i]);
+    }
+    if (!columns.empty()) file.table(name, columns, Rank::array);
 }
 
 /// The bytes of result.h5.
@@ -241,10 +255,13 @@ std::string result_bytes(CaseRecord const& record) {
     for (auto const& [entry, field] : mass_flow_columns())
         columns.push_back({entry.name, entry.units, entry.meaning, flow.*field});
     file.table("mass_flow", columns, Rank::array);
+    add_case_table(file, "materials", materials_entries(), materials_table(record));
+    add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
         if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
+        add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     }
     return file.bytes();
 }

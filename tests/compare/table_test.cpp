@@ -63,7 +63,11 @@ std::vector<std::string> const contract{"case",
                                         "numerical_error_case",
                                         "larger_error",
                                         "not_covered",
-                                        "soft"};
+                                        "soft",
+                                        "segregation",
+                                        "segregation_half_width",
+                                        "material_lead",
+                                        "material_lead_half_width"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

@@ -187,9 +187,9 @@ class EndToEndTest(unittest.TestCase):
             self.assertEqual(done.returncode, wanted, done.stdout + done.stderr)
         return done
 
-    def start_campaign(self, campaign):
+    def start_campaign(self, campaign, output=None):
         """Starts a run in a process group of its own, as a shell does, and returns at once."""
-        command = [PROGRAM, *map(str, self.run_arguments(campaign))]
+        command = [PROGRAM, *map(str, self.run_arguments(campaign, output))]
         process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
         )

@@ -33,6 +33,22 @@ class CyclesFile : public testing::Test {
         "100,50,0.02,0.006,0.1,0.12,-0.5,-9,0.25\n200,50,0.04,0.006,0.1,0.22,0.5,-10,0.5\n";
 };
 
+// A mixture has two columns more for each material; without them the file is one of another layer.
+TEST_F(CyclesFile, AMixtureHasTheCentresOfItsMaterials) {
+    std::string const text =
+        "step,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction,x_0,z_0,x_1,z_1\n"
+        "0,50,0.01,0.005,0,0,0,0,0,0.01,0.004,0.011,0.007\n"
+        "100,50,0.02,0.006,0.1,0.12,-0.5,-9,0.25,0.02,0.005,0.022,0.008\n";
+    std::ofstream(path) << text;
+    CycleSeries const series = read_cycles(path, 100, 50, 2);
+    EXPECT_EQ(series.materials[0].z, (std::vector<double>{0.004, 0.005}));
+    EXPECT_EQ(series.materials[1].x, (std::vector<double>{0.011, 0.022}));
+    EXPECT_TRUE(series.materials[2].x.empty());
+    EXPECT_EQ(first_cycles(series, 0).materials[1].z, (std::vector<double>{0.007}));
+    EXPECT_THROW(read_cycles(path, 100, 50, 3), core::InputError);
+    EXPECT_THROW(read_cycles(path, 100, 50), core::InputError);
+}
+
 TEST_F(CyclesFile, IsRead) {
     CycleSeries const series = read(whole);
     EXPECT_EQ(series.cycles(), 2);

@@ -27,6 +27,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     scenario.trough.side_wall_friction = 0.1;
     scenario.trough.waveform = std::make_shared<Waveform>();
     scenario.measure.max_core_time = 1;
+    scenario.measure.min_cycles = 1;
     for (Key const& key : all_keys()) {
         if (can_vary(key) && !is_list_section(key.path.substr(0, key.path.find('.')))) {
             EXPECT_TRUE(key_value(scenario, key.path)) << key.path;

@@ -6,6 +6,7 @@
 #include "sample_record.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/hdf5_memory_file.hpp"
+#include "store/material_quantities.hpp"
 
 #include <cmath>
 #include <csignal>
@@ -164,6 +165,42 @@ TEST_F(ResultFile, RollingIsThereWhenAskedFor) {
     EXPECT_TRUE(read_result(path).packings[1].rolling.phase.empty());
     Hdf5MemoryFileReader const file(core::read_file(path));
     EXPECT_THROW(file.table("rolling/1", Rank::array), Hdf5Error);
+}
+
+// The centres of mass of the materials are kept; what is made of them is in tables of the case, over packings.
+// With H = 8 mm and equal masses S = (z_1 - z_0) / 4 mm: -0.5 and -1 at the end, -0.75 on average.
+TEST_F(ResultFile, AMixtureHasItsMaterials) {
+    CaseRecord record = sample_record();
+    scenario::Scenario& s = record.scenario;
+    s.layer.height = 0.008;
+    s.materials = {{.name = "fines", .diameter_spread = 0.1, .mass_fraction = 0.5}};
+    record.scenario_toml = to_toml(s);
+    for (std::size_t i = 0; i < 2; ++i) {
+        double const sunk = i == 0 ? 0.002 : 0.004;
+        record.packings[i].series.materials[0] = {{0, 0.01}, {0.005, 0.005}};
+        record.packings[i].series.materials[1] = {{0, 0.02}, {0.005, 0.005 - sunk}};
+        record.packings[i].estimate.discarded = 0;
+    }
+    add_materials(record);
+    write_result(path, record);
+    CaseRecord const read = read_result(path);
+    EXPECT_EQ(read.packings[1].segregation, record.packings[1].segregation);
+    EXPECT_NEAR(read.packings[1].segregation.value(), -1, 1e-14);
+    EXPECT_EQ(read.packings[1].series.materials[1].z, record.packings[1].series.materials[1].z);
+    EXPECT_TRUE(read.packings[1].series.materials[2].z.empty());
+    Hdf5MemoryFileReader const file(core::read_file(path));
+    auto const materials = file.table("materials", Rank::array);
+    EXPECT_EQ(materials.values<std::string>("name"), (std::vector<std::string>{"grains", "fines"}));
+    EXPECT_NEAR(materials.values<double>("segregation")[1], -0.75, 1e-14);
+    EXPECT_NEAR(materials.values<double>("segregation")[0], 0.75, 1e-14);
+    // Student's t with one degree of freedom: 12.706 times 0.25 (half the difference of two values).
+    EXPECT_NEAR(materials.values<double>("segregation_half_width")[1], 12.7062 * 0.25, 1e-4);
+    EXPECT_NEAR(materials.values<double>("efficiency")[1] / materials.values<double>("efficiency")[0], 2, 1e-14);
+    auto const over_time = file.table("segregation", Rank::array);
+    EXPECT_EQ(over_time.values<double>("cycle"), (std::vector<double>{0, 1}));
+    EXPECT_NEAR(over_time.values<double>("index_1")[0], 0, 1e-14);
+    EXPECT_NEAR(over_time.values<double>("index_1")[1], -0.75, 1e-14);
+    EXPECT_THROW(over_time.values<double>("index_2"), Hdf5Error);
 }
 
 TEST_F(ResultFile, SameRecordGivesSameBytes) {

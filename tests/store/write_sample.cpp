@@ -1,10 +1,34 @@
 // Writes result.h5 and campaign.h5 of the sample into a folder, for check_written.py.
 
 #include "sample_record.hpp"
+#include "scenario/reader/written_campaign.hpp"
+#include "store/material_quantities.hpp"
 #include "store/result_file.hpp"
 
 #include <cstdio>
 #include <exception>
+
+namespace {
+
+/// The sample with four materials, so that it has every table.
+vibrotrough::store::CaseRecord sample_mixture() {
+    using namespace vibrotrough::store;
+    CaseRecord record = sample_record();
+    for (char const* const name : {"a", "b", "c"})
+        record.scenario.materials.push_back({.name = name, .number_fraction = 0.1});
+    record.scenario_toml = to_toml(record.scenario);
+    for (PackingRecord& packing : record.packings) {
+        double place = 0.018;
+        for (auto& material : packing.series.materials) {
+            material.x.assign(packing.series.x.size(), place += 0.001);
+            material.z.assign(packing.series.x.size(), place / 2);
+        }
+    }
+    add_materials(record);
+    return record;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     using namespace vibrotrough::store;
@@ -15,7 +39,7 @@ int main(int argc, char** argv) {
     try {
         std::filesystem::path const folder = argv[1];
         std::filesystem::create_directories(folder);
-        write_result(folder / "result.h5", sample_record());
+        write_result(folder / "result.h5", sample_mixture());
         CaseRecord studied = sample_record();
         studied.studied = {0.034, "fedcba9876543210"};
         write_campaign(folder / "campaign.h5", "sample", {studied, sample_record("fedcba9876543210", 27.0)},

@@ -64,6 +64,7 @@ void add_init(CLI::App& program, int& exit_code) {
   pellets   how fast a trough conveys plastic pellets at three speeds of the drive, in t/h
   paper     the experiment of Sloot and Kruyt (1996): layer and theory over the throw number
   rotation  the same layer with grains that rotate freely, against rolling friction, and not at all
+  mixture   two materials of different size and density: do they separate?
   design    three machines with the same largest acceleration: which one carries most?
 
 An existing file is never overwritten.

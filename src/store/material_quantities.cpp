@@ -1,0 +1,262 @@
+#include "store/material_quantities.hpp"
+
+#include "measure/mass_flow.hpp"
+#include "measure/segregation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace vibrotrough::store {
+namespace {
+
+using Case = CaseRecord const&;
+
+bool is_mixture(Case record) {
+    return !record.scenario.materials.empty() && !record.packings.empty();
+}
+
+/// One number for each packing.
+using OfPacking = double (*)(Case, PackingRecord const&, std::size_t material);
+
+double unknown() {
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> index_of(Case record, PackingRecord const& packing, std::size_t material) {
+    std::vector<double> masses;
+    for (scenario::Material const& one : materials(record.scenario))
+        masses.push_back(one.number_fraction * one.grains.density * mean_grain_volume(one.grains));
+    std::span const all(packing.series.materials.data(), masses.size());
+    return measure::segregation_index(all, masses, material, layer_height(record.scenario));
+}
+
+/// The mean over the last cycles.
+double last_index(Case record, PackingRecord const& packing, std::size_t material) {
+    std::vector<double> const index = index_of(record, packing, material);
+    if (index.empty()) return unknown();
+    int const count = measure::last_cycles(static_cast<int>(index.size()) - 1);
+    return std::accumulate(index.end() - count, index.end(), 0.0) / count;
+}
+
+double efficiency_of(Case record, PackingRecord const& packing, std::size_t material) {
+    scenario::Trough const& trough = record.scenario.trough;
+    return measure::material_efficiency(packing.series.materials[material], packing.estimate.discarded,
+                                        trough.amplitude * std::cos(trough.vibration_angle));
+}
+
+double lead_of(Case record, PackingRecord const& packing, std::size_t material) {
+    return efficiency_of(record, packing, material) - efficiency_of(record, packing, 0);
+}
+
+std::vector<double> over_packings(Case record, OfPacking of, std::size_t material) {
+    std::vector<double> values;
+    for (PackingRecord const& packing : record.packings) values.push_back(of(record, packing, material));
+    return values;
+}
+
+double mean_of(std::vector<double> const& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double half_width_of(Case record, std::vector<double> const& values) {
+    return measure::student_half_width(values, record.scenario.measure.confidence).value_or(unknown());
+}
+
+/// The field of a packing as a quantity.
+using Number = Field<PackingRecord, std::optional<double>>;
+
+Number segregation() {
+    return packing_field([](auto& packing) -> auto& { return packing.segregation; });
+}
+
+Number lead() {
+    return packing_field([](auto& packing) -> auto& { return packing.material_lead; });
+}
+
+/// Half-width of the interval of a number of the packings; none with fewer than two.
+template <Number (*number)()>
+std::optional<double> half_width_over_packings(Case record) {
+    std::vector<double> values;
+    for (PackingRecord const& packing : record.packings)
+        if (auto const& value = number()(packing)) values.push_back(*value);
+    return measure::student_half_width(values, record.scenario.measure.confidence);
+}
+
+/// A column with one number for each material.
+std::vector<double> numbers(std::vector<scenario::Material> const& all, double (*of)(scenario::Material const&)) {
+    std::vector<double> values;
+    for (scenario::Material const& material : all) values.push_back(of(material));
+    return values;
+}
+
+/// Mean and half-width over the packings of a number for each material.
+void add_measured(std::vector<CaseValues>& columns, Case record, std::size_t materials, OfPacking of) {
+    std::vector<double> means, widths;
+    for (std::size_t material = 0; material < materials; ++material) {
+        std::vector<double> const values = over_packings(record, of, material);
+        means.push_back(mean_of(values));
+        widths.push_back(half_width_of(record, values));
+    }
+    columns.emplace_back(std::move(means));
+    columns.emplace_back(std::move(widths));
+}
+
+template <std::size_t i>
+void add_series(std::vector<PackingTable>& tables) {
+    constexpr std::array x{"x_0", "x_1", "x_2", "x_3"}, z{"z_0", "z_1", "z_2", "z_3"};
+    tables.push_back({"material_ends",
+                      {x[i], "m",
+                       "Centre of mass along the trough of material 0 ([grains]), 1 (the first of [[materials]]) "
+                       "and so on, at the end of cycle 0 ... n, unwrapped; only of mixtures"},
+                      packing_field([](auto& p) -> auto& { return p.series.materials[i].x; })});
+    tables.push_back({"material_ends",
+                      {z[i], "m", "The same above the resting trough"},
+                      packing_field([](auto& p) -> auto& { return p.series.materials[i].z; })});
+}
+
+}  // namespace
+
+std::span<PackingTable const> material_tables(std::size_t materials) {
+    static std::vector<PackingTable> const tables = [] {
+        std::vector<PackingTable> all;
+        add_series<0>(all);
+        add_series<1>(all);
+        add_series<2>(all);
+        add_series<3>(all);
+        return all;
+    }();
+    return std::span(tables).first(materials < 2 ? 0 : 2 * materials);
+}
+
+std::vector<Entry> const& materials_entries() {
+    static std::vector<Entry> const entries{
+        {"name", "1", "Name of the material, that of [grains] first; only of mixtures"},
+        {"number_fraction", "1", "Its share of the grains"},
+        {"diameter", "m", "Mean diameter d of its grains"},
+        {"density", "kg/m3", "Density of its grains"},
+        {"friction", "1", "Friction coefficient of the material on itself"},
+        {"trough_friction", "1", "Friction coefficient mu on the trough"},
+        {"efficiency", "1", "Velocity efficiency of the material's centre of mass, over the cycles kept"},
+        {"efficiency_half_width", "1",
+         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing"},
+        {"segregation", "1",
+         "Segregation index S: height of its centre of mass above that of the other materials over half the "
+         "height of the layer, over the last tenth of the cycles; 1 on top, -1 at the floor, 0 mixed"},
+        {"segregation_half_width", "1", "Half-width of its interval, as for efficiency"},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> materials_table(Case record) {
+    if (!is_mixture(record)) return {};
+    using Material = scenario::Material;
+    auto const all = materials(record.scenario);
+    std::vector<std::string> names;
+    for (Material const& material : all) names.push_back(material.name);
+    std::vector<CaseValues> columns{
+        names,
+        numbers(all, [](Material const& m) { return m.number_fraction; }),
+        numbers(all, [](Material const& m) { return m.grains.diameter; }),
+        numbers(all, [](Material const& m) { return m.grains.density; }),
+        numbers(all, [](Material const& m) { return m.grains.friction; }),
+        numbers(all, [](Material const& m) { return m.trough_friction; }),
+    };
+    add_measured(columns, record, all.size(), efficiency_of);
+    add_measured(columns, record, all.size(), last_index);
+    return columns;
+}
+
+std::vector<Entry> const& segregation_entries() {
+    constexpr auto mean =
+        "Segregation index of material 0 ([grains]), 1 (the first of [[materials]]) and so on at the end of the "
+        "cycle, mean over the packings";
+    constexpr auto half_width =
+        "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing";
+    static std::vector<Entry> const entries{
+        {"cycle", "1", "Number of cycles since the start; only of mixtures"},
+        {"index_0", "1", mean}, {"half_width_0", "1", half_width},
+        {"index_1", "1", mean}, {"half_width_1", "1", half_width},
+        {"index_2", "1", mean}, {"half_width_2", "1", half_width},
+        {"index_3", "1", mean}, {"half_width_3", "1", half_width},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> segregation_table(Case record) {
+    if (!is_mixture(record)) return {};
+    std::size_t cycle_ends = record.packings.front().series.x.size();
+    for (PackingRecord const& packing : record.packings)
+        cycle_ends = std::min(cycle_ends, packing.series.materials[0].z.size());
+    std::vector<double> cycles(cycle_ends);
+    std::iota(cycles.begin(), cycles.end(), 0.0);
+    std::vector<CaseValues> columns{cycles};
+    for (std::size_t material = 0; material <= record.scenario.materials.size(); ++material) {
+        std::vector<std::vector<double>> indices;
+        for (PackingRecord const& packing : record.packings)
+            indices.push_back(index_of(record, packing, material));
+        std::vector<double> means, widths;
+        for (std::size_t k = 0; k < cycle_ends; ++k) {
+            std::vector<double> values;
+            for (auto const& index : indices) values.push_back(index[k]);
+            means.push_back(mean_of(values));
+            widths.push_back(half_width_of(record, values));
+        }
+        columns.emplace_back(std::move(means));
+        columns.emplace_back(std::move(widths));
+    }
+    return columns;
+}
+
+void add_materials(CaseRecord& record) {
+    if (!is_mixture(record)) return;
+    for (PackingRecord& packing : record.packings) {
+        packing.segregation = last_index(record, packing, 1);
+        packing.material_lead = lead_of(record, packing, 1);
+    }
+}
+
+std::vector<Quantity> material_quantities() {
+    std::vector<Quantity> rows{
+        {"segregation",
+         "1",
+         "Segregation index of the first of [[materials]], over the last tenth of the cycles: 1 when it lies on "
+         "top of the others, -1 at the floor, 0 when the layer is mixed; NaN without materials",
+         segregation(),
+         OverPackings::mean,
+         {{.place = 900,
+           .format = "{:.3f}",
+           .position = 262,
+           .terminal = TerminalView{.heading = "segregation", .priority = 4, .only_when_known = true},
+           .report = ReportView{"segregation"}}}},
+        {"segregation_half_width",
+         "1",
+         "Half-width of the interval of segregation, Student's t over the packings",
+         &half_width_over_packings<segregation>,
+         OverPackings::nothing,
+         {{.place = 910,
+           .format = "{:.3f}",
+           .position = 264,
+           .terminal = TerminalView{.heading = "+-", .priority = 4, .only_when_known = true},
+           .report = ReportView{"\u00b1"}}}},
+        {"material_lead",
+         "1",
+         "Velocity efficiency of the first of [[materials]] less that of the grains: how much faster it is "
+         "conveyed; NaN without materials",
+         lead(),
+         OverPackings::mean,
+         {{.place = 920, .format = "{:.3f}", .position = 266, .report = ReportView{"lead of the material"}}}},
+        {"material_lead_half_width",
+         "1",
+         "Half-width of the interval of material_lead, Student's t over the packings",
+         &half_width_over_packings<lead>,
+         OverPackings::nothing,
+         {{.place = 930, .format = "{:.3f}", .position = 268, .report = ReportView{"\u00b1 lead"}}}},
+    };
+    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    return rows;
+}
+
+}  // namespace vibrotrough::store
