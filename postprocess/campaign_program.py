@@ -26,15 +26,22 @@ def campaign_text(base: Sections, changes: Mapping[str, Any], sweep: Mapping[str
     """The TOML text of a campaign.
 
     `base`: sections of a campaign, whose sweep is ignored; `changes`: {"section.key": value}, where None removes the key;
-    `sweep`: {"section.key": list of values}.
+    `sweep`: {"section.key": list of values}. The sections of a list are "materials.1" and so on.
     """
-    sections = {name: dict(keys) for name, keys in base.items() if name != "sweep"}
+    sections: dict[str, dict[str, Any]] = {}
+    for name, keys in base.items():
+        if isinstance(keys, list):
+            sections |= {f"{name}.{number}": dict(entry) for number, entry in enumerate(keys, 1)}
+        elif name != "sweep":
+            sections[name] = dict(keys)
     for path, value in changes.items():
-        section, key = path.split(".")
+        section, key = path.rsplit(".", 1)
         sections.setdefault(section, {})[key] = value
     lines = []
     for name, keys in sections.items():
-        lines += [f"[{name}]"] + [f"{key} = {toml_value(value)}" for key, value in keys.items() if value is not None]
+        section, *is_entry = name.split(".")
+        lines += [f"[[{section}]]" if is_entry else f"[{name}]"]
+        lines += [f"{key} = {toml_value(value)}" for key, value in keys.items() if value is not None]
     lines += ["[sweep]"] + [f'"{path}" = {toml_value(values)}' for path, values in sweep.items()]
     return "\n".join(lines) + "\n"
 
