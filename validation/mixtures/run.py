@@ -15,8 +15,8 @@ from validation_case import ValidationCase  # noqa: E402
 CASES = {
     "sizes": {"materials.1.diameter": "1.5 mm"},
     "densities": {"materials.1.density": "5600 kg/m3"},
-    "intruder": {"grains.diameter": "2 mm", "materials.1.diameter": "6 mm", "materials.1.diameter_spread": 0, "materials.1.mass_fraction": None,
-                 "materials.1.number_fraction": 0.0012, "layer.length": "24.5 mm", "layer.width": "24.5 mm", "layer.height": "12 mm"},
+    "intruder": {"grains.diameter": "2 mm", "materials.1.diameter": "4.5 mm", "materials.1.diameter_spread": 0, "materials.1.mass_fraction": None,
+                 "materials.1.number_fraction": 0.0024, "layer.length": "18.5 mm", "layer.width": "18.5 mm", "layer.height": "10 mm"},
     "same": {},
     "large and heavy": {"grains.diameter": "1.5 mm", "materials.1.diameter": "3 mm", "materials.1.density": "5600 kg/m3"},
 }  # fmt: skip
@@ -55,7 +55,7 @@ def judge(run: ValidationCase) -> None:
     sign = "stay below" if float(heavy["segregation"]) + float(heavy["half_width"]) < 0 else \
         "come to the top" if float(heavy["segregation"]) > float(heavy["half_width"]) else "stay mixed with them"
     run.finding("large grains that are four times as dense as the small ones sink (reverse Brazil-nut effect)", sign == "stay below",
-                f"they {sign}: {float(heavy['segregation']):.2f} +- {float(heavy['half_width']):.2f} after 200 cycles. Which way they go depends on the "
+                f"they {sign}: {float(heavy['segregation']):.2f} +- {float(heavy['half_width']):.2f} after 150 cycles. Which way they go depends on the "
                 "excitation (Breu et al., Phys. Rev. Lett. 90, 2003, 014302)")
 
 
