@@ -13,9 +13,9 @@ namespace vibrotrough::deck {
 /// One atom type of the engine.
 struct AtomType {
     enum class Kind { grains, trough, side_wall };
-    Kind kind;                                    ///< what it stands for
-    scenario::Material const* material = nullptr; ///< of grains
-    std::string name;                             ///< of the material, "trough" or "side walls"
+    Kind kind;                                     ///< what it stands for
+    scenario::Material const* material = nullptr;  ///< of grains
+    std::string name;                              ///< of the material, "trough" or "side walls"
 };
 
 /// The types in the order of their numbers, which begin with 1: the material of [grains], the trough, the

@@ -43,11 +43,30 @@ std::string tidy(std::string_view text) {
     return result;
 }
 
+/// The surface of a mesh with triangles that are not much larger than grains. Upright sides are continued to
+/// the top of the box, so that grains that are poured in or thrown up do not leave it.
+std::string own_trough_stl(prepare::PreparedCase const& prepared, double edge) {
+    scenario::Layer const& layer = prepared.scenario.layer;
+    prepare::Domain const& domain = prepared.domain;
+    std::vector<scenario::Triangle> all = scenario::divided(domain.surface, edge);
+    for (double const y : {0.0, layer.width}) {
+        if (!domain.is_closed) break;
+        scenario::Point const a{0, y, domain.top}, b{layer.length, y, domain.top},
+            c{layer.length, y, prepared.wall_height}, d{0, y, prepared.wall_height};
+        for (scenario::Triangle const& triangle : scenario::divided({{a, b, c}, {a, c, d}}, 4 * edge))
+            all.push_back(triangle);
+    }
+    return scenario::stl_text("trough", all);
+}
+
 std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * mean_diameter(scenario);
-    std::map<std::string, std::string> files{{"trough.stl", flat_trough_stl(length, width, edge)}};
+    prepare::Domain const& domain = prepared.domain;
+    std::map<std::string, std::string> files{{"trough.stl", domain.has_mesh()
+                                                                ? own_trough_stl(prepared, edge)
+                                                                : flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
@@ -59,13 +78,19 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
 std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
-    std::array<double, 5> const shape{scenario.layer.length, scenario.layer.width, mean_diameter(scenario),
-                                      scenario.trough.side_wall_friction ? 1.0 : 0.0, prepared.wall_height};
-    thread_local std::array<double, 5> last_shape{};
+    std::array<double, 6> const shape{metres_in(scenario.trough.mesh_unit),
+                                      scenario.layer.length,
+                                      scenario.layer.width,
+                                      mean_diameter(scenario),
+                                      scenario.trough.side_wall_friction ? 1.0 : 0.0,
+                                      prepared.wall_height};
+    thread_local std::array<double, 6> last_shape{};
+    thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
     thread_local std::map<std::string, std::string> last;
-    if (last.empty() || shape != last_shape) {
+    if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh) {
         last = make_meshes(prepared);
         last_shape = shape;
+        last_mesh = scenario.trough.mesh;
     }
     return last;
 }

@@ -62,8 +62,8 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
         entry.set("count", std::to_string(size.count));
-        entry.set("of_material", n.materials.size() == 1 ? std::string()
-                                                         : fmt::format(" ({})", material_of(n, size).name));
+        entry.set("of_material",
+                  n.materials.size() == 1 ? std::string() : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
         entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
@@ -141,7 +141,8 @@ void describe_contact(core::TemplateData& data, prepare::PreparedCase const& n) 
     int const types = static_cast<int>(all_types.size());
     std::vector<std::string> type_names;
     for (int type = 2; type <= types; ++type)
-        type_names.push_back(fmt::format("type {}: {}", type, all_types[static_cast<std::size_t>(type) - 1].name));
+        type_names.push_back(
+            fmt::format("type {}: {}", type, all_types[static_cast<std::size_t>(type) - 1].name));
     PairTables const tables = pair_tables(n);
     std::string const model = block ? "hooke/stiffness tangential no_history"
                                     : fmt::format("{} tangential history", name_of(s.engine.contact));
@@ -288,7 +289,10 @@ void describe_material_columns(core::TemplateData& data, prepare::PreparedCase c
 /// Where the grains are poured, and how long settling may take.
 void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
-    bool const walls = s.trough.side_wall_friction.has_value();
+    bool const walls = n.domain.is_closed;
+    data.set("closed", walls);
+    data.set("has_mesh", n.domain.has_mesh());
+    data.set("mesh_file", s.trough.mesh ? s.trough.mesh->file.name : std::string());
     double const extent = n.largest_extent, diameter = mean_diameter(s), step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
     double const chunk_time = std::sqrt(diameter / scenario::gravity);

@@ -47,10 +47,11 @@ void scale_solid_fraction(measure::Profiles& profiles, scenario::Scenario const&
 }
 
 /// How much of the difference to the theory comes from the layer's normal force and from its landing. Not
-/// with side walls, which carry a part of the load that the force on the floor does not show.
+/// with side walls or a mesh, whose inclined surfaces carry a part of the load that the force on the floor
+/// does not show.
 void add_friction_numbers(measure::LayerMotion& motion, prepare::PreparedCase const& prepared) {
     scenario::Scenario const& s = prepared.scenario;
-    if (s.trough.side_wall_friction) return;
+    if (s.trough.side_wall_friction || s.trough.mesh) return;
     motion.landing_friction = measure::landing_friction(motion);
     motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
         motion.curves, {prepared.mass, s.trough.friction, -scenario::gravity * std::sin(s.trough.inclination),
@@ -80,7 +81,8 @@ void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& pr
     auto const profiles = measure::parse_snapshots(outputs.snapshots, outputs.folder, "profiles");
     auto const surface = measure::parse_snapshots(outputs.snapshots, outputs.folder, "surface");
     record.motion = measure::layer_motion(series, facts);
-    if (record.motion.curves.phase.empty()) return;  // too few cycles to look at
+    if (record.motion.curves.phase.empty()) return;                               // too few cycles to look at
+    if (prepared.domain.has_mesh()) record.motion.largest_floor_overlap.reset();  // its floor is not a plane
     add_friction_numbers(record.motion, prepared);
     measure::ProfileFacts profile{mean_density(s),
                                   prepared.time.steps_per_cycle,
@@ -93,7 +95,7 @@ void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& pr
                                   record.estimate.mean * prepared.velocity_scale};
     add_trough(profile, series, record.motion.curves);
     record.profiles = measure::layer_profiles(profiles, profile);
-    if (is_clump(s.grains) || s.layer.block != scenario::Block::none || s.trough.side_wall_friction)
+    if (is_clump(s.grains) || s.layer.block != scenario::Block::none || prepared.domain.is_closed)
         scale_solid_fraction(record.profiles, s, record.mass);
     record.surface = measure::layer_surface(surface, profile);
 }

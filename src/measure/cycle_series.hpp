@@ -43,7 +43,8 @@ struct CycleSeries {
 /// @throws InputError naming file and line when a line is damaged, or a cycle or grains are missing
 /// @throws MissingError if the file does not exist
 /// @param materials  how many materials the layer has; with one there are no columns of materials
-CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains, int materials = 1);
+CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, int grains,
+                        int materials = 1);
 
 /// The same for a file that has already been read. @throws InputError
 CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains, int materials = 1);

@@ -6,8 +6,8 @@
 
 namespace vibrotrough::measure {
 
-std::vector<double> segregation_index(std::span<MaterialSeries const> materials, std::span<double const> masses,
-                                      std::size_t which, double height) {
+std::vector<double> segregation_index(std::span<MaterialSeries const> materials,
+                                      std::span<double const> masses, std::size_t which, double height) {
     std::vector<double> index;
     for (std::size_t k = 0; k < materials[which].z.size(); ++k) {
         double moment = 0, mass = 0;

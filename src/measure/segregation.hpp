@@ -22,8 +22,8 @@ namespace vibrotrough::measure {
 /// @param masses     of all materials, in any unit
 /// @param which      index of the material
 /// @param height     H, m, above 0
-std::vector<double> segregation_index(std::span<MaterialSeries const> materials, std::span<double const> masses,
-                                      std::size_t which, double height);
+std::vector<double> segregation_index(std::span<MaterialSeries const> materials,
+                                      std::span<double const> masses, std::size_t which, double height);
 
 /// The number of cycles at the end of a run over which its last segregation index is the mean: a tenth of
 /// all, at least one.

@@ -32,7 +32,7 @@ NumericalErrors numerical_errors(scenario::Scenario const& s) {
 
 double box_bound(scenario::Scenario const& s) {
     double const d = mean_diameter(s);
-    double const width = s.trough.side_wall_friction ? box_width : s.layer.width / d;
+    double const width = s.trough.side_wall_friction || s.trough.mesh ? box_width : s.layer.width / d;
     double const area = s.layer.length / d * width;
     double const depth = layer_height(s) / d;
     return error_of_box * std::sqrt(box_length * box_width / area) * std::max(1.0, depth / deepest_for_box);

@@ -132,18 +132,16 @@ std::string_view unit_of(NumericalSetting setting) {
 std::vector<VariedSetting> vary_numerics(PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     if (s.layer.block != scenario::Block::none) return vary_block(c);
-    std::vector<VariedSetting> all{vary_modulus(s), vary_time_step(c),
-                                   vary_box(s, NumericalSetting::length, &scenario::Layer::length)};
-    if (s.trough.side_wall_friction) {
-        all.push_back({NumericalSetting::width,
-                       s.layer.width,
-                       {},
-                       {},
-                       "between side walls the width is part of the problem"});
-    } else {
-        all.push_back(vary_box(s, NumericalSetting::width, &scenario::Layer::width));
-    }
-    return all;
+    auto const side = [&](NumericalSetting setting, double scenario::Layer::*member, bool is_given,
+                          char const* reason) {
+        return is_given ? VariedSetting{setting, s.layer.*member, {}, {}, reason}
+                        : vary_box(s, setting, member);
+    };
+    bool const is_mesh = s.trough.mesh != nullptr;
+    return {vary_modulus(s), vary_time_step(c),
+            side(NumericalSetting::length, &scenario::Layer::length, is_mesh, "the mesh has one length"),
+            side(NumericalSetting::width, &scenario::Layer::width, is_mesh || s.trough.side_wall_friction,
+                 is_mesh ? "the mesh has one width" : "between side walls the width is part of the problem")};
 }
 
 }  // namespace vibrotrough::prepare

@@ -68,7 +68,8 @@ void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
     for (ClassCount const& size : c.classes) {
         double const sphere = std::numbers::pi / 6 * std::pow(size.diameter, 3);
-        c.mass += size.count * c.materials[static_cast<std::size_t>(size.material)].grains.density * (c.clump ? c.clump->volume : sphere);
+        c.mass += size.count * c.materials[static_cast<std::size_t>(size.material)].grains.density *
+                  (c.clump ? c.clump->volume : sphere);
     }
     c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
     c.layer_height = layer_height(s);
@@ -95,8 +96,8 @@ void prepare_filling(PreparedCase& c) {
         bounding_volume += size.count * sphere * std::pow(ratio, 3);
     }
     c.largest_extent = c.classes.front().diameter * ratio;
-    double const width = s.layer.width - (s.trough.side_wall_friction ? c.largest_extent : 0);
-    c.fill_bottom = 0.6 * c.largest_extent;
+    double const width = s.layer.width - (c.domain.is_closed ? c.largest_extent : 0);
+    c.fill_bottom = c.domain.floor_top + 0.6 * c.largest_extent;
     c.fill_top =
         c.fill_bottom + c.largest_extent +
         bounding_volume / (poured_solid_fraction * s.layer.length * std::max(width, 0.2 * s.layer.width));
@@ -147,6 +148,7 @@ PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
     PreparedCase prepared{};
     prepared.scenario = scenario;
     prepare_drive(prepared);
+    prepared.domain = domain_of(scenario);
     prepare_grains(prepared, clumps_);
     prepare_modulus(prepared);
     prepare_filling(prepared);

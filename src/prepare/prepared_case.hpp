@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prepare/clump.hpp"
+#include "prepare/domain.hpp"
 #include "prepare/numerical_errors.hpp"
 #include "prepare/point_mass.hpp"
 #include "prepare/time_grid.hpp"
@@ -51,6 +52,7 @@ struct PreparedCase {
     double settle_speed;      ///< m/s, the fastest impact that is expected while the packing settles
 
     // Simulation box.
+    Domain domain;                 ///< surfaces and faces
     double fill_bottom, fill_top;  ///< m, heights between which grains are poured
     double box_top, box_bottom;    ///< m, heights of the faces of the box
     double wall_height;            ///< m, height of side walls

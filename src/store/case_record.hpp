@@ -25,17 +25,17 @@ struct PackingRecord {
     double core_time;     ///< s, processor time of the engine, all ranks
     /// Velocity efficiency with which all grains started; none when they started at rest.
     std::optional<double> start_efficiency;
-    measure::CycleSeries series;        ///< the cycles used (what the engine wrote beyond them is left out)
-    std::vector<double> efficiency;     ///< velocity efficiency of cycle 1 ... n
-    measure::PackingEstimate estimate;  ///< of `efficiency`
-    std::string deck;                   ///< in.liggghts
-    measure::LayerMotion motion;        ///< within the cycle, over the cycles kept
-    measure::Profiles profiles;         ///< of the same cycles
-    measure::Surface surface;           ///< of the layer in the same cycles
-    measure::RollingCurves rolling;     ///< of the same cycles, when measure.rolling asks for it
-    std::optional<double> segregation;  ///< of the first of [[materials]], see measure/segregation.hpp
+    measure::CycleSeries series;          ///< the cycles used (what the engine wrote beyond them is left out)
+    std::vector<double> efficiency;       ///< velocity efficiency of cycle 1 ... n
+    measure::PackingEstimate estimate;    ///< of `efficiency`
+    std::string deck;                     ///< in.liggghts
+    measure::LayerMotion motion;          ///< within the cycle, over the cycles kept
+    measure::Profiles profiles;           ///< of the same cycles
+    measure::Surface surface;             ///< of the layer in the same cycles
+    measure::RollingCurves rolling;       ///< of the same cycles, when measure.rolling asks for it
+    std::optional<double> segregation;    ///< of the first of [[materials]], see measure/segregation.hpp
     std::optional<double> material_lead;  ///< its velocity efficiency less that of the grains
-    std::string rolling_problem;        ///< why `rolling` is empty although it was asked for; else empty
+    std::string rolling_problem;          ///< why `rolling` is empty although it was asked for; else empty
 };
 
 /// Where and with what a result was made.

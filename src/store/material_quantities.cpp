@@ -86,7 +86,8 @@ std::optional<double> half_width_over_packings(Case record) {
 }
 
 /// A column with one number for each material.
-std::vector<double> numbers(std::vector<scenario::Material> const& all, double (*of)(scenario::Material const&)) {
+std::vector<double> numbers(std::vector<scenario::Material> const& all,
+                            double (*of)(scenario::Material const&)) {
     std::vector<double> values;
     for (scenario::Material const& material : all) values.push_back(of(material));
     return values;
@@ -107,14 +108,14 @@ void add_measured(std::vector<CaseValues>& columns, Case record, std::size_t mat
 template <std::size_t i>
 void add_series(std::vector<PackingTable>& tables) {
     constexpr std::array x{"x_0", "x_1", "x_2", "x_3"}, z{"z_0", "z_1", "z_2", "z_3"};
-    tables.push_back({"material_ends",
-                      {x[i], "m",
-                       "Centre of mass along the trough of material 0 ([grains]), 1 (the first of [[materials]]) "
-                       "and so on, at the end of cycle 0 ... n, unwrapped; only of mixtures"},
-                      packing_field([](auto& p) -> auto& { return p.series.materials[i].x; })});
-    tables.push_back({"material_ends",
-                      {z[i], "m", "The same above the resting trough"},
-                      packing_field([](auto& p) -> auto& { return p.series.materials[i].z; })});
+    tables.push_back(
+        {"material_ends",
+         {x[i], "m",
+          "Centre of mass along the trough of material 0 ([grains]), 1 (the first of [[materials]]) "
+          "and so on, at the end of cycle 0 ... n, unwrapped; only of mixtures"},
+         packing_field([](auto& p) -> auto& { return p.series.materials[i].x; })});
+    tables.push_back({"material_ends", {z[i], "m", "The same above the resting trough"}, packing_field([
+                      ](auto& p) -> auto& { return p.series.materials[i].z; })});
 }
 
 }  // namespace
@@ -141,7 +142,8 @@ std::vector<Entry> const& materials_entries() {
         {"trough_friction", "1", "Friction coefficient mu on the trough"},
         {"efficiency", "1", "Velocity efficiency of the material's centre of mass, over the cycles kept"},
         {"efficiency_half_width", "1",
-         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing"},
+         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
+         "packing"},
         {"segregation", "1",
          "Segregation index S: height of its centre of mass above that of the other materials over half the "
          "height of the layer, over the last tenth of the cycles; 1 on top, -1 at the floor, 0 mixed"},
@@ -171,16 +173,22 @@ std::vector<CaseValues> materials_table(Case record) {
 
 std::vector<Entry> const& segregation_entries() {
     constexpr auto mean =
-        "Segregation index of material 0 ([grains]), 1 (the first of [[materials]]) and so on at the end of the "
+        "Segregation index of material 0 ([grains]), 1 (the first of [[materials]]) and so on at the end of "
+        "the "
         "cycle, mean over the packings";
     constexpr auto half_width =
-        "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one packing";
+        "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
+        "packing";
     static std::vector<Entry> const entries{
         {"cycle", "1", "Number of cycles since the start; only of mixtures"},
-        {"index_0", "1", mean}, {"half_width_0", "1", half_width},
-        {"index_1", "1", mean}, {"half_width_1", "1", half_width},
-        {"index_2", "1", mean}, {"half_width_2", "1", half_width},
-        {"index_3", "1", mean}, {"half_width_3", "1", half_width},
+        {"index_0", "1", mean},
+        {"half_width_0", "1", half_width},
+        {"index_1", "1", mean},
+        {"half_width_1", "1", half_width},
+        {"index_2", "1", mean},
+        {"half_width_2", "1", half_width},
+        {"index_3", "1", mean},
+        {"half_width_3", "1", half_width},
     };
     return entries;
 }
@@ -222,7 +230,8 @@ std::vector<Quantity> material_quantities() {
     std::vector<Quantity> rows{
         {"segregation",
          "1",
-         "Segregation index of the first of [[materials]], over the last tenth of the cycles: 1 when it lies on "
+         "Segregation index of the first of [[materials]], over the last tenth of the cycles: 1 when it lies "
+         "on "
          "top of the others, -1 at the floor, 0 when the layer is mixed; NaN without materials",
          segregation(),
          OverPackings::mean,

@@ -30,8 +30,8 @@ std::vector<Entry> const& segregation_entries();
 /// The values of its first columns: as many as the mixture has materials. None when the case is no mixture.
 std::vector<CaseValues> segregation_table(CaseRecord const& record);
 
-/// Fills in what the packings of a mixture have in their records beside their cycles, of which the start-up is
-/// known.
+/// Fills in what the packings of a mixture have in their records beside their cycles, of which the start-up
+/// is known.
 void add_materials(CaseRecord& record);
 
 /// The quantities of a mixture, of the first of [[materials]]; without one they have no value.

@@ -355,9 +355,9 @@ std::vector<Quantity> run_quantities() {
 std::vector<Quantity> const& quantities() {
     static std::vector<Quantity> const all = [] {
         std::vector<Quantity> rows;
-        for (auto const& part :
-             {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
-              start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(), material_quantities()})
+        for (auto const& part : {drive_quantities(), efficiency_quantities(), flow_quantities(),
+                                 run_quantities(), start_and_scatter_quantities(),
+                                 grain_and_layer_quantities(), layer_quantities(), material_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

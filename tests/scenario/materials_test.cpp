@@ -46,8 +46,8 @@ TEST(Materials, WithoutAListThereIsOne) {
     EXPECT_EQ(mean_grain_volume(s), mean_grain_volume(s.grains));
 }
 
-// Share of the mass w_i: n_i m_i / sum(n_j m_j), with m_i = rho_i pi d_i^3 / 6. A grain of 3 mm and 1400 kg/m3
-// weighs four times one of 1.5 mm and 2800 kg/m3, so that 0.7 and 0.3 of the mass are 0.7 / 4 to 0.3 by
+// Share of the mass w_i: n_i m_i / sum(n_j m_j), with m_i = rho_i pi d_i^3 / 6. A grain of 3 mm and 1400
+// kg/m3 weighs four times one of 1.5 mm and 2800 kg/m3, so that 0.7 and 0.3 of the mass are 0.7 / 4 to 0.3 by
 // number.
 TEST(Materials, SharesOfTheMassBecomeNumbers) {
     Scenario const s = single_case(with_lists(fines));
@@ -61,7 +61,8 @@ TEST(Materials, SharesOfTheMassBecomeNumbers) {
     EXPECT_NEAR(mean_density(s), 1400 * v + 2800 * (1 - v), 1e-9);
     EXPECT_NEAR(mean_diameter(s), 0.003 * v + 0.0015 * (1 - v), 1e-15);
     EXPECT_NEAR(mean_trough_friction(s), 0.7 * 0.23 + 0.3 * 0.1, 1e-15);
-    EXPECT_NEAR(mean_grain_volume(s), of_grains * volume_of(0.003) + (1 - of_grains) * volume_of(0.0015), 1e-20);
+    EXPECT_NEAR(mean_grain_volume(s), of_grains * volume_of(0.003) + (1 - of_grains) * volume_of(0.0015),
+                1e-20);
 }
 
 // The height and the number of grains belong together: N V = 0.58 L W h.
@@ -90,8 +91,8 @@ TEST(Materials, PairsFollowTheRuleOrTheTable) {
     EXPECT_NEAR(contact_of(s, all[0], all[1]).friction, 1.0 / 3, 1e-15);
     EXPECT_EQ(contact_of(s, all[0], all[1]).restitution, 0.5);
     EXPECT_EQ(contact_of(s, all[1], all[1]).friction, 0.25);
-    Scenario const given = single_case(
-        with_lists(fines + "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nfriction = 0.9\n"));
+    Scenario const given =
+        single_case(with_lists(fines + "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nfriction = 0.9\n"));
     auto const others = materials(given);
     EXPECT_EQ(contact_of(given, others[0], others[1]).friction, 0.9);
     EXPECT_EQ(contact_of(given, others[1], others[0]).friction, 0.9);
@@ -102,8 +103,8 @@ TEST(Materials, PairsFollowTheRuleOrTheTable) {
 }
 
 TEST(Materials, AreWrittenAndReadBack) {
-    Scenario const s = single_case(
-        with_lists(fines + "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nfriction = 0.9\n"));
+    Scenario const s =
+        single_case(with_lists(fines + "[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nfriction = 0.9\n"));
     std::string const text = to_toml(s);
     EXPECT_THAT(text, HasSubstr("\n[[materials]]\nname = \"fines\"\nmass_fraction = 0.3\n"));
     EXPECT_THAT(text, HasSubstr("\n[[pairs]]\nmaterials = [\"fines\", \"grains\"]\nfriction = 0.9\n"));
@@ -114,8 +115,8 @@ TEST(Materials, AreWrittenAndReadBack) {
 
 TEST(Materials, AreVariedByTheirNumber) {
     for (std::string const key : {"\"materials.1.mass_fraction\"", "materials.1.mass_fraction"}) {
-        auto const campaign = scenario::parse_campaign(
-            with_lists(fines + "[sweep]\n" + key + " = [0.1, 0.2]\n"), "test.toml");
+        auto const campaign =
+            scenario::parse_campaign(with_lists(fines + "[sweep]\n" + key + " = [0.1, 0.2]\n"), "test.toml");
         ASSERT_EQ(campaign.cases.size(), 2u);
         EXPECT_EQ(campaign.cases[1].materials[0].mass_fraction, 0.2);
         EXPECT_EQ(swept_label(campaign.cases[1], campaign.swept), "materials.1.mass_fraction 0.2");
@@ -124,10 +125,12 @@ TEST(Materials, AreVariedByTheirNumber) {
 
 TEST(Materials, MistakesAreNamedWithTheirPlace) {
     auto const error = [](std::string const& lists) { return error_of(lists + "\n" + with_lists("")); };
-    EXPECT_THAT(error("[[materials]]\nmass_fraction = 0.1"),
-                HasSubstr(":2:1: materials.1.mass_fraction: number 1 of [[materials]] has no name; write name = "
-                          "\"fines\""));
-    EXPECT_THAT(error("[[materials]]\nname = \"a\""), HasSubstr("exactly one of mass_fraction and number_frac"));
+    EXPECT_THAT(
+        error("[[materials]]\nmass_fraction = 0.1"),
+        HasSubstr(":2:1: materials.1.mass_fraction: number 1 of [[materials]] has no name; write name = "
+                  "\"fines\""));
+    EXPECT_THAT(error("[[materials]]\nname = \"a\""),
+                HasSubstr("exactly one of mass_fraction and number_frac"));
     EXPECT_THAT(error("[[materials]]\nname = \"a\"\nmass_fraction = 0.6\n[[materials]]\nname = "
                       "\"b\"\nmass_fraction = 0.5"),
                 HasSubstr(":5:1: materials.2.name: the shares of [[materials]] sum to 1.1"));

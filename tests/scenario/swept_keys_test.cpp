@@ -26,6 +26,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     Scenario scenario = campaign_with("").cases.front();
     scenario.trough.side_wall_friction = 0.1;
     scenario.trough.waveform = std::make_shared<Waveform>();
+    scenario.trough.mesh = std::make_shared<TroughMesh>();
     scenario.measure.max_core_time = 1;
     scenario.measure.min_cycles = 1;
     for (Key const& key : all_keys()) {

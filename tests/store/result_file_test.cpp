@@ -167,8 +167,8 @@ TEST_F(ResultFile, RollingIsThereWhenAskedFor) {
     EXPECT_THROW(file.table("rolling/1", Rank::array), Hdf5Error);
 }
 
-// The centres of mass of the materials are kept; what is made of them is in tables of the case, over packings.
-// With H = 8 mm and equal masses S = (z_1 - z_0) / 4 mm: -0.5 and -1 at the end, -0.75 on average.
+// The centres of mass of the materials are kept; what is made of them is in tables of the case, over
+// packings. With H = 8 mm and equal masses S = (z_1 - z_0) / 4 mm: -0.5 and -1 at the end, -0.75 on average.
 TEST_F(ResultFile, AMixtureHasItsMaterials) {
     CaseRecord record = sample_record();
     scenario::Scenario& s = record.scenario;
@@ -195,7 +195,8 @@ TEST_F(ResultFile, AMixtureHasItsMaterials) {
     EXPECT_NEAR(materials.values<double>("segregation")[0], 0.75, 1e-14);
     // Student's t with one degree of freedom: 12.706 times 0.25 (half the difference of two values).
     EXPECT_NEAR(materials.values<double>("segregation_half_width")[1], 12.7062 * 0.25, 1e-4);
-    EXPECT_NEAR(materials.values<double>("efficiency")[1] / materials.values<double>("efficiency")[0], 2, 1e-14);
+    EXPECT_NEAR(materials.values<double>("efficiency")[1] / materials.values<double>("efficiency")[0], 2,
+                1e-14);
     auto const over_time = file.table("segregation", Rank::array);
     EXPECT_EQ(over_time.values<double>("cycle"), (std::vector<double>{0, 1}));
     EXPECT_NEAR(over_time.values<double>("index_1")[0], 0, 1e-14);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -25,26 +26,40 @@ struct InitArguments {
     std::string output;
 };
 
+constexpr std::string_view campaign_ending = ".toml";
+
+/// The names of the campaign files without their ending. What else is there belongs to the campaign with the
+/// same name, such as the mesh of a trough.
 std::vector<std::string> kinds() {
     std::vector<std::string> names;
-    for (auto const& [name, text] : campaign_templates) names.emplace_back(name);
+    for (auto const& [name, text] : campaign_templates) {
+        if (name.ends_with(campaign_ending))
+            names.emplace_back(name.substr(0, name.size() - campaign_ending.size()));
+    }
     return names;
 }
 
 int run_init(InitArguments const& options) {
-    auto const* const found = std::ranges::find(campaign_templates, std::string_view(options.kind),
-                                                [](auto const& one) { return one.first; });
+    std::map<fs::path, std::string_view> files;
     fs::path const path =
         options.output.empty() ? fs::path(options.kind + ".toml") : fs::path(options.output);
-    std::error_code unreadable;
-    if (fs::exists(path, unreadable)) {
-        throw core::InputError(fmt::format(
-            "{} exists already and is not overwritten; choose another name with --output", path.string()));
+    for (auto const& [name, text] : campaign_templates) {
+        if (!name.starts_with(options.kind + ".")) continue;
+        files.emplace(name.ends_with(campaign_ending) ? path : path.parent_path() / name, text);
     }
-    core::write_file_atomically(path, found->second);
+    for (auto const& [file, text] : files) {
+        std::error_code unreadable;
+        if (!fs::exists(file, unreadable)) continue;
+        throw core::InputError(fmt::format(
+            "{} exists already and is not overwritten; choose another name or folder with --output",
+            file.string()));
+    }
+    for (auto const& [file, text] : files) {
+        core::write_file_atomically(file, text);
+        fmt::print("written: {}\n", core::harmless(file.string()));
+    }
     std::string const name = core::shell_word(path);
-    fmt::print("written: {}\nnext: change its numbers, then: vibrotrough check {}\n",
-               core::harmless(path.string()), name);
+    fmt::print("next: change its numbers, then: vibrotrough check {}\n", name);
     fmt::print("and:  vibrotrough run {}\n", name);
     return all_well;
 }
@@ -64,6 +79,7 @@ void add_init(CLI::App& program, int& exit_code) {
   pellets   how fast a trough conveys plastic pellets at three speeds of the drive, in t/h
   paper     the experiment of Sloot and Kruyt (1996): layer and theory over the throw number
   rotation  the same layer with grains that rotate freely, against rolling friction, and not at all
+  chute     a trough of your own from an STL file: a V with a step
   mixture   two materials of different size and density: do they separate?
   design    three machines with the same largest acceleration: which one carries most?
 

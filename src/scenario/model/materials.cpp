@@ -69,7 +69,8 @@ void share_numbers(std::vector<Material>& all, std::vector<AddedMaterial> const&
 std::vector<Material> materials(Scenario const& s) {
     std::vector<Material> all{first_of(s)};
     for (AddedMaterial const& added : s.materials) {
-        all.push_back({added.name, grains_of(added, s.grains), added.trough_friction.value_or(s.trough.friction),
+        all.push_back({added.name, grains_of(added, s.grains),
+                       added.trough_friction.value_or(s.trough.friction),
                        added.trough_restitution.value_or(s.trough.restitution), 0});
     }
     if (!s.materials.empty()) share_numbers(all, s.materials);

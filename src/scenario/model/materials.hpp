@@ -16,16 +16,16 @@ struct Scenario;
 /// A material that is mixed into the layer, as the campaign file gives it. What it does not give is that of
 /// the grains. Rotation, rolling friction, shape and elastic constants are those of the grains, too.
 struct AddedMaterial {
-    std::string name;                              ///< unlike those of the other materials
-    std::optional<double> diameter = {};           ///< m
-    std::optional<double> diameter_spread = {};    ///< s, see Grains
-    std::optional<double> density = {};            ///< kg/m^3
-    std::optional<double> friction = {};           ///< coefficient of the material on itself
-    std::optional<double> restitution = {};        ///< coefficient of the material on itself
-    std::optional<double> trough_friction = {};    ///< coefficient of the material on the trough
-    std::optional<double> trough_restitution = {}; ///< coefficient of the material on the trough
-    std::optional<double> number_fraction = {};    ///< of all grains of the layer
-    std::optional<double> mass_fraction = {};      ///< of the mass of the layer
+    std::string name;                               ///< unlike those of the other materials
+    std::optional<double> diameter = {};            ///< m
+    std::optional<double> diameter_spread = {};     ///< s, see Grains
+    std::optional<double> density = {};             ///< kg/m^3
+    std::optional<double> friction = {};            ///< coefficient of the material on itself
+    std::optional<double> restitution = {};         ///< coefficient of the material on itself
+    std::optional<double> trough_friction = {};     ///< coefficient of the material on the trough
+    std::optional<double> trough_restitution = {};  ///< coefficient of the material on the trough
+    std::optional<double> number_fraction = {};     ///< of all grains of the layer
+    std::optional<double> mass_fraction = {};       ///< of the mass of the layer
 };
 
 /// How grains of two materials touch, where it differs from the rule of contact_of().

@@ -60,8 +60,12 @@ std::optional<double> trough_width(Scenario const& s) {
 
 double layer_height(Scenario const& s) {
     if (s.layer.height) return *s.layer.height;
-    return s.layer.grains * mean_grain_volume(s) /
-           (settled_solid_fraction * s.layer.length * s.layer.width);
+    if (s.trough.mesh) {
+        double const unit = metres_in(s.trough.mesh_unit);
+        double const volume = s.layer.grains * mean_grain_volume(s) / settled_solid_fraction;
+        return unit * s.trough.mesh->level_of(volume / (unit * unit * unit));
+    }
+    return s.layer.grains * mean_grain_volume(s) / (settled_solid_fraction * s.layer.length * s.layer.width);
 }
 
 bool writes_frames(OutputPlan const& output, int packing) {
@@ -78,6 +82,7 @@ int packings_with_frames(OutputPlan const& output, int packings) {
 std::vector<NamedFile> named_files(Scenario const& scenario) {
     std::vector<NamedFile> files;
     if (scenario.grains.shape_file) files.push_back(scenario.grains.shape_file->file);
+    if (scenario.trough.mesh) files.push_back(scenario.trough.mesh->file);
     if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
     if (scenario.engine.extra) files.push_back(scenario.engine.extra->file);
     if (scenario.engine.templates) {

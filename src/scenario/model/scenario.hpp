@@ -4,6 +4,7 @@
 #include "scenario/model/engine_plan.hpp"
 #include "scenario/model/grains.hpp"
 #include "scenario/model/materials.hpp"
+#include "scenario/model/trough_mesh.hpp"
 
 #include <optional>
 #include <string>
@@ -44,6 +45,8 @@ struct Trough {
     std::vector<DriveHarmonic> harmonics = {};           ///< in addition to the fundamental
     std::shared_ptr<Waveform const> waveform = nullptr;  ///< a measured motion instead of the sinusoid
     GivenDrive given = {};                               ///< numbers as the user gave them
+    MeshUnit mesh_unit = MeshUnit::mm;                   ///< of the file of `mesh`
+    std::shared_ptr<TroughMesh const> mesh = nullptr;    ///< a surface instead of the flat floor
     std::optional<double> width = {};                    ///< m, of the real trough; see trough_width()
 };
 
@@ -136,6 +139,7 @@ double mass_per_area(Scenario const& scenario);
 std::optional<double> trough_width(Scenario const& scenario);
 
 /// Height of the layer at rest, m: as given, otherwise from the number of grains and settled_solid_fraction.
+/// On a mesh it is the level above the lowest point.
 double layer_height(Scenario const& scenario);
 
 /// The files that the scenario names: shape, waveform, extra lines and templates, if it has

@@ -18,9 +18,10 @@ void complete_packings(MeasurementPlan& plan, GivenKeys const& given) {
             "write a number that is not smaller, or fewer packings");
     }
     if (plan.min_cycles && *plan.min_cycles > plan.max_cycles) {
-        given.fail("measure.min_cycles",
-                   fmt::format("{} is more than measure.max_cycles, which is {}", *plan.min_cycles, plan.max_cycles),
-                   "write a smaller number, or raise measure.max_cycles");
+        given.fail(
+            "measure.min_cycles",
+            fmt::format("{} is more than measure.max_cycles, which is {}", *plan.min_cycles, plan.max_cycles),
+            "write a smaller number, or raise measure.max_cycles");
     }
     plan.max_packings = std::max(plan.max_packings, plan.packings);
 }

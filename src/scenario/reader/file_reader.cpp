@@ -161,13 +161,15 @@ class CampaignFileReader {
         std::size_t const most = section == pairs_section ? most_pairs : most_materials;
         toml::array const* const list = node.as_array();
         if (list == nullptr || !std::ranges::all_of(*list, [](toml::node const& e) { return e.is_table(); }))
-            fail(where, section, "is a list of tables", fmt::format("write [[{}]] above each entry", section));
+            fail(where, section, "is a list of tables",
+                 fmt::format("write [[{}]] above each entry", section));
         if (list->size() > most)
             fail(where, section, fmt::format("has {} entries, more than {}", list->size(), most),
                  "leave out the others");
         for (std::size_t i = 0; i < list->size(); ++i) {
             for (auto const& [key, value] : in_file_order(*(*list)[i].as_table()))
-                read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()), *value);
+                read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()),
+                         *value);
         }
     }
 
@@ -208,8 +210,8 @@ class CampaignFileReader {
     /// ...).
     void read_sweep_entry(toml::key const& name, toml::node const& node, std::string const& above = "") {
         std::string const path = above + std::string(name.str());
-        bool const is_part = std::ranges::any_of(
-            all_keys(), [&](Key const& key) { return key.path.starts_with(path + "."); });
+        bool const is_part =
+            std::ranges::any_of(all_keys(), [&](Key const& key) { return key.path.starts_with(path + "."); });
         if (!is_part || !node.is_table()) {
             read_axis(path, position_of(name.source()), node);
             return;

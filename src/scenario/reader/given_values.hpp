@@ -80,7 +80,8 @@ void complete_trough(Scenario& scenario, GivenKeys const& given);
 /// The same for the grains. @throws core::InputError
 void complete_grains(Scenario& scenario, GivenKeys const& given);
 
-/// Checks that the materials and their pairs go together, and that the layer can have them. @throws core::InputError
+/// Checks that the materials and their pairs go together, and that the layer can have them. @throws
+/// core::InputError
 void complete_materials(Scenario const& scenario, GivenKeys const& given);
 
 /// The same for the layer, whose number of grains follows from its height. @throws core::InputError

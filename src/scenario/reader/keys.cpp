@@ -108,8 +108,8 @@ std::string key_reference() {
     std::vector<Key> all = table();
     all.insert(all.end(), run_keys().begin(), run_keys().end());
     for (Key const& key : all) {
-        bool const is_further_entry = is_list_section(key.path.substr(0, key.path.find('.'))) &&
-                                      !section_of(key).ends_with(".1");
+        bool const is_further_entry =
+            is_list_section(key.path.substr(0, key.path.find('.'))) && !section_of(key).ends_with(".1");
         if (is_further_entry) continue;
         std::string needed = is_optional(key) ? default_text(key) : "required";
         if (!key.group.empty()) needed = "exactly one of these";

@@ -30,14 +30,70 @@ void check_floor(Layer const& layer, double diameter, GivenKeys const& given) {
                "make the box smaller or the grains larger; is the unit of the diameter right?");
 }
 
+/// The floor of a mesh need not be level, but its ends and its sides must fit to those of their periodic
+/// images, or the sides must be upright walls.
+void check_mesh(Scenario const& scenario, GivenKeys const& given) {
+    constexpr char const* key = "trough.mesh";
+    TroughMesh const& mesh = *scenario.trough.mesh;
+    double const unit = metres_in(scenario.trough.mesh_unit);
+    auto const fail = [&](std::string_view wrong, std::string_view instead) {
+        given.fail(key, fmt::format("{}: {}", mesh.file.name, wrong), instead);
+    };
+    auto const check_side = [&](char const* side, double given_side, double extent) {
+        if (std::abs(given_side - extent) <= 1e-6 * extent) return;
+        fail(fmt::format("it is {:.6g} m {}, and layer.{} is {:.6g} m", extent,
+                         side == std::string_view("length") ? "long" : "wide", side, given_side),
+             fmt::format("write layer.{} = \"{:.9g} mm\", or is mesh_unit wrong?", side, 1e3 * extent));
+    };
+    check_side("length", scenario.layer.length, unit * mesh.extent[0]);
+    check_side("width", scenario.layer.width, unit * mesh.extent[1]);
+    if (auto const hole = mesh.hole()) {
+        fail(
+            fmt::format(
+                "there is a hole in plan at x = {:.4g} m, y = {:.4g} m from its corner, through which grains "
+                "would fall",
+                unit * (*hole)[0], unit * (*hole)[1]),
+            "close it: the surface must cover its length and width");
+    }
+    double const allowed = 0.01 * smallest_diameter(scenario);
+    if (unit * mesh.mismatch_along > allowed) {
+        fail(
+            fmt::format("its two ends along the trough differ by {:.3g} m in height, but the box is periodic",
+                        unit * mesh.mismatch_along),
+            "make both ends the same: a step down needs a rise of the same height");
+    }
+    if (unit * mesh.mismatch_across > allowed && !mesh.has_upright_sides) {
+        fail(fmt::format("its two sides differ by {:.3g} m in height, but the box is periodic across",
+                         unit * mesh.mismatch_across),
+             "make both sides the same, or put upright walls there");
+    }
+    if (scenario.trough.side_wall_friction)
+        given.fail("trough.side_wall_friction", "is given together with a mesh, which has its own walls",
+                   "remove it");
+    if (scenario.layer.block != Block::none)
+        given.fail("layer.block", "a block needs the flat floor, and trough.mesh is given",
+                   "remove one of the two");
+    if (scenario.measure.rolling)
+        given.fail("measure.rolling", "the contacts at the floor are measured only on the flat floor",
+                   "remove it or trough.mesh");
+}
+
+/// Volume between the mesh and a level above its lowest point, m^3.
+double space_below(double height, Scenario const& scenario) {
+    double const unit = metres_in(scenario.trough.mesh_unit);
+    return scenario.trough.mesh->volume_below(height / unit) * unit * unit * unit;
+}
+
 int grains_for(double height, Scenario const& scenario, GivenKeys const& given) {
     double const diameter = mean_diameter(scenario);
     if (height < diameter) {
         given.fail("layer.height", fmt::format("{:.6g} m is less than one grain diameter", height),
                    fmt::format("write at least \"{:.6g} mm\"", 1e3 * diameter));
     }
-    double const count = settled_solid_fraction * scenario.layer.length * scenario.layer.width * height /
-                         mean_grain_volume(scenario);
+    double const volume =
+        scenario.trough.mesh ? settled_solid_fraction * space_below(height, scenario)
+                             : settled_solid_fraction * scenario.layer.length * scenario.layer.width * height;
+    double const count = volume / mean_grain_volume(scenario);
     Key const& key = *find_key("layer.grains");
     if (count > key.most) {
         given.fail("layer.height",
@@ -66,6 +122,7 @@ void complete_layer(Scenario& scenario, GivenKeys const& given) {
     check_box("layer.length", layer.length, largest, given);
     check_box("layer.width", layer.width, largest, given);
     check_floor(layer, largest, given);
+    if (scenario.trough.mesh) check_mesh(scenario, given);
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
     check_counts(scenario, given);

@@ -14,14 +14,14 @@ using enum KeyNeed;
 
 /// A member of one entry of a list of the case. Setting it makes the entry.
 template <auto list, std::size_t index, auto member>
-constexpr KeyAccess entry_field{
-    [](Scenario const& s) -> std::optional<Content> {
-        return (s.*list).size() > index ? content_of((s.*list)[index].*member) : std::nullopt;
-    },
-    [](Scenario& s, GivenValue const& value) {
-        if ((s.*list).size() <= index) (s.*list).resize(index + 1);
-        take((s.*list)[index].*member, value);
-    }};
+constexpr KeyAccess entry_field{[](Scenario const& s) -> std::optional<Content> {
+                                    return (s.*list).size() > index ? content_of((s.*list)[index].*member)
+                                                                    : std::nullopt;
+                                },
+                                [](Scenario& s, GivenValue const& value) {
+                                    if ((s.*list).size() <= index) (s.*list).resize(index + 1);
+                                    take((s.*list)[index].*member, value);
+                                }};
 
 /// The path of a key in the entry with this index, such as "materials.1.density": entries count from 1.
 std::string_view path_of(std::string_view section, std::size_t index, std::string_view name) {
@@ -33,9 +33,9 @@ template <std::size_t index>
 void add_material(std::vector<Key>& rows) {
     auto const path = [](std::string_view name) { return path_of(materials_section, index, name); };
     constexpr auto list = &Scenario::materials;
-    auto const add = [&](std::string_view name, KeyKind kind, std::string_view unit, double least, double most,
-                         std::string_view range, std::string_view example, std::string_view meaning,
-                         KeyAccess access) {
+    auto const add = [&](std::string_view name, KeyKind kind, std::string_view unit, double least,
+                         double most, std::string_view range, std::string_view example,
+                         std::string_view meaning, KeyAccess access) {
         rows.push_back({path(name), kind, unit, least, most, range, "", optional, example, meaning, access});
     };
     add("name", KeyKind::name, "", 0, 0, "1 to 100 letters, digits, '.', '_' or '-'", "\"fines\"",
@@ -48,14 +48,15 @@ void add_material(std::vector<Key>& rows) {
     add("number_fraction", number, "", 0.0001, 0.9999, "0.0001 to 0.9999", "0.2",
         "its share of the number of grains, instead of mass_fraction",
         entry_field<list, index, &AddedMaterial::number_fraction>);
-    add("diameter", quantity, "m", 1e-6, 1, "1 um to 1 m", "\"2 mm\"",
-        "d, as grains.diameter", entry_field<list, index, &AddedMaterial::diameter>);
+    add("diameter", quantity, "m", 1e-6, 1, "1 um to 1 m", "\"2 mm\"", "d, as grains.diameter",
+        entry_field<list, index, &AddedMaterial::diameter>);
     add("diameter_spread", number, "", 0, 0.5, "0 to 0.5", "0.1", "s, as grains.diameter_spread",
         entry_field<list, index, &AddedMaterial::diameter_spread>);
     add("density", quantity, "kg/m3", 1, 3e4, "1 to 30000 kg/m3", "\"2500 kg/m3\"", "density of its grains",
         entry_field<list, index, &AddedMaterial::density>);
     add("friction", number, "", 0, 5, "0 to 5", "0.4",
-        "friction coefficient of the material on itself; on another material it is the harmonic mean of both, "
+        "friction coefficient of the material on itself; on another material it is the harmonic mean of "
+        "both, "
         "unless a [[pairs]] says otherwise",
         entry_field<list, index, &AddedMaterial::friction>);
     add("restitution", number, "", 0.05001, 1, "above 0.05, to 1", "0.6",
@@ -72,8 +73,9 @@ template <std::size_t index>
 void add_pair(std::vector<Key>& rows) {
     auto const path = [](std::string_view name) { return path_of(pairs_section, index, name); };
     constexpr auto list = &Scenario::pairs;
-    rows.push_back({path("materials"), texts, "", 0, 0, "two names of materials; \"grains\" is that of [grains]",
-                    "", optional, "[\"grains\", \"fines\"]", "two materials whose contacts are given",
+    rows.push_back({path("materials"), texts, "", 0, 0,
+                    "two names of materials; \"grains\" is that of [grains]", "", optional,
+                    "[\"grains\", \"fines\"]", "two materials whose contacts are given",
                     entry_field<list, index, &MaterialPair::materials>});
     rows.push_back({path("friction"), number, "", 0, 5, "0 to 5", "", optional, "0.3",
                     "friction coefficient of one on the other",
@@ -90,10 +92,12 @@ std::span<Key const> material_keys() {
         std::vector<Key> rows;
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             (add_material<i>(rows), ...);
-        }(std::make_index_sequence<most_materials>());
+        }
+        (std::make_index_sequence<most_materials>());
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             (add_pair<i>(rows), ...);
-        }(std::make_index_sequence<most_pairs>());
+        }
+        (std::make_index_sequence<most_pairs>());
         return rows;
     }();
     return all;

@@ -33,7 +33,8 @@ void check_name(Scenario const& s, std::size_t index, GivenKeys const& given) {
     std::string const& name = s.materials[index].name;
     if (name.empty())
         given.fail(any_key_of(materials_section, index, given),
-                   fmt::format("number {} of [[materials]] has no name", index + 1), "write name = \"fines\"");
+                   fmt::format("number {} of [[materials]] has no name", index + 1),
+                   "write name = \"fines\"");
     std::vector<std::string> const names = names_of(s);
     if (std::ranges::count(names, name) > 1)
         given.fail(key, fmt::format("two materials are called '{}'", name),
@@ -66,7 +67,9 @@ void check_pair(Scenario const& s, std::size_t index, GivenKeys const& given) {
     MaterialPair const& pair = s.pairs[index];
     std::string const place = any_key_of(pairs_section, index, given);
     std::vector<std::string> const names = names_of(s);
-    auto const is_known = [&](std::string const& name) { return std::ranges::find(names, name) != names.end(); };
+    auto const is_known = [&](std::string const& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
     if (pair.materials.size() != 2 || pair.materials[0] == pair.materials[1] ||
         !std::ranges::all_of(pair.materials, is_known))
         given.fail(place, "'materials' does not name two different materials of this layer",

@@ -76,7 +76,8 @@ constexpr std::array rows_of_plans{
     Key{"measure.max_cycles", integer, "", 20, 1e6, "20 to 1000000", "", 200.0, "200",
         "largest number of cycles of a packing", field<&Scenario::measure, &MeasurementPlan::max_cycles>},
     Key{"measure.min_cycles", integer, "", 1, 1e6, "1 to 1000000", "", optional, "100",
-        "least number of cycles of a packing, for what takes longer than the conveying speed to settle, such as "
+        "least number of cycles of a packing, for what takes longer than the conveying speed to settle, such "
+        "as "
         "the segregation of a mixture; at most measure.max_cycles",
         field<&Scenario::measure, &MeasurementPlan::min_cycles>},
     Key{"measure.max_packings", integer, "", 1, 1000, "1 to 1000", "", 24.0, "24",

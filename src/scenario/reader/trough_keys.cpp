@@ -64,6 +64,15 @@ void set_waveform(Scenario& s, GivenValue const& v) {
     s.trough.waveform = read_once(v.files_read().waveforms, read_waveform, v, waveform_advice);
 }
 
+void set_mesh(Scenario& s, GivenValue const& v) {
+    s.trough.mesh = read_once(v.files_read().meshes, read_trough_mesh, v,
+                              "export the surface that the grains touch as STL");
+}
+
+bool has_mesh(Scenario const& s) {
+    return s.trough.mesh != nullptr;
+}
+
 std::optional<Content> waveform_of(Scenario const& s) {
     return s.trough.waveform ? content_of(s.trough.waveform->file.name) : std::nullopt;
 }
@@ -155,6 +164,17 @@ constexpr std::array rows_of_trough{
     Key{"trough.waveform", file, "", 0, 0, "a .csv file in the same folder", "", optional, "\"measured.csv\"",
         "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
         KeyAccess{waveform_of, set_waveform}},
+    Key{"trough.mesh", file, "", 0, 0, "a .stl file in the same folder", "", optional, "\"chute.stl\"",
+        "surface of triangles that replaces the flat floor, x along the trough, y across and z normal to it; "
+        "its "
+        "length and width are those of the layer",
+        KeyAccess{[](Scenario const& s) {
+                      return has_mesh(s) ? content_of(s.trough.mesh->file.name) : std::nullopt;
+                  },
+                  set_mesh}},
+    Key{"trough.mesh_unit", choice, "", 0, 0, "mm or m", "", optional, "\"mm\"",
+        "unit of length of the mesh's file, which does not say it",
+        field<&Scenario::trough, &Trough::mesh_unit>.written_if(has_mesh)},
 };
 
 }  // namespace

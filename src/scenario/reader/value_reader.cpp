@@ -103,8 +103,9 @@ class ValueReader {
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
     bool is_file_name(std::string_view name) const {
-        std::string_view const ending =
-            key_.range.ends_with(".liggghts file in the same folder") ? ".liggghts" : ".csv";
+        // The range ends with "a .csv file in the same folder".
+        std::string_view const words = key_.range.substr(key_.range.rfind(" .") + 1);
+        std::string_view const ending = words.substr(0, words.find(' '));
         return is_plain_text(name) && name.size() > ending.size() && name.size() <= 100 &&
                name.ends_with(ending) && name.front() != '.' && name.front() != '-';
     }

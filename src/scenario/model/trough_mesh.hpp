@@ -1,0 +1,69 @@
+#pragma once
+
+#include "scenario/model/grains.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+/// @file
+/// A trough of any shape: a surface of triangles from an STL file in place of the flat floor.
+
+namespace vibrotrough::scenario {
+
+/// A point or a direction: x along the trough, y across, z normal to it.
+using Point = std::array<double, 3>;
+/// The corners of a triangle.
+using Triangle = std::array<Point, 3>;
+
+/// The unit of length of an STL file, which does not say it.
+enum class MeshUnit {
+    mm,  ///< millimetres
+    m,   ///< metres
+};
+
+/// The word of the campaign file.
+std::string_view name_of(MeshUnit unit);
+
+/// Metres in a unit of a mesh.
+double metres_in(MeshUnit unit);
+
+/// A mesh as read from a file, moved so that its box begins at 0 in every direction. Nodes that are within a
+/// millionth of its ends along and across are put exactly there. Cases that name the same file share it. All
+/// lengths are in the unit of the file.
+struct TroughMesh {
+    NamedFile file;                   ///< name and content; a binary file is kept as text
+    std::vector<Triangle> triangles;  ///< the surface
+    Point extent;                     ///< of its box: length, width and height
+    /// Height of the surface on a grid in plan, row by row along the trough: the uppermost triangle that is
+    /// not vertical. NaN where there is none.
+    std::vector<double> heights;
+    double mismatch_along;  ///< largest difference in height between its two ends, which a periodic box joins
+    double mismatch_across;  ///< the same between its two sides
+    bool has_upright_sides;  ///< whether vertical triangles lie in one of its sides
+
+    /// The first place of the grid (x, y) without a surface; none when it covers its box in plan.
+    std::optional<std::array<double, 2>> hole() const;
+    /// Volume between the surface and this level above its lowest point, from the heights of the grid.
+    double volume_below(double level) const;
+    /// The level below which there is this volume.
+    double level_of(double volume) const;
+};
+
+/// Reads an STL file, text or binary.
+/// @throws std::invalid_argument with one line that describes what is wrong with it: no STL, no triangles,
+/// more than 20,000, one without area, or a mesh without length or width
+std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file);
+
+/// Divides triangles until no edge is longer than `longest`: the longest edge is cut in the middle, for all
+/// triangles that share it, so that no gaps open (Rivara, International Journal for Numerical Methods in
+/// Engineering 20, 1984, 745). The engine finds contacts fast with triangles that are not
+/// much larger than grains.
+std::vector<Triangle> divided(std::vector<Triangle> const& triangles, double longest);
+
+/// An STL text of triangles with the normals of their corners' order and all digits.
+std::string stl_text(std::string_view name, std::vector<Triangle> const& triangles);
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,223 @@
+#include "scenario/model/trough_mesh.hpp"
+
+#include "core/temporary_folder.hpp"
+#include "example_campaign.hpp"
+#include "scenario/reader/written_campaign.hpp"
+#include "single_case.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two triangles of a rectangle with these corners, in order.
+void add_rectangle(std::vector<Triangle>& mesh, Point a, Point b, Point c, Point d) {
+    mesh.push_back({a, b, c});
+    mesh.push_back({a, c, d});
+}
+
+/// A V of two planes with 45 degrees, 36 mm long and 18 mm wide, so that its sides are 9 mm high; in mm and
+/// away from 0.
+std::vector<Triangle> vee() {
+    std::vector<Triangle> mesh;
+    add_rectangle(mesh, {5, -9, 9}, {41, -9, 9}, {41, 0, 0}, {5, 0, 0});
+    add_rectangle(mesh, {5, 0, 0}, {41, 0, 0}, {41, 9, 9}, {5, 9, 9});
+    return mesh;
+}
+
+std::shared_ptr<TroughMesh const> read(std::vector<Triangle> const& mesh) {
+    return read_trough_mesh({"a.stl", stl_text("a", mesh)});
+}
+
+std::string binary_stl(std::vector<Triangle> const& mesh) {
+    std::string bytes(80, 'x');
+    auto const count = static_cast<std::uint32_t>(mesh.size());
+    bytes.append(reinterpret_cast<char const*>(&count), sizeof count);
+    for (Triangle const& triangle : mesh) {
+        std::array<float, 12> numbers{};
+        for (std::size_t k = 0; k < 9; ++k) numbers[3 + k] = static_cast<float>(triangle[k / 3][k % 3]);
+        bytes.append(reinterpret_cast<char const*>(numbers.data()), sizeof numbers);
+        bytes.append(2, '\0');
+    }
+    return bytes;
+}
+
+double area_of(std::vector<Triangle> const& mesh) {
+    double sum = 0;
+    for (Triangle const& t : mesh) {
+        double const x =
+            (t[1][1] - t[0][1]) * (t[2][2] - t[0][2]) - (t[1][2] - t[0][2]) * (t[2][1] - t[0][1]);
+        double const y =
+            (t[1][2] - t[0][2]) * (t[2][0] - t[0][0]) - (t[1][0] - t[0][0]) * (t[2][2] - t[0][2]);
+        double const z =
+            (t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) - (t[1][1] - t[0][1]) * (t[2][0] - t[0][0]);
+        sum += std::hypot(x, y, z) / 2;
+    }
+    return sum;
+}
+
+// A V of 45 degrees holds h^2 per length below the level h, and w h - w^2 / 4 once it is full (w: its width).
+TEST(TroughMesh, VolumeBelowALevel) {
+    auto const mesh = read(vee());
+    EXPECT_EQ(mesh->extent, (Point{36, 18, 9}));
+    // The grid of 100 places leaves (18 / 100)^2 / 12 per length at the bottom, and cuts the last cell.
+    EXPECT_NEAR(mesh->volume_below(5), 36 * 25.0, 36 * 0.1);
+    EXPECT_NEAR(mesh->volume_below(20), 36 * (18 * 20.0 - 81), 1e-9 * 36 * 279);
+    EXPECT_EQ(mesh->volume_below(0), 0);
+    EXPECT_FALSE(mesh->hole());
+    EXPECT_NEAR(mesh->mismatch_along, 0, 1e-12);
+    EXPECT_NEAR(mesh->mismatch_across, 0, 1e-12);
+    EXPECT_FALSE(mesh->has_upright_sides);
+}
+
+TEST(TroughMesh, TextAndBinaryAreTheSame) {
+    auto const text = read(vee()), binary = read_trough_mesh({"b.stl", binary_stl(vee())});
+    EXPECT_EQ(text->triangles, binary->triangles);
+    // What is kept is text that reads back as the same mesh.
+    EXPECT_EQ(read_trough_mesh(binary->file)->triangles, binary->triangles);
+}
+
+TEST(TroughMesh, StepsWallsAndHolesAreSeen) {
+    std::vector<Triangle> step;
+    add_rectangle(step, {0, 0, 0}, {30, 0, 2}, {30, 20, 2}, {0, 20, 0});
+    EXPECT_NEAR(read(step)->mismatch_along, 2, 1e-12);
+    add_rectangle(step, {30, 0, 2}, {30, 0, 0}, {30, 20, 0}, {30, 20, 2});  // the step down is upright
+    EXPECT_NEAR(read(step)->mismatch_along, 2, 1e-12) << "the floor in front of it is still lower";
+
+    std::vector<Triangle> channel;
+    add_rectangle(channel, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
+    EXPECT_FALSE(read(channel)->has_upright_sides);
+    add_rectangle(channel, {0, 0, 0}, {30, 0, 0}, {30, 0, 15}, {0, 0, 15});
+    EXPECT_TRUE(read(channel)->has_upright_sides);
+
+    std::vector<Triangle> gap;
+    add_rectangle(gap, {0, 0, 0}, {10, 0, 0}, {10, 20, 0}, {0, 20, 0});
+    add_rectangle(gap, {12, 0, 0}, {30, 0, 0}, {30, 20, 0}, {12, 20, 0});
+    ASSERT_TRUE(read(gap)->hole());
+    EXPECT_NEAR((*read(gap)->hole())[0], 10.05, 1e-9);
+}
+
+// Cutting edges in the middle keeps the surface: the same area, no long edge, and nodes of both sides of a
+// cut edge fit, so that each edge inside the surface belongs to two triangles.
+TEST(TroughMesh, IsDividedWithoutGaps) {
+    std::vector<Triangle> const fine = divided(vee(), 4);
+    EXPECT_NEAR(area_of(fine), area_of(vee()), 1e-9);
+    std::map<std::pair<Point, Point>, int> edges;
+    for (Triangle const& t : fine) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            Point const a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+            EXPECT_LE(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 4);
+            ++edges[{a, b}];
+        }
+    }
+    for (auto const& [edge, count] : edges) {
+        auto const both_at = [&edge = edge](std::size_t k, double value) {
+            return edge.first[k] == value && edge.second[k] == value;
+        };
+        bool const is_border = both_at(0, 5) || both_at(0, 41) || both_at(1, -9) || both_at(1, 9);
+        EXPECT_EQ(count, is_border ? 1 : 2);
+    }
+}
+
+TEST(TroughMesh, WhatIsWrongIsSaid) {
+    auto const error = [](std::string const& content) -> std::string {
+        try {
+            read_trough_mesh({"a.stl", content});
+        } catch (std::invalid_argument const& wrong) {
+            return wrong.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(error(""), "it is neither a text nor a binary STL");
+    EXPECT_EQ(error("solid a\nendsolid a\n"), "it has no triangles");
+    EXPECT_EQ(error("solid a\nvertex 1 2 x\n"), "a corner of triangle 1 is not three numbers");
+    EXPECT_EQ(error("solid a\nvertex 1 2 3\n"), "its last triangle has fewer than three corners");
+    EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}})), "triangle 1 has no area");
+    EXPECT_EQ(error(stl_text("a", {{{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}}}})),
+              "its surface has no length or no width");
+    EXPECT_THAT(error("solid a\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n"), HasSubstr("triangle 1"));
+    std::string const whole = binary_stl(vee());
+    EXPECT_EQ(error(whole.substr(0, whole.size() - 1)), "it is neither a text nor a binary STL");
+}
+
+/// Campaigns with a mesh in their folder.
+class MeshCampaign : public testing::Test {
+  protected:
+    Scenario scenario(std::string const& text) const {
+        std::ofstream(folder_.path() / "c.toml") << text;
+        return read_campaign(folder_.path() / "c.toml").cases.front();
+    }
+    void write(std::string const& name, std::vector<Triangle> const& mesh) const {
+        std::ofstream(folder_.path() / name) << stl_text("mesh", mesh);
+    }
+    std::string error(std::string const& text) const {
+        try {
+            scenario(text);
+        } catch (core::InputError const& wrong) {
+            return wrong.what();
+        }
+        return "no error";
+    }
+    static std::string on_mesh(std::string text = example_campaign) {
+        return with("[grains]", "mesh = \"vee.stl\"\n\n[grains]", std::move(text));
+    }
+
+    core::TemporaryFolder const folder_;
+};
+
+TEST_F(MeshCampaign, TheLevelGivesTheGrains) {
+    write("vee.stl", vee());
+    Scenario const s = scenario(on_mesh());
+    // 12 mm above the lowest point: 36 mm (18 mm 12 mm - (18 mm)^2 / 4), 0.58 of it grains.
+    double const volume = 0.036 * (0.018 * 0.012 - 0.018 * 0.018 / 4);
+    EXPECT_NEAR(s.layer.grains * mean_grain_volume(s), 0.58 * volume, 2 * mean_grain_volume(s));
+    EXPECT_EQ(layer_height(s), 0.012);
+    int const grains = s.layer.grains;
+    Scenario const counted =
+        scenario(on_mesh(with("height = \"12 mm\"", fmt::format("grains = {}", grains))));
+    EXPECT_NEAR(layer_height(counted), 0.012, 5e-5) << "half of a grain's volume over the plan, and the grid";
+    EXPECT_THAT(to_toml(s), HasSubstr("mesh = \"vee.stl\"\nmesh_unit = \"mm\"\n"));
+    EXPECT_EQ(named_files(s).front().name, "vee.stl");
+    EXPECT_EQ(to_toml(scenario(example_campaign)).find("mesh"), std::string::npos);
+}
+
+TEST_F(MeshCampaign, MistakesAreNamed) {
+    write("vee.stl", vee());
+    EXPECT_THAT(error(on_mesh(with("length = \"36 mm\"", "length = \"35 mm\""))),
+                HasSubstr("trough.mesh: vee.stl: it is 0.036 m long, and layer.length is 0.035 m; write "
+                          "layer.length = \"36 mm\""));
+    EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
+                HasSubstr("is mesh_unit wrong?"));
+    EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.1"))),
+                HasSubstr("is given together with a mesh"));
+    EXPECT_THAT(error(on_mesh(with("height = \"12 mm\"", "block = \"point\""))),
+                HasSubstr("a block needs the flat floor"));
+    EXPECT_THAT(error(with("[grains]", "mesh = \"no.stl\"\n\n[grains]")), HasSubstr("there is no file"));
+    EXPECT_THAT(error(with("[grains]", "mesh = \"../vee.stl\"\n\n[grains]")),
+                HasSubstr("not an allowed value"));
+    std::vector<Triangle> slope;
+    add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
+    write("vee.stl", slope);
+    EXPECT_THAT(error(on_mesh()), HasSubstr("its two ends along the trough differ by 0.002 m in height"));
+    std::vector<Triangle> tilted;
+    add_rectangle(tilted, {0, 0, 0}, {36, 0, 0}, {36, 18, 2}, {0, 18, 2});
+    write("vee.stl", tilted);
+    EXPECT_THAT(error(on_mesh()), HasSubstr("its two sides differ by 0.002 m in height"));
+    std::vector<Triangle> gap;
+    add_rectangle(gap, {0, 0, 0}, {20, 0, 0}, {20, 18, 0}, {0, 18, 0});
+    add_rectangle(gap, {22, 0, 0}, {36, 0, 0}, {36, 18, 0}, {22, 18, 0});
+    write("vee.stl", gap);
+    EXPECT_THAT(error(on_mesh()), HasSubstr("there is a hole in plan at x = 0.02"));
+}
+
+}  // namespace
+}  // namespace vibrotrough::scenario
