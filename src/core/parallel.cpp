@@ -1,9 +1,13 @@
 #include "core/parallel.hpp"
 
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -11,14 +15,64 @@
 #include <sched.h>
 
 namespace vibrotrough::core {
+namespace {
 
-int count_available_cores() {
+namespace fs = std::filesystem;
+
+std::string read_or_nothing(fs::path const& path) {
+    try {
+        return read_file(path, largest_note);
+    } catch (MissingError const&) {
+        return {};
+    }
+}
+
+/// What one control group allows. Version 2 has both numbers in one file, "max" where there is no limit;
+/// version 1 has two files, and -1 where there is no limit.
+std::optional<double> quota_of(fs::path const& group) {
+    std::istringstream both(read_or_nothing(group / "cpu.max"));
+    std::istringstream first(read_or_nothing(group / "cpu.cfs_quota_us"));
+    std::istringstream second(read_or_nothing(group / "cpu.cfs_period_us"));
+    double quota = 0, period = 0;
+    bool const is_read = (both >> quota >> period) || (first >> quota && second >> period);
+    return is_read && quota > 0 && period > 0 ? std::optional(quota / period) : std::nullopt;
+}
+
+int count_cores_of_mask() {
     cpu_set_t mask;
     CPU_ZERO(&mask);
     // A machine with more cores than the mask has bits (1024) refuses to fill it: then they all count.
     if (sched_getaffinity(0, sizeof mask, &mask) != 0)
         return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     return std::max(1, CPU_COUNT(&mask));
+}
+
+}  // namespace
+
+std::optional<double> find_core_quota(fs::path const& mounted, std::string const& groups) {
+    std::optional<double> least;
+    std::istringstream lines(groups);
+    for (std::string line; std::getline(lines, line);) {  // number:controllers:path
+        auto const first = line.find(':'), second = line.find(':', first + 1);
+        if (second == std::string::npos) continue;
+        std::string const controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+        bool const is_second_version = controllers == ",,";
+        if (!is_second_version && controllers.find(",cpu,") == std::string::npos) continue;
+        fs::path const root = is_second_version ? mounted : mounted / "cpu";
+        // In a container the path may be the host's, and only the root is there.
+        for (fs::path group = fs::path(line.substr(second + 1)).relative_path();;
+             group = group.parent_path()) {
+            if (auto const quota = quota_of(root / group)) least = std::min(least.value_or(*quota), *quota);
+            if (group.empty()) break;
+        }
+    }
+    return least;
+}
+
+int count_available_cores() {
+    static auto const quota = find_core_quota("/sys/fs/cgroup", read_or_nothing("/proc/self/cgroup"));
+    int const cores = count_cores_of_mask();
+    return quota && *quota < cores ? std::max(1, static_cast<int>(*quota)) : cores;
 }
 
 void for_each_index(std::size_t count, std::size_t least, std::function<IndexedWork()> const& make_work) {

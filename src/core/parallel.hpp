@@ -1,14 +1,25 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 
 namespace vibrotrough::core {
 
 /// The cores that this process may use: those of its CPU affinity mask, which a cluster's task, a container
-/// or taskset may have made smaller than the machine; at least 1. std::thread::hardware_concurrency() counts
-/// the machine's.
+/// or taskset may have made smaller than the machine, and no more than its quota of processor time allows
+/// (rounded down, because a thread that is held up makes the others wait); at least 1.
+/// std::thread::hardware_concurrency() counts the machine's.
 int count_available_cores();
+
+/// The quota of processor time of a control group and of those above it, in cores: that of a container
+/// (--cpus), of systemd (CPUQuota) or of a cluster's task. None where nothing limits it, or nothing can be
+/// read. Both versions of the kernel's control groups are known.
+/// @param mounted  where control groups are mounted, usually /sys/fs/cgroup
+/// @param groups   the process's own, as /proc/self/cgroup lists them
+std::optional<double> find_core_quota(std::filesystem::path const& mounted, std::string const& groups);
 
 /// What is done with item i.
 using IndexedWork = std::function<void(std::size_t i)>;
