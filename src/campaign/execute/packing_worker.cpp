@@ -101,6 +101,7 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
                         "'vibrotrough run' again, which tests it",
                         planned.program.string()));
     }
+    here.scratch = planned.scratch;
     here.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return here;
 }
@@ -155,9 +156,9 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         if (!packing || is_done(known, *packing)) return finish_if_enough(planned, engine.version, policy);
         evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
-        PackingEnd const end =
-            find_cause(planned, id.packing,
-                       Attempt(engine, campaign_folder, planned, *packing, deadline).run(), memory_kills);
+        PackingEnd const end = find_cause(planned, id.packing,
+                                          Attempt(engine, campaign_folder, planned, *packing, deadline).run(),
+                                          memory_kills, engine.scratch);
         if (!end.failure) {
             attempt = -1;
             continue;

@@ -206,6 +206,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
 
     Json facts{{"program", core::utf8_of_bytes(engine.program.string())}, {"version", engine.version}};
     if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
+    if (!engine.scratch.empty()) facts["scratch"] = engine.scratch;
     if (Json const names = template_names(plan); !names.empty()) facts["templates"] = names;
     write_frozen(plan.folder, std::move(facts), files);
     fs::path const certificate = plan.folder / "certificate.json";
@@ -263,6 +264,7 @@ engine::Engine read_engine(fs::path const& folder) {
         engine::Engine engine{core::bytes_of_utf8(json.at("program").get<std::string>()),
                               json.at("version").get<std::string>()};
         engine.binary_sha256 = json.value("binary_sha256", std::string());
+        engine.scratch = json.value("scratch", std::string());
         return engine;
     } catch (nlohmann::json::exception const&) {
         throw core::InputError(fmt::format("{} is damaged; run the campaign again after removing this file",
