@@ -21,6 +21,10 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
+SubmittedArray submitted(Batch const& batch) {
+    return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
+}
+
 class BatchExecutor : public Executor {
   public:
     BatchExecutor(Scheduler const& scheduler, ExecutorInputs const& inputs)
@@ -168,10 +172,6 @@ class BatchExecutor : public Executor {
         return made;
     }
 
-    static SubmittedArray submitted(Batch const& batch) {
-        return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
-    }
-
     int ranks() const { return inputs_.settings.ranks.value_or(1); }
 
     /// Whether a task hears of its end before it comes, and can be queued again.
@@ -234,6 +234,20 @@ std::vector<PackingActivity> batch_activity(Scheduler const& scheduler,
                                             std::filesystem::path const& campaign_folder) {
     std::vector<Batch> batches = read_batches(scheduler, campaign_folder);
     return survey_packings(scheduler, batches);
+}
+
+std::optional<CountedTime> batch_core_time(Scheduler const& scheduler,
+                                           std::filesystem::path const& campaign_folder) {
+    std::vector<SubmittedArray> arrays;
+    for (Batch const& batch : read_batches(scheduler, campaign_folder)) arrays.push_back(submitted(batch));
+    if (arrays.empty()) return {};
+    CountedTime counted{scheduler.name, scheduler.title, {}};
+    try {
+        if (scheduler.count_core_time != nullptr) counted.core_time = scheduler.count_core_time(arrays);
+    } catch (core::MissingError const&) {
+        // There is no such scheduler here, or it does not answer.
+    }
+    return counted;
 }
 
 }  // namespace vibrotrough::campaign
