@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <sstream>
@@ -37,6 +38,33 @@ std::optional<double> quota_of(fs::path const& group) {
     bool const is_read = (both >> quota >> period) || (first >> quota && second >> period);
     return is_read && quota > 0 && period > 0 ? std::optional(quota / period) : std::nullopt;
 }
+
+/// How long the first item took, and how much of that it waited.
+class Stopwatch {
+  public:
+    /// One thread for each core. Where an item waits, for the file system, as many more as keep the cores at
+    /// work: what a single thread asks of a file system that takes 20 ms for each answer, it waits for alone.
+    std::size_t threads_for(std::size_t count, std::size_t least) const {
+        constexpr double worth_a_thread = 2e-3;  // s; a thread costs some 1e-5
+        constexpr double much = 4;               // times its processor time: other programs delay it, too
+        constexpr std::size_t most = 64;
+        double const elapsed = seconds(CLOCK_MONOTONIC) - start_;
+        double const factor = elapsed / std::max(1e-6, seconds(CLOCK_THREAD_CPUTIME_ID) - own_start_);
+        auto const cores = static_cast<std::size_t>(count_available_cores());
+        if (elapsed < worth_a_thread || factor < much)
+            return std::min(cores, count / std::max<std::size_t>(1, least));
+        return std::min({most, count, static_cast<std::size_t>(static_cast<double>(cores) * factor)});
+    }
+
+  private:
+    static double seconds(clockid_t clock) {
+        timespec time{};
+        ::clock_gettime(clock, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    double start_ = seconds(CLOCK_MONOTONIC), own_start_ = seconds(CLOCK_THREAD_CPUTIME_ID);
+};
 
 int count_cores_of_mask() {
     cpu_set_t mask;
@@ -79,28 +107,30 @@ void for_each_index(std::size_t count, std::size_t least, std::function<IndexedW
     std::atomic<std::size_t> next = 0, first_failure = count;
     std::mutex mutex;
     std::exception_ptr failure;
-    auto const run = [&] {
-        IndexedWork const work = make_work();
-        for (std::size_t i = next++; i < first_failure; i = next++) {
-            try {
-                work(i);
-            } catch (...) {
-                std::lock_guard const lock(mutex);
-                if (i >= first_failure) continue;
-                first_failure = i;
-                failure = std::current_exception();
-            }
+    auto const attempt = [&](IndexedWork const& work, std::size_t i) {
+        try {
+            work(i);
+        } catch (...) {
+            std::lock_guard const lock(mutex);
+            if (i >= first_failure) return;
+            first_failure = i;
+            failure = std::current_exception();
         }
     };
-    auto const cores = static_cast<std::size_t>(count_available_cores());
+    auto const run = [&](IndexedWork const& work) {
+        for (std::size_t i = next++; i < first_failure; i = next++) attempt(work, i);
+    };
+    IndexedWork const own = make_work();
+    Stopwatch const watch;
+    if (count > 0) attempt(own, next++);
+    std::size_t const threads = watch.threads_for(count, least);
     std::vector<std::jthread> others;
     try {
-        while (others.size() + 1 < std::min(cores, count / std::max<std::size_t>(1, least)))
-            others.emplace_back(run);
+        while (others.size() + 1 < threads) others.emplace_back([&] { run(make_work()); });
     } catch (std::system_error const&) {
         // The user may have no more threads: fewer do the same work.
     }
-    run();
+    run(own);
     others.clear();  // waits for them
     if (failure) std::rethrow_exception(failure);
 }

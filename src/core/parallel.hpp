@@ -25,7 +25,8 @@ std::optional<double> find_core_quota(std::filesystem::path const& mounted, std:
 using IndexedWork = std::function<void(std::size_t i)>;
 
 /// Does work with items 0 ... count - 1 on all cores that this process may use, each item once and in any
-/// order. The items must not depend on one another.
+/// order. The items must not depend on one another. Where the first one waits most of its time, as for a slow
+/// file system, up to 64 threads wait at the same time.
 /// @param least      items that are worth a thread of their own
 /// @param make_work  is called once in each thread, so that each has its own state; it must not throw
 /// @throws what the work on an item throws: of the first item by number, whichever thread was faster

@@ -3,9 +3,11 @@
 #include "core/temporary_folder.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -66,6 +68,21 @@ TEST(Parallel, QuotaOfProcessorTime) {
     write("odd/cpu.max", "many few\n");
     EXPECT_EQ(find_core_quota(folder.path() / "odd", "0::/\nno line of this kind\n"), std::nullopt);
     EXPECT_EQ(find_core_quota(folder.path() / "nowhere", "0::/\n"), std::nullopt);
+}
+
+// Items that wait, for a slow file system, wait at the same time, however few cores there are.
+TEST(Parallel, WaitingItemsWaitTogether) {
+    auto const start = std::chrono::steady_clock::now();
+    std::atomic<int> done = 0;
+    for_each_index(129, 1000, [&] {
+        return [&](std::size_t) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            ++done;
+        };
+    });
+    EXPECT_EQ(done, 129);
+    // Three rounds of 20 ms; one after the other they take 2.6 s.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1300));
 }
 
 // Few items are not worth a thread: the state of the work is made once.

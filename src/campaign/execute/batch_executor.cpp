@@ -39,10 +39,9 @@ class BatchExecutor : public Executor {
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
         if (orders.empty()) return {};
-        for (PackingOrder const& order : orders) {
-            write_case_files(*order.planned);
-            cases_[order.id()] = order.planned;
-        }
+        std::vector<PlannedCase const*> cases;
+        for (PackingOrder const& order : orders) cases.push_back(cases_[order.id()] = order.planned);
+        write_case_files(std::move(cases));
         std::ranges::move(make_tasks(orders, {inputs_.task_duration, inputs_.speed, ranks(), engines()}),
                           std::back_inserter(backlog_));
         std::vector<long> const jobs = submit_backlog();

@@ -10,6 +10,7 @@
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "engine/folder_watch.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
@@ -70,6 +71,14 @@ struct DrivenCase {
     bool has_ended = false;
 };
 
+/// What the files say of a case before anything is run.
+struct FoundCase {
+    std::optional<FoundSummary> summary = {};  ///< of its result
+    bool is_damaged = false;                   ///< there is a result that cannot be used
+    KnownCase known = {};
+    int attempts = 0;  ///< failed ones of earlier runs
+};
+
 class Driver {
   public:
     Driver(Plan& plan, Policy const& policy, Executor& executor, ExecutorInputs const& inputs,
@@ -84,7 +93,10 @@ class Driver {
     Summary run(Until until) {
         for (PackingActivity& one : executor_.given_before())
             before_.insert_or_assign(one.id, std::move(one));
-        for (PlannedCase const& planned : plan_.cases) take_stock(planned);
+        std::vector<FoundCase> found(plan_.cases.size());
+        core::for_each_index(found.size(), cases_per_thread,
+                             [&] { return [&](std::size_t i) { found[i] = look_at(plan_.cases[i]); }; });
+        for (std::size_t i = 0; i < found.size(); ++i) take_stock(plan_.cases[i], std::move(found[i]));
         add_cases();
         submit_orders();
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
@@ -106,36 +118,43 @@ class Driver {
         report();
     }
 
-    /// What the files say of a case at the start.
-    void take_stock(PlannedCase const& planned) {
+    /// What the files say of a case at the start; called by several threads for different cases.
+    static FoundCase look_at(PlannedCase const& planned) {
+        FoundCase found{find_summary(planned)};
+        remove_linked_packings(planned);
+        if (found.summary && found.summary->is_from_result) write_summary(planned, found.summary->record);
+        if (found.summary && !may_go_on(planned, found.summary->record)) return found;
+        std::error_code missing;
+        found.is_damaged = !found.summary && fs::exists(fs::symlink_status(planned.result_file(), missing));
+        found.known = know(planned);
+        if (auto const failure = read_failure(planned)) found.attempts = failure->attempts;
+        return found;
+    }
+
+    void take_stock(PlannedCase const& planned, FoundCase found) {
         DrivenCase& one = cases_.emplace_back(DrivenCase{{&planned, {}, {}, {}}});
         by_id_[planned.id] = &one;
-        auto found = find_summary(planned);
-        if (found) {
-            if (found->is_from_result) write_summary(planned, found->record);
-            for (auto const& packing : found->record.packings) progress_.core_time += packing.core_time;
-            if (!may_go_on(planned, found->record)) {
-                count_result(found->record.outcome);
-                one.known.result = std::move(found->record);
-                one.has_ended = true;
-                return;
-            }
+        if (found.summary) {
+            for (auto const& packing : found.summary->record.packings)
+                progress_.core_time += packing.core_time;
+            if (!may_go_on(planned, found.summary->record)) return take_result(one, *found.summary);
         }
-        std::error_code missing;
-        if (!found && fs::exists(fs::symlink_status(planned.result_file(), missing)))
+        if (found.is_damaged)
             observer_.noticed(planned, "its result.h5 is damaged or cannot be read, and is replaced");
+        one.known = std::move(found.known);
+        one.attempts = found.attempts;
+        if (found.summary && is_exhausted(one.known, found.summary->record))
+            return take_result(one, *found.summary);
         ++progress_.left;
-        one.known = know(planned);
-        if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
-        if (found && is_exhausted(one.known, found->record)) {
-            one.known.packings.clear();
-            --progress_.left;
-            count_result(found->record.outcome);
-            one.known.result = std::move(found->record);
-            one.has_ended = true;
-            return;
-        }
         decide(one);
+    }
+
+    /// A result that stays as it is.
+    void take_result(DrivenCase& one, FoundSummary& summary) {
+        one.known.packings.clear();
+        count_result(summary.record.outcome);
+        one.known.result = std::move(summary.record);
+        one.has_ended = true;
     }
 
     /// Whether more packings or cycles could still make a result precise or steady, if the policy wants them.
@@ -198,7 +217,6 @@ class Driver {
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
         fs::path const remains = planned.packing_folder(packing);
-        if (core::is_link(remains)) core::remove_file(remains);
         if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains)) {
             engine::make_sole_writer(remains);
             remove_run_files(remains);
@@ -324,7 +342,8 @@ class Driver {
         for (DrivenCase const& one : cases_) known.push_back(&one.known);
         for (scenario::Scenario const& scenario : policy_.further_cases(known)) {
             check_foreign_commands(plan_.folder.string(), scenario, foreign_commands_);
-            if (PlannedCase const* const added = add_case(plan_, scenario)) take_stock(*added);
+            if (PlannedCase const* const added = add_case(plan_, scenario))
+                take_stock(*added, look_at(*added));
         }
     }
 

@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
@@ -189,6 +190,14 @@ void write_scenario(scenario::Scenario const& scenario, fs::path const& folder) 
 
 void write_case_files(PlannedCase const& planned) {
     write_scenario(planned.scenario(), planned.folder);
+}
+
+void write_case_files(std::vector<PlannedCase const*> cases) {
+    std::ranges::sort(cases);
+    auto const repeated = std::ranges::unique(cases);
+    cases.erase(repeated.begin(), repeated.end());
+    core::for_each_index(cases.size(), cases_per_thread,
+                         [&] { return [&](std::size_t i) { write_case_files(*cases[i]); }; });
 }
 
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {
