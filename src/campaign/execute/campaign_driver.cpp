@@ -1,6 +1,7 @@
 #include "campaign/execute/campaign_driver.hpp"
 
 #include "campaign/execute/case_files.hpp"
+#include "campaign/execute/found_case.hpp"
 #include "campaign/schedule/remaining_time.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -10,7 +11,6 @@
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "engine/folder_watch.hpp"
 #include "engine/sole_writer.hpp"
 #include "engine/stop_signals.hpp"
@@ -71,14 +71,6 @@ struct DrivenCase {
     bool has_ended = false;
 };
 
-/// What the files say of a case before anything is run.
-struct FoundCase {
-    std::optional<FoundSummary> summary = {};  ///< of its result
-    bool is_damaged = false;                   ///< there is a result that cannot be used
-    KnownCase known = {};
-    int attempts = 0;  ///< failed ones of earlier runs
-};
-
 class Driver {
   public:
     Driver(Plan& plan, Policy const& policy, Executor& executor, ExecutorInputs const& inputs,
@@ -93,10 +85,7 @@ class Driver {
     Summary run(Until until) {
         for (PackingActivity& one : executor_.given_before())
             before_.insert_or_assign(one.id, std::move(one));
-        std::vector<FoundCase> found(plan_.cases.size());
-        core::for_each_index(found.size(), cases_per_thread,
-                             [&] { return [&](std::size_t i) { found[i] = look_at(plan_.cases[i]); }; });
-        for (std::size_t i = 0; i < found.size(); ++i) take_stock(plan_.cases[i], std::move(found[i]));
+        take_stock_of_all();
         add_cases();
         submit_orders();
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
@@ -118,17 +107,13 @@ class Driver {
         report();
     }
 
-    /// What the files say of a case at the start; called by several threads for different cases.
-    static FoundCase look_at(PlannedCase const& planned) {
-        FoundCase found{find_summary(planned)};
-        remove_linked_packings(planned);
-        if (found.summary && found.summary->is_from_result) write_summary(planned, found.summary->record);
-        if (found.summary && !may_go_on(planned, found.summary->record)) return found;
-        std::error_code missing;
-        found.is_damaged = !found.summary && fs::exists(fs::symlink_status(planned.result_file(), missing));
-        found.known = know(planned);
-        if (auto const failure = read_failure(planned)) found.attempts = failure->attempts;
-        return found;
+    void take_stock_of_all() {
+        constexpr std::size_t part = 1024;
+        for (std::size_t begin = 0; begin < plan_.cases.size(); begin += part) {
+            std::vector<FoundCase> found = look_at(plan_, begin, part);
+            for (std::size_t i = 0; i < found.size(); ++i)
+                take_stock(plan_.cases[begin + i], std::move(found[i]));
+        }
     }
 
     void take_stock(PlannedCase const& planned, FoundCase found) {
@@ -155,11 +140,6 @@ class Driver {
         count_result(summary.record.outcome);
         one.known.result = std::move(summary.record);
         one.has_ended = true;
-    }
-
-    /// Whether more packings or cycles could still make a result precise or steady, if the policy wants them.
-    static bool may_go_on(PlannedCase const& planned, store::CaseRecord const& record) {
-        return record.outcome != core::Outcome::finished && planned.scenario().measure.max_packings > 1;
     }
 
     /// Whether a result is left as it is: the policy wants nothing more, or packings that the result was made
