@@ -7,6 +7,8 @@
  *   VIBROTROUGH_SLOW_LOG     file that receives a line for each operation: number of the process, its kind, its file
  */
 #define _GNU_SOURCE
+#include "../faults/kernel_call.h"
+
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -20,18 +22,6 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-
-/* The real syscall(), because this library has one of its own. */
-static long kernel(long number, ...) {
-    static long (*real)(long, ...) = NULL;
-    if (real == NULL) *(void**)&real = dlsym(RTLD_NEXT, "syscall");
-    va_list more;
-    va_start(more, number);
-    long a[6];
-    for (int i = 0; i < 6; ++i) a[i] = va_arg(more, long);
-    va_end(more);
-    return real(number, a[0], a[1], a[2], a[3], a[4], a[5]);
-}
 
 /* The absolute path of a name in an open folder, or of the open file itself without a name. */
 static void find_path(int folder, char const* name, char* place, size_t size) {
