@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -161,6 +162,13 @@ fs::path parent_of_folders() {
     return parent;
 }
 
+void remove_left_folders_once(fs::path const& parent) {
+    static std::mutex mutex;
+    static std::set<fs::path> seen;
+    std::lock_guard const lock(mutex);
+    if (seen.insert(parent).second) remove_left_folders(parent);
+}
+
 fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::string const& boot) {
     std::string name =
         (parent / fmt::format("{}-{}{}XXXXXX", purpose, boot, boot.empty() ? "" : "-")).string();
@@ -175,10 +183,9 @@ fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::s
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder(std::string_view purpose) {
-    fs::path const parent = parent_of_folders();
-    static std::once_flag once;
-    std::call_once(once, [&] { remove_left_folders(parent); });
+TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
+    if (parent.empty()) parent = parent_of_folders();
+    remove_left_folders_once(parent);
     handle_signals();
     std::string boot = boot_id();
     for (int attempt = 1;; ++attempt) {

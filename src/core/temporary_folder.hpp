@@ -13,10 +13,11 @@ namespace vibrotrough::core {
 /// removed by the next process that makes such a folder (remove_left_folders()).
 class TemporaryFolder {
   public:
-    /// Makes the folder below TMPDIR, or below /tmp if that is not set.
+    /// Makes the folder.
     /// @param purpose  beginning of the folder's name, such as "vibrotrough-probe"
+    /// @param parent   below which it lies; empty: below TMPDIR, or below /tmp if that is not set
     /// @throws MissingError when the folder cannot be made
-    explicit TemporaryFolder(std::string_view purpose = "vibrotrough");
+    explicit TemporaryFolder(std::string_view purpose = "vibrotrough", std::filesystem::path parent = {});
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;
     TemporaryFolder& operator=(TemporaryFolder const&) = delete;

@@ -41,7 +41,7 @@ GATE = "check_foreign_commands"
 GATES = {
     ("campaign/execute/campaign_driver.cpp", "void add_cases("): "add_case(",
     ("campaign/execute/campaign_driver.cpp", "Summary run_campaign("): "kind.make",
-    ("campaign/execute/packing_worker.cpp", "WorkResult work("): "Attempt(",
+    ("campaign/execute/packing_worker.cpp", "WorkResult work("): "Attempt running(",
 }
 
 OPEN = re.compile(r"\bstd::[io]?fstream\b|\bstd::filebuf\b|\bfopen\s*\(|\bfreopen\s*\(|(?<!\w)::open(?:at2?)?\s*\(|\barchive_read_open_filename\s*\(|\bH5F(?:open|create)\s*\(")

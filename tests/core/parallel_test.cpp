@@ -1,8 +1,13 @@
 #include "core/parallel.hpp"
 
+#include "core/temporary_folder.hpp"
+
 #include <atomic>
+#include <chrono>
+#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,6 +39,50 @@ TEST(Parallel, OnlyTheCoresOfTheAffinityMask) {
     for_each_index(1000, 1, [&] { return ++made, [](std::size_t) {}; });
     EXPECT_EQ(made, 1);
     ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+}
+
+// A container's --cpus, in each version of control groups, also where a group above has the lower limit. The
+// path that a process is told may be the host's, of which the container sees the root only.
+TEST(Parallel, QuotaOfProcessorTime) {
+    TemporaryFolder const folder;
+    auto const write = [&](std::string const& name, std::string const& content) {
+        std::filesystem::create_directories((folder.path() / name).parent_path());
+        std::ofstream(folder.path() / name) << content;
+    };
+    write("two/cpu.max", "max 100000\n");
+    write("two/job/cpu.max", "250000 100000\n");
+    write("two/job/step/cpu.max", "max 100000\n");
+    EXPECT_EQ(find_core_quota(folder.path() / "two", "0::/\n"), std::nullopt);
+    EXPECT_EQ(find_core_quota(folder.path() / "two", "0::/job\n"), 2.5);
+    EXPECT_EQ(find_core_quota(folder.path() / "two", "0::/job/step\n"), 2.5);
+    write("own/cpu.max", "150000 100000\n");
+    EXPECT_EQ(find_core_quota(folder.path() / "own", "0::/system.slice/of-the-host\n"), 1.5);
+    write("one/cpu/cpu.cfs_quota_us", "-1\n");
+    write("one/cpu/cpu.cfs_period_us", "100000\n");
+    write("one/cpu/job/cpu.cfs_quota_us", "50000\n");
+    write("one/cpu/job/cpu.cfs_period_us", "100000\n");
+    std::string const others = "5:cpuset:/\n3:memory:/job\n";
+    EXPECT_EQ(find_core_quota(folder.path() / "one", others + "4:cpu,cpuacct:/job\n0::/\n"), 0.5);
+    EXPECT_EQ(find_core_quota(folder.path() / "one", others + "4:cpu,cpuacct:/\n"), std::nullopt);
+    EXPECT_EQ(find_core_quota(folder.path() / "one", others), std::nullopt);
+    write("odd/cpu.max", "many few\n");
+    EXPECT_EQ(find_core_quota(folder.path() / "odd", "0::/\nno line of this kind\n"), std::nullopt);
+    EXPECT_EQ(find_core_quota(folder.path() / "nowhere", "0::/\n"), std::nullopt);
+}
+
+// Items that wait, for a slow file system, wait at the same time, however few cores there are.
+TEST(Parallel, WaitingItemsWaitTogether) {
+    auto const start = std::chrono::steady_clock::now();
+    std::atomic<int> done = 0;
+    for_each_index(129, 1000, [&] {
+        return [&](std::size_t) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            ++done;
+        };
+    });
+    EXPECT_EQ(done, 129);
+    // Three rounds of 20 ms; one after the other they take 2.6 s.
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1300));
 }
 
 // Few items are not worth a thread: the state of the work is made once.

@@ -17,7 +17,7 @@ from pathlib import Path
 PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
 
 # A machine may be slow and busy: this is how long one step of a test may take before it counts as hanging, s.
-PATIENCE = 600
+PATIENCE = int(os.environ.get("VIBROTROUGH_PATIENCE", "600"))
 
 # 60 soft grains in the smallest box that the program allows (four of the largest diameters, rounded up): about a
 # second per packing.

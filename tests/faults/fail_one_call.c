@@ -11,6 +11,8 @@
  *   VIBROTROUGH_FAULT_COUNT     file that receives one line per call: its kind and its file
  */
 #define _GNU_SOURCE
+#include "kernel_call.h"
+
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -30,18 +32,6 @@ static long calls, fails_at;
 static int error = EIO, is_short, is_kill, is_torn;
 static const char *below, *named;
 static pid_t watched;
-
-/* The real syscall(), because this library has one of its own. */
-static long kernel(long number, ...) {
-    static long (*real)(long, ...) = NULL;
-    if (real == NULL) *(void**)&real = dlsym(RTLD_NEXT, "syscall");
-    va_list more;
-    va_start(more, number);
-    long a[6];
-    for (int i = 0; i < 6; ++i) a[i] = va_arg(more, long);
-    va_end(more);
-    return real(number, a[0], a[1], a[2], a[3], a[4], a[5]);
-}
 
 static void read_settings(void) {
     char name[64] = "";

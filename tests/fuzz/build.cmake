@@ -4,5 +4,5 @@ execute_process(
             -DCMAKE_CXX_COMPILER=clang++ -DVIBROTROUGH_FUZZ=ON
     COMMAND_ERROR_IS_FATAL ANY)
 execute_process(
-    COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target campaign_fuzz campaign_files_fuzz engine_output_fuzz result_fuzz
+    COMMAND ${CMAKE_COMMAND} --build ${FOLDER} --target campaign_fuzz campaign_files_fuzz engine_output_fuzz notes_fuzz result_fuzz
     COMMAND_ERROR_IS_FATAL ANY)

@@ -5,6 +5,7 @@
 #include "app/left_aside.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/schedule/forecast.hpp"
+#include "campaign/schedule/policy.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign/state/overview.hpp"
 #include "campaign/state/pace.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -28,7 +30,30 @@ using Json = nlohmann::ordered_json;
 struct StatusArguments {
     std::string folder;
     bool json = false;
+    bool accounting = false;
 };
+
+/// Core time of the engines as the packings' files have it, and what the sites have counted.
+struct SpentTime {
+    double of_engines = 0;  ///< s
+    std::vector<campaign::CountedTime> counted = {};
+};
+
+SpentTime find_spent_time(campaign::Plan const& plan, std::vector<campaign::CaseOverview> const& cases) {
+    SpentTime spent;
+    for (campaign::CaseOverview const& one : cases) {
+        if (one.result) {
+            spent.of_engines += one.result->core_time;
+        } else if (one.status != campaign::CaseStatus::open) {
+            for (auto const& [number, packing] : campaign::know(*one.planned).packings)
+                spent.of_engines += packing.core_time;
+        }
+    }
+    for (campaign::ExecutorKind const& kind : campaign::executor_kinds()) {
+        if (auto const counted = kind.counted(plan.folder)) spent.counted.push_back(*counted);
+    }
+    return spent;
+}
 
 /// Number of cases by state. `unsure` counts those with a result and another outcome than finished.
 struct Counts {
@@ -60,6 +85,7 @@ struct StatusView {
     campaign::Plan const& plan;
     std::vector<campaign::CaseOverview> const& cases;
     campaign::Forecast const& cost;
+    std::optional<SpentTime> spent;  ///< when it was asked for
 };
 
 Json describe(campaign::PackingPace const& pace) {
@@ -92,17 +118,23 @@ void print_json(StatusView const& view) {
         object.update(compare::swept_object(compare::planned_row(view.plan, one), columns));
         return object;
     };
-    Json const head{{"campaign", view.plan.name},
-                    {"engine", view.plan.engine_version},
-                    {"cases_total", view.cases.size()},
-                    {"finished", counts.finished},
-                    {"unsure", counts.unsure},
-                    {"failed", counts.failed},
-                    {"running", counts.running},
-                    {"left", counts.left},
-                    {"core_time_to_go_s", view.cost.core_time},
-                    {"core_time_uncertainty_factor", view.cost.uncertainty},
-                    {"cases", Json::array()}};
+    Json head{{"campaign", view.plan.name},
+              {"engine", view.plan.engine_version},
+              {"cases_total", view.cases.size()},
+              {"finished", counts.finished},
+              {"unsure", counts.unsure},
+              {"failed", counts.failed},
+              {"running", counts.running},
+              {"left", counts.left},
+              {"core_time_to_go_s", view.cost.core_time},
+              {"core_time_uncertainty_factor", view.cost.uncertainty}};
+    if (view.spent) {
+        head["core_time_s"] = view.spent->of_engines;
+        for (campaign::CountedTime const& one : view.spent->counted)
+            head["core_time_counted_s"][std::string(one.name)] =
+                one.core_time ? Json(*one.core_time) : Json();
+    }
+    head["cases"] = Json::array();
     print_with_list(head, view.cases.size(), describe_case);
 }
 
@@ -117,6 +149,15 @@ std::string describe_progress(campaign::CaseOverview const& one, double core_tim
         one.status != campaign::CaseStatus::ended && one.status != campaign::CaseStatus::failed;
     if (goes_on && core_time > 0) text += fmt::format("; about {:.2g} core-hours to go", core_time / 3600);
     return text;
+}
+
+void print_spent(SpentTime const& spent) {
+    fmt::print("{:.3g} core-hours by the engines of all packings\n", spent.of_engines / 3600);
+    for (campaign::CountedTime const& one : spent.counted) {
+        fmt::print("{}\n", one.core_time ? fmt::format("{:.3g} core-hours counted by {}",
+                                                       *one.core_time / 3600, one.title)
+                                         : fmt::format("{} does not say what it has counted", one.title));
+    }
 }
 
 void print_text(StatusView const& view) {
@@ -138,6 +179,7 @@ void print_text(StatusView const& view) {
         "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
         view.plan.name, view.cases.size(), counts.finished, counts.unsure, counts.failed, counts.running,
         counts.left);
+    if (view.spent) print_spent(*view.spent);
     if (counts.running + counts.left == 0 || view.cost.core_time <= 0) return;
     fmt::print("about {:.3g} core-hours to go (probably {:.2g} to {:.2g})\n", view.cost.core_time / 3600,
                view.cost.core_time / view.cost.uncertainty / 3600,
@@ -148,7 +190,8 @@ int run_status(StatusArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(options.folder);
     auto const cases = campaign::survey(plan, campaign::activity_in(plan.folder), {}, campaign::Trust::stamp);
     campaign::Forecast const cost = campaign::forecast(plan, cases);
-    StatusView const view{plan, cases, cost};
+    StatusView const view{plan, cases, cost,
+                          options.accounting ? std::optional(find_spent_time(plan, cases)) : std::nullopt};
     options.json ? print_json(view) : print_text(view);
     tell_left_aside(plan, cases);
     return all_well;
@@ -162,6 +205,9 @@ void add_status(CLI::App& program, int& exit_code) {
         "status", "Show which cases of a campaign are finished, running, failed or still to do");
     add_campaign_folder(*command, options->folder);
     command->add_flag("--json", options->json, "Print JSON for scripts");
+    command->add_flag(
+        "--accounting", options->accounting,
+        "Also show the core-hours spent, and those that the scheduler's accounting has counted");
     command->footer(
         R"(Prints one line for each case that has started: its id, the values of the swept keys, its state, how
 many of its packings have ended, how far the running ones are and how long a cycle takes them, the core time that the

@@ -4,6 +4,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/parallel.hpp"
 #include "core/shell.hpp"
 #include "core/text.hpp"
 #include "core/time.hpp"
@@ -122,10 +123,24 @@ fs::path marker(Batch const& batch, std::size_t index, char const* kind) {
     return batch.folder / fmt::format("task-{}.{}", index, kind);
 }
 
+/// Names of markers in a batch's folder: one question instead of one for each task.
+using MarkerNames = std::set<std::string>;
+
+MarkerNames names_of_markers(Batch const& batch) {
+    MarkerNames names;
+    std::error_code missing;
+    for (auto const& entry : fs::directory_iterator(batch.folder, missing))
+        names.insert(entry.path().filename().string());
+    return names;
+}
+
 /// What the markers say of a task; none while it has no marker that it ended.
-std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index) {
+std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index, MarkerNames const& names) {
     TaskActivity activity{PackingActivity::ended, core::Outcome::interrupted, {}};
-    if (fs::is_regular_file(marker(batch, index, "ended"))) {
+    auto const is_there = [&](fs::path const& file) {
+        return names.contains(file.filename().string()) && fs::is_regular_file(file);
+    };
+    if (is_there(marker(batch, index, "ended"))) {
         std::string const code = core::read_file(marker(batch, index, "ended"), core::largest_note);
         activity.message = fmt::format("the task ended with exit code {}; see {}",
                                        core::printable(code.substr(0, code.find('\n')), 10),
@@ -133,7 +148,7 @@ std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index) {
         return activity;
     }
     fs::path const lost = marker(batch, index, "lost");
-    if (!fs::is_regular_file(lost)) return {};
+    if (!is_there(lost)) return {};
     Json const json = Json::parse(core::read_file(lost, core::largest_note), nullptr, false);
     if (json.is_object()) {
         try {
@@ -151,19 +166,22 @@ std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index) {
 /// The id that the tasks of a batch have written down, when its driver died before it did so.
 void find_lost_id(Batch& batch) {
     if (batch.job) return;
+    MarkerNames const names = names_of_markers(batch);
     for (std::size_t i = 0; i < batch.tasks.size(); ++i) {
-        if (!fs::is_regular_file(marker(batch, i, "started"))) continue;
-        std::istringstream text(core::read_file(marker(batch, i, "started"), core::largest_note));
+        fs::path const started = marker(batch, i, "started");
+        if (!names.contains(started.filename().string()) || !fs::is_regular_file(started)) continue;
+        std::istringstream text(core::read_file(started, core::largest_note));
         std::string host;
         if (long job = 0; text >> host >> job) batch.job = job;
         return;
     }
 }
 
-/// @param reports  asked for before this call, so that a task that the scheduler calls ended has its marker
+/// @param reports  asked for before this call and the listing, so that a task that the scheduler calls ended
+/// has its marker
 TaskActivity activity_of(Scheduler const& scheduler, Batch const& batch, std::size_t index,
-                         TaskReports const& reports) {
-    if (auto const marked = by_marker(batch, index)) return *marked;
+                         TaskReports const& reports, MarkerNames const& names) {
+    if (auto const marked = by_marker(batch, index, names)) return *marked;
     auto const found = reports.find({batch.name, static_cast<int>(index)});
     if (found == reports.end()) {
         return {
@@ -248,23 +266,31 @@ void remember_job(Batch& batch, long job) {
 }
 
 std::vector<std::vector<TaskActivity>> survey_tasks(Scheduler const& scheduler, std::vector<Batch>& batches) {
+    TaskActivity const no_answer{
+        PackingActivity::unknown, {}, fmt::format("{} does not answer", scheduler.title)};
     std::vector<std::vector<TaskActivity>> activities;
     std::vector<OpenTask> open;
     for (std::size_t i = 0; i < batches.size(); ++i) {
+        MarkerNames const names = names_of_markers(batches[i]);
+        std::vector<std::optional<TaskActivity>> marked(batches[i].tasks.size());
+        core::for_each_index(marked.size(), cases_per_thread, [&] {
+            return [&](std::size_t k) { marked[k] = by_marker(batches[i], k, names); };
+        });
         std::vector<TaskActivity>& tasks = activities.emplace_back();
-        for (std::size_t k = 0; k < batches[i].tasks.size(); ++k) {
-            auto const marked = by_marker(batches[i], k);
-            if (!marked) open.push_back({i, k});
-            tasks.push_back(marked.value_or(TaskActivity{
-                PackingActivity::unknown, {}, fmt::format("{} does not answer", scheduler.title)}));
+        for (std::size_t k = 0; k < marked.size(); ++k) {
+            if (!marked[k]) open.push_back({i, k});
+            tasks.push_back(marked[k].value_or(no_answer));
         }
     }
     if (open.empty()) return activities;
     auto const reports = ask(scheduler, batches, open);
     if (!reports) return activities;
+    std::map<std::size_t, MarkerNames> names;
+    for (OpenTask const& task : open)
+        if (!names.contains(task.batch)) names[task.batch] = names_of_markers(batches[task.batch]);
     for (OpenTask const& task : open)
         activities[task.batch][task.index] =
-            activity_of(scheduler, batches[task.batch], task.index, *reports);
+            activity_of(scheduler, batches[task.batch], task.index, *reports, names.at(task.batch));
     return activities;
 }
 
@@ -286,9 +312,10 @@ std::vector<PackingActivity> survey_packings(Scheduler const& scheduler, std::ve
 void remember_lost_tasks(Scheduler const& scheduler, std::vector<Batch>& batches) {
     auto const activities = survey_tasks(scheduler, batches);
     for (std::size_t i = 0; i < batches.size(); ++i) {
+        MarkerNames const names = names_of_markers(batches[i]);
         for (std::size_t k = 0; k < activities[i].size(); ++k) {
             auto const& [state, outcome, message] = activities[i][k];
-            if (state != PackingActivity::ended || by_marker(batches[i], k)) continue;
+            if (state != PackingActivity::ended || by_marker(batches[i], k, names)) continue;
             Json const json{{"outcome", name_of(outcome.value_or(core::Outcome::interrupted))},
                             {"message", message}};
             try {

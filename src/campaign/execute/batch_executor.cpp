@@ -21,6 +21,10 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
+SubmittedArray submitted(Batch const& batch) {
+    return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
+}
+
 class BatchExecutor : public Executor {
   public:
     BatchExecutor(Scheduler const& scheduler, ExecutorInputs const& inputs)
@@ -35,10 +39,9 @@ class BatchExecutor : public Executor {
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
         if (orders.empty()) return {};
-        for (PackingOrder const& order : orders) {
-            write_case_files(*order.planned);
-            cases_[order.id()] = order.planned;
-        }
+        std::vector<PlannedCase const*> cases;
+        for (PackingOrder const& order : orders) cases.push_back(cases_[order.id()] = order.planned);
+        write_case_files(std::move(cases));
         std::ranges::move(make_tasks(orders, {inputs_.task_duration, inputs_.speed, ranks(), engines()}),
                           std::back_inserter(backlog_));
         std::vector<long> const jobs = submit_backlog();
@@ -168,10 +171,6 @@ class BatchExecutor : public Executor {
         return made;
     }
 
-    static SubmittedArray submitted(Batch const& batch) {
-        return {batch.name, batch.job, static_cast<int>(batch.tasks.size())};
-    }
-
     int ranks() const { return inputs_.settings.ranks.value_or(1); }
 
     /// Whether a task hears of its end before it comes, and can be queued again.
@@ -234,6 +233,20 @@ std::vector<PackingActivity> batch_activity(Scheduler const& scheduler,
                                             std::filesystem::path const& campaign_folder) {
     std::vector<Batch> batches = read_batches(scheduler, campaign_folder);
     return survey_packings(scheduler, batches);
+}
+
+std::optional<CountedTime> batch_core_time(Scheduler const& scheduler,
+                                           std::filesystem::path const& campaign_folder) {
+    std::vector<SubmittedArray> arrays;
+    for (Batch const& batch : read_batches(scheduler, campaign_folder)) arrays.push_back(submitted(batch));
+    if (arrays.empty()) return {};
+    CountedTime counted{scheduler.name, scheduler.title, {}};
+    try {
+        if (scheduler.count_core_time != nullptr) counted.core_time = scheduler.count_core_time(arrays);
+    } catch (core::MissingError const&) {
+        // There is no such scheduler here, or it does not answer.
+    }
+    return counted;
 }
 
 }  // namespace vibrotrough::campaign

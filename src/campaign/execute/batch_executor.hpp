@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vibrotrough::campaign {
@@ -16,5 +17,9 @@ std::unique_ptr<Executor> make_batch_executor(Scheduler const& scheduler, Execut
 /// nothing.
 std::vector<PackingActivity> batch_activity(Scheduler const& scheduler,
                                             std::filesystem::path const& campaign_folder);
+
+/// What the scheduler's accounting has counted for the campaign's arrays; nothing when none was submitted.
+std::optional<CountedTime> batch_core_time(Scheduler const& scheduler,
+                                           std::filesystem::path const& campaign_folder);
 
 }  // namespace vibrotrough::campaign

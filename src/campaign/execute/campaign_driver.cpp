@@ -1,6 +1,7 @@
 #include "campaign/execute/campaign_driver.hpp"
 
 #include "campaign/execute/case_files.hpp"
+#include "campaign/execute/found_case.hpp"
 #include "campaign/schedule/remaining_time.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/campaign_folder.hpp"
@@ -84,7 +85,7 @@ class Driver {
     Summary run(Until until) {
         for (PackingActivity& one : executor_.given_before())
             before_.insert_or_assign(one.id, std::move(one));
-        for (PlannedCase const& planned : plan_.cases) take_stock(planned);
+        take_stock_of_all();
         add_cases();
         submit_orders();
         bool const may_leave = until == Until::submitted && executor_.outlives_driver();
@@ -106,41 +107,39 @@ class Driver {
         report();
     }
 
-    /// What the files say of a case at the start.
-    void take_stock(PlannedCase const& planned) {
+    void take_stock_of_all() {
+        constexpr std::size_t part = 1024;
+        for (std::size_t begin = 0; begin < plan_.cases.size(); begin += part) {
+            std::vector<FoundCase> found = look_at(plan_, begin, part);
+            for (std::size_t i = 0; i < found.size(); ++i)
+                take_stock(plan_.cases[begin + i], std::move(found[i]));
+        }
+    }
+
+    void take_stock(PlannedCase const& planned, FoundCase found) {
         DrivenCase& one = cases_.emplace_back(DrivenCase{{&planned, {}, {}, {}}});
         by_id_[planned.id] = &one;
-        auto found = find_summary(planned);
-        if (found) {
-            if (found->is_from_result) write_summary(planned, found->record);
-            for (auto const& packing : found->record.packings) progress_.core_time += packing.core_time;
-            if (!may_go_on(planned, found->record)) {
-                count_result(found->record.outcome);
-                one.known.result = std::move(found->record);
-                one.has_ended = true;
-                return;
-            }
+        if (found.summary) {
+            for (auto const& packing : found.summary->record.packings)
+                progress_.core_time += packing.core_time;
+            if (!may_go_on(planned, found.summary->record)) return take_result(one, *found.summary);
         }
-        std::error_code missing;
-        if (!found && fs::exists(fs::symlink_status(planned.result_file(), missing)))
+        if (found.is_damaged)
             observer_.noticed(planned, "its result.h5 is damaged or cannot be read, and is replaced");
+        one.known = std::move(found.known);
+        one.attempts = found.attempts;
+        if (found.summary && is_exhausted(one.known, found.summary->record))
+            return take_result(one, *found.summary);
         ++progress_.left;
-        one.known = know(planned);
-        if (auto const failure = read_failure(planned)) one.attempts = failure->attempts;
-        if (found && is_exhausted(one.known, found->record)) {
-            one.known.packings.clear();
-            --progress_.left;
-            count_result(found->record.outcome);
-            one.known.result = std::move(found->record);
-            one.has_ended = true;
-            return;
-        }
         decide(one);
     }
 
-    /// Whether more packings or cycles could still make a result precise or steady, if the policy wants them.
-    static bool may_go_on(PlannedCase const& planned, store::CaseRecord const& record) {
-        return record.outcome != core::Outcome::finished && planned.scenario().measure.max_packings > 1;
+    /// A result that stays as it is.
+    void take_result(DrivenCase& one, FoundSummary& summary) {
+        one.known.packings.clear();
+        count_result(summary.record.outcome);
+        one.known.result = std::move(summary.record);
+        one.has_ended = true;
     }
 
     /// Whether a result is left as it is: the policy wants nothing more, or packings that the result was made
@@ -198,7 +197,6 @@ class Driver {
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
         fs::path const remains = planned.packing_folder(packing);
-        if (core::is_link(remains)) core::remove_file(remains);
         if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains)) {
             engine::make_sole_writer(remains);
             remove_run_files(remains);
@@ -324,7 +322,8 @@ class Driver {
         for (DrivenCase const& one : cases_) known.push_back(&one.known);
         for (scenario::Scenario const& scenario : policy_.further_cases(known)) {
             check_foreign_commands(plan_.folder.string(), scenario, foreign_commands_);
-            if (PlannedCase const* const added = add_case(plan_, scenario)) take_stock(*added);
+            if (PlannedCase const* const added = add_case(plan_, scenario))
+                take_stock(*added, look_at(*added));
         }
     }
 

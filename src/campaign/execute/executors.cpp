@@ -24,7 +24,8 @@ template <Scheduler const& scheduler>
 ExecutorKind batch_kind() {
     return {scheduler.name, scheduler.title,
             [](ExecutorInputs const& inputs) { return make_batch_executor(scheduler, inputs); },
-            [](std::filesystem::path const& folder) { return batch_activity(scheduler, folder); }};
+            [](std::filesystem::path const& folder) { return batch_activity(scheduler, folder); },
+            [](std::filesystem::path const& folder) { return batch_core_time(scheduler, folder); }};
 }
 
 std::array const kinds{

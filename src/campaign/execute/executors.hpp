@@ -28,6 +28,12 @@ struct ExecutorInputs {
     std::filesystem::path task_list = {};  ///< the file that the executor "task-list" writes
 };
 
+/// What the accounting of a scheduler has counted for a campaign.
+struct CountedTime {
+    std::string_view name, title;     ///< of the scheduler: its word, and in messages
+    std::optional<double> core_time;  ///< s, Scheduler::count_core_time(); none where nothing is counted
+};
+
 /// One kind of executor. The table of all kinds is the only place that knows them.
 struct ExecutorKind {
     std::string_view name;   ///< the word of run.executor in the campaign file
@@ -35,6 +41,9 @@ struct ExecutorKind {
     std::unique_ptr<Executor> (*make)(ExecutorInputs const& inputs);  ///< makes an executor of this kind
     /// What this kind still knows of packings of a campaign's folder; nothing where it leaves no traces.
     std::vector<PackingActivity> (*activity)(std::filesystem::path const& campaign_folder);
+    /// What a site has counted for it; nothing where this kind has submitted nothing.
+    std::optional<CountedTime> (*counted)(std::filesystem::path const& campaign_folder) =
+        [](std::filesystem::path const&) { return std::optional<CountedTime>(); };
 };
 
 /// All kinds of executors.

@@ -166,7 +166,8 @@ class LocalExecutor : public Executor {
             end = {core::Outcome::time_limit,
                    fmt::format("not finished after {:.0f} s", inputs_.settings.time_limit.value_or(0))};
         }
-        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills);
+        end = find_cause(*order.planned, order.packing.number, end, place->memory_kills,
+                         inputs_.engine.scratch);
         EndedPacking result{order.id(), end.failure, end.message, place->run->cycles(),
                             place->run->core_time()};
         if (!end.failure) result.evaluated = place->run->take_evaluated();

@@ -121,22 +121,23 @@ void PackingRun::start_on(Settled const& settled) {
 }
 
 void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
+    if (!place_) place_ = std::make_unique<RunPlace>(folder_, engine_.scratch);
     engine::Launch launch{deck::drive_file, {}};
     if (checkpoint) {
         launch.arguments = {"-var", "start", checkpoint->file,
                             "-var", "done",  std::to_string(checkpoint->cycle)};
         resume(*checkpoint);
         // Perhaps on another number of ranks than before.
-        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), folder_);
+        deck::write_files(deck::for_ranks(deck_.files, engine_.ranks), engine_folder());
     }
-    check_files_of_engine(folder_);
+    check_files_of_engine(engine_folder());
     stop_ = packing_.next_stop(sealed_cycle_);
-    core::replace_file(folder_ / deck::control_file, deck::control_until(stop_));
+    core::replace_file(engine_folder() / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
     last_cycle_at_ = earlier_wall_time_;
     watch_.emplace(folder_);
     process_ = std::make_unique<engine::EngineProcess>(
-        context_, engine_, folder_,
+        context_, engine_, engine_folder(),
         [this](engine::ExitStatus status) {
             if (auto const end = judge(status)) on_end_(*end);
         },
@@ -149,12 +150,13 @@ double PackingRun::wall_time() const {
 }
 
 void PackingRun::seal() {
-    auto const cycle = last_checkpoint(folder_);
+    auto const cycle = last_checkpoint(engine_folder());
     if (!cycle || *cycle <= sealed_cycle_) return;
-    seal_checkpoint(folder_, deck_,
+    seal_checkpoint(engine_folder(), deck_,
                     {*cycle, deck::checkpoint_file(*cycle), started_, wall_time(),
                      earlier_core_time_ + (core_time_ > 0 ? core_time_ : process_->core_time())});
     sealed_cycle_ = *cycle;
+    if (place_) place_->bring_back();
 }
 
 void PackingRun::inspect() {
@@ -162,11 +164,11 @@ void PackingRun::inspect() {
     watch_->check();
     seal();
     std::error_code missing;
-    auto const size = std::filesystem::file_size(folder_ / "cycles.csv", missing);
+    auto const size = std::filesystem::file_size(engine_folder() / "cycles.csv", missing);
     if (missing || size == seen_size_) return;
     seen_size_ = size;
     try {
-        auto const interim = evaluate::estimate_so_far(*planned_.prepared, folder_);
+        auto const interim = evaluate::estimate_so_far(*planned_.prepared, engine_folder());
         if (interim.cycles != cycles_) last_cycle_at_ = wall_time();
         cycles_ = interim.cycles;
         if (interim.estimate) estimate_ = interim.estimate;
@@ -178,7 +180,7 @@ void PackingRun::inspect() {
 void PackingRun::interrupt(Stop stop) {
     interrupted_ = true;
     if (process_ && stop == Stop::with_checkpoint) {
-        core::replace_file(folder_ / deck::control_file, deck::control_at_once());
+        core::replace_file(engine_folder() / deck::control_file, deck::control_at_once());
     } else if (process_) {
         process_->terminate();
     } else {
@@ -195,8 +197,8 @@ double PackingRun::silent_for() const {
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.
 std::optional<PackingEnd> PackingRun::go_on() {
     seal();
-    engine::make_sole_writer(folder_);
-    auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
+    engine::make_sole_writer(engine_folder());
+    auto const checkpoint = read_checkpoint(engine_folder(), deck_, planned_.prepared->time.steps_per_cycle);
     if (!checkpoint || checkpoint->cycle != stop_) {
         return PackingEnd{core::Outcome::outputs_incomplete,
                           fmt::format("the engine left no checkpoint after cycle {}", stop_)};
@@ -210,14 +212,13 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (engine_.watch) engine_.watch->check();
     watch_->check();
-    if (interrupted_) {
-        seal();
-        return interrupted_end();
-    }
-    engine::RunReport const report = engine::examine_run(folder_, status, engine::Stage::driving);
+    if (interrupted_) seal();
+    engine::RunReport const report = engine::examine_run(engine_folder(), status, engine::Stage::driving);
+    bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
+    if (is_over) place_->bring_back();
+    if (interrupted_) return interrupted_end();
     if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
-    if (stop_ < packing_.cycles) return go_on();
-    return conclude(report.last_step);
+    return is_over ? conclude(report.last_step) : go_on();
 }
 
 /// Evaluates what the engine wrote, and marks the packing as finished.

@@ -49,6 +49,9 @@ class Attempt {
         return end_;
     }
 
+    /// What was measured, of a run that did not fail.
+    evaluate::EvaluatedPacking take_evaluated() { return run_.take_evaluated(); }
+
   private:
     /// The first signal asks for a checkpoint at the end of the cycle, a second one does not wait for it.
     void wait_for_signal(Stop stop) {
@@ -101,6 +104,7 @@ engine::Engine same_engine(std::filesystem::path const& folder) {
                         "'vibrotrough run' again, which tests it",
                         planned.program.string()));
     }
+    here.scratch = planned.scratch;
     here.watch = std::make_shared<engine::BinaryWatch const>(identity);
     return here;
 }
@@ -111,10 +115,10 @@ std::optional<deck::PackingPlan> find_wanted(CaseDecision const& decision, int p
     return found == decision.wanted.end() ? std::nullopt : std::optional(*found);
 }
 
-WorkResult finish_if_enough(PlannedCase const& planned, std::string const& engine_version,
-                            Policy const& policy) {
-    KnownCase const known = know(planned);
-    CaseDecision const decision = policy.decide(known);
+/// @param evaluated  packings that this process measured itself
+WorkResult finish_if_enough(KnownCase const& known, CaseDecision const& decision,
+                            std::string const& engine_version, evaluate::EvaluatedPackings evaluated) {
+    PlannedCase const& planned = *known.planned;
     if (decision.result.empty()) {
         auto const missing = std::ranges::count_if(
             decision.wanted, [&](deck::PackingPlan const& packing) { return !is_done(known, packing); });
@@ -123,7 +127,8 @@ WorkResult finish_if_enough(PlannedCase const& planned, std::string const& engin
                             "works on",
                             planned.id, missing)};
     }
-    auto const result = finish_case(planned, engine_version, {decision.result, decision.cycles});
+    auto const result =
+        finish_case(planned, engine_version, {decision.result, decision.cycles}, std::move(evaluated));
     return {WorkResult::finished, fmt::format("case {}: {}", planned.id, name_of(result.outcome))};
 }
 
@@ -147,18 +152,21 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         return {WorkResult::busy,
                 fmt::format("another process runs packing {} of case {}", id.packing, planned.id)};
     }
+    evaluate::EvaluatedPackings evaluated;
     for (int attempt = 0;; ++attempt) {
         // Asked again after each run: when this packing was the last of its round, more cycles of it may be
         // wanted.
         KnownCase const known = know(planned);
-        auto const packing = find_wanted(policy.decide(known), id.packing);
-        if (!packing || is_done(known, *packing)) return finish_if_enough(planned, engine.version, policy);
+        CaseDecision const decision = policy.decide(known);
+        auto const packing = find_wanted(decision, id.packing);
+        if (!packing || is_done(known, *packing))
+            return finish_if_enough(known, decision, engine.version, std::move(evaluated));
         evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
-        PackingEnd const end =
-            find_cause(planned, id.packing,
-                       Attempt(engine, campaign_folder, planned, *packing, deadline).run(), memory_kills);
+        Attempt running(engine, campaign_folder, planned, *packing, deadline);
+        PackingEnd const end = find_cause(planned, id.packing, running.run(), memory_kills, engine.scratch);
         if (!end.failure) {
+            evaluated.insert_or_assign(id.packing, running.take_evaluated());
             attempt = -1;
             continue;
         }

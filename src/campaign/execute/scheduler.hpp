@@ -59,7 +59,7 @@ struct Requeueing {
     std::string_view command;  ///< of the shell, with which a task puts itself into the queue again
 };
 
-/// A scheduler of job arrays: three functions, and the words that differ between schedulers.
+/// A scheduler of job arrays: its functions, and the words that differ between schedulers.
 ///
 /// To add one, write its functions in one file, declare it below, and list it in executors.cpp. Its keys are
 /// a section of [run] with its name (src/scenario/reader/run_section.cpp).
@@ -83,6 +83,11 @@ struct Scheduler {
 
     /// Takes tasks of an array out of the queue. A task that has started meanwhile may go on.
     void (*cancel)(SubmittedArray const& array, std::vector<int> const& tasks);
+
+    /// What the site has counted for the arrays in its accounting: s, cores of each task times the time that
+    /// it had them, also of tasks that were run again. Nothing where there is no accounting, or where this
+    /// scheduler is not asked for it.
+    std::optional<double> (*count_core_time)(std::vector<SubmittedArray>& arrays) = nullptr;
 };
 
 extern Scheduler const pbs;    ///< PBS Professional and OpenPBS

@@ -1,5 +1,6 @@
 #include "campaign/execute/settled_packings.hpp"
 
+#include "campaign/execute/run_place.hpp"
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -92,6 +93,7 @@ struct SettledPackings::Settling {
     std::vector<Ready> waiting;
     bool interrupted = false;
     std::optional<engine::FolderWatch> watch = {};
+    std::unique_ptr<RunPlace> place = {};
     std::unique_ptr<engine::EngineProcess> process;
 };
 
@@ -126,8 +128,10 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     core::remove_tree(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
     settling->watch.emplace(settling->folder);
+    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch);
     settling->process = std::make_unique<engine::EngineProcess>(
-        context_, engine_, settling->folder, [this, key](engine::ExitStatus status) { ended(key, status); },
+        context_, engine_, settling->place->folder(),
+        [this, key](engine::ExitStatus status) { ended(key, status); },
         engine::Launch{deck::settle_file, {}});
     settling_.emplace(key, std::move(settling));
 }
@@ -161,6 +165,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
     settling->watch->check();
+    if (!settling->interrupted) settling->place->bring_back();
     if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
     if (!settled.failure) {
         publish(settling->folder, folder_ / key, settling->deck);

@@ -141,10 +141,26 @@ void cancel(SubmittedArray const& array, std::vector<int> const& tasks) {
         call({"scancel", "--state=PENDING", fmt::format("{}_[{}]", *array.job, fmt::join(tasks, ","))});
 }
 
+/// -D: also what a task took before it was queued again.
+std::optional<double> count_core_time(std::vector<SubmittedArray>& arrays) {
+    auto const names = name_by_id(arrays, find_by_name);
+    if (names.empty()) return 0;
+    if (!has_command("sacct")) return {};
+    CallAnswer const answer =
+        call({"sacct", "-n", "-P", "-X", "-a", "-D", "-j", ids_of(names), "-o", "JobID,CPUTimeRAW"});
+    if (answer.code != 0) return {};
+    double sum = 0;
+    for (auto const& row : rows_of(answer.output, '|')) {
+        if (row.size() == 2) sum += static_cast<double>(number_in<long>(row[1]).value_or(0));
+    }
+    return sum;
+}
+
 }  // namespace
 
 constexpr Requeueing again{"--requeue", "--signal=B:USR1@", "scontrol requeue ${SLURM_ARRAY_JOB_ID}_$index"};
 constinit Scheduler const slurm{
-    "slurm", "Slurm", "${SLURM_ARRAY_TASK_ID:?}", "$SLURM_ARRAY_JOB_ID", again, submit, ask, cancel};
+    "slurm", "Slurm",        "${SLURM_ARRAY_TASK_ID:?}", "$SLURM_ARRAY_JOB_ID", again, submit, ask,
+    cancel,  count_core_time};
 
 }  // namespace vibrotrough::campaign

@@ -4,6 +4,7 @@
 #include "campaign/execute/task_list.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
+#include "core/parallel.hpp"
 
 #include <algorithm>
 
@@ -20,11 +21,18 @@ class TaskListExecutor : public Executor {
     std::vector<PackingActivity> given_before() override { return {}; }
 
     std::string submit(std::vector<PackingOrder> const& orders) override {
+        std::vector<PlannedCase const*> cases;
+        for (PackingOrder const& order : orders) cases.push_back(order.planned);
+        write_case_files(std::move(cases));
+        std::vector<char> is_free(orders.size());
+        core::for_each_index(orders.size(), cases_per_thread, [&] {
+            return [&](std::size_t i) {
+                is_free[i] = lock_packing(*orders[i].planned, orders[i].packing.number) ? 1 : 0;
+            };
+        });
         std::vector<PackingOrder> free;
-        for (PackingOrder const& order : orders) {
-            write_case_files(*order.planned);
-            if (lock_packing(*order.planned, order.packing.number)) free.push_back(order);
-        }
+        for (std::size_t i = 0; i < orders.size(); ++i)
+            if (is_free[i] != 0) free.push_back(orders[i]);
         scenario::RunSettings const& settings = inputs_.settings;
         std::vector<Task> const tasks =
             make_tasks(free, {inputs_.task_duration, inputs_.speed, settings.ranks.value_or(1)});

@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
@@ -191,6 +192,14 @@ void write_case_files(PlannedCase const& planned) {
     write_scenario(planned.scenario(), planned.folder);
 }
 
+void write_case_files(std::vector<PlannedCase const*> cases) {
+    std::ranges::sort(cases);
+    auto const repeated = std::ranges::unique(cases);
+    cases.erase(repeated.begin(), repeated.end());
+    core::for_each_index(cases.size(), cases_per_thread,
+                         [&] { return [&](std::size_t i) { write_case_files(*cases[i]); }; });
+}
+
 void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine const& engine) {
     FrozenFiles files{{"campaign.toml", core::read_file(campaign_file, core::largest_note)}};
     for (fs::path const& file : plan.files)
@@ -206,6 +215,7 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
 
     Json facts{{"program", core::utf8_of_bytes(engine.program.string())}, {"version", engine.version}};
     if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
+    if (!engine.scratch.empty()) facts["scratch"] = engine.scratch;
     if (Json const names = template_names(plan); !names.empty()) facts["templates"] = names;
     write_frozen(plan.folder, std::move(facts), files);
     fs::path const certificate = plan.folder / "certificate.json";
@@ -263,6 +273,7 @@ engine::Engine read_engine(fs::path const& folder) {
         engine::Engine engine{core::bytes_of_utf8(json.at("program").get<std::string>()),
                               json.at("version").get<std::string>()};
         engine.binary_sha256 = json.value("binary_sha256", std::string());
+        engine.scratch = json.value("scratch", std::string());
         return engine;
     } catch (nlohmann::json::exception const&) {
         throw core::InputError(fmt::format("{} is damaged; run the campaign again after removing this file",

@@ -32,6 +32,9 @@ void freeze(Plan const& plan, std::filesystem::path const& campaign_file, engine
 /// @throws core::InputError when it is not a campaign folder or is damaged
 Plan open_plan(std::filesystem::path const& folder);
 
+/// write_case_files() of all cases, several at the same time where the file system is slow.
+void write_case_files(std::vector<PlannedCase const*> cases);
+
 /// Names of the frozen files that are not what `freeze` wrote any more, or cannot be read.
 std::vector<std::string> edited_files(std::filesystem::path const& folder);
 

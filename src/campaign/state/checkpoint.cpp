@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr char const* seal_file = "checkpoint.json";
-
 /// The tables of a run whose rows begin with their step.
 constexpr char const* tables[] = {"cycles.csv", "phases.csv", "rolling.csv", "dump/frames.csv"};
 
@@ -94,8 +92,8 @@ std::vector<fs::path> restart_files(fs::path const& folder) {
 std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string const& drive,
                                           int steps_per_cycle) {
     try {
-        if (!fs::is_regular_file(folder / seal_file)) return {};
-        Json const seal = Json::parse(core::read_file(folder / seal_file, core::largest_note));
+        if (!fs::is_regular_file(folder / checkpoint_seal)) return {};
+        Json const seal = Json::parse(core::read_file(folder / checkpoint_seal, core::largest_note));
         Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
                                     seal.at("wall_time"),
                                     seal.value("core_time", seal.at("wall_time").get<double>())};
@@ -132,7 +130,7 @@ void seal_checkpoint(fs::path const& folder, deck::Deck const& deck, Checkpoint 
                     {"started", checkpoint.started},
                     {"wall_time", checkpoint.wall_time},
                     {"core_time", checkpoint.core_time}};
-    core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
+    core::write_file_atomically(folder / checkpoint_seal, seal.dump(2) + "\n");
     for (fs::path const& file : restart_files(folder)) {
         // The engine may be writing the next one.
         if (*checkpoint_cycle(file.filename().string()) < checkpoint.cycle) core::remove_file(file);
@@ -157,7 +155,7 @@ std::optional<Checkpoint> read_own_checkpoint(fs::path const& folder, int steps_
 
 bool has_checkpoint(fs::path const& folder) {
     std::error_code missing;
-    return fs::is_regular_file(folder / seal_file, missing);
+    return fs::is_regular_file(folder / checkpoint_seal, missing);
 }
 
 void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps_per_cycle) {
@@ -186,7 +184,7 @@ void cut_outputs(fs::path const& folder, Checkpoint const& checkpoint, int steps
 
 void remove_checkpoints(fs::path const& folder) {
     for (fs::path const& file : restart_files(folder)) core::remove_file(file);
-    core::remove_file(folder / seal_file);
+    core::remove_file(folder / checkpoint_seal);
     core::remove_file(folder / deck::checkpoint_list);
 }
 

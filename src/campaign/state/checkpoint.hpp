@@ -18,6 +18,9 @@ struct Checkpoint {
     double core_time = 0;  ///< s, processor time of the engine up to here, all ranks
 };
 
+/// The file in the packing's folder that seals a checkpoint: what is not there is not believed.
+constexpr char const* checkpoint_seal = "checkpoint.json";
+
 /// The last cycle with a complete restart file, as the deck's own list says; none without one.
 std::optional<int> last_checkpoint(std::filesystem::path const& folder);
 

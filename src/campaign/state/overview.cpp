@@ -147,13 +147,22 @@ CaseOverview survey_readable(PlannedCase const& planned, bool has_driver) {
 std::vector<store::CaseRecord> result_summaries(Plan const& plan, bool keep = false) {
     auto const studied = read_case_numerics(plan);
     std::vector<store::CaseRecord> records;
-    for (PlannedCase const& planned : plan.cases) {
-        auto found = find_summary(planned);
-        if (!found) continue;
-        if (keep && found->is_from_result) write_summary(planned, found->record);
-        if (auto const known = studied.find(planned.id); known != studied.end())
-            found->record.studied = known->second;
-        records.push_back(std::move(found->record));
+    constexpr std::size_t part = 1024;  // all at once would fill the memory twice
+    for (std::size_t begin = 0; begin < plan.cases.size(); begin += part) {
+        std::vector<std::optional<store::CaseRecord>> found(std::min(part, plan.cases.size() - begin));
+        core::for_each_index(found.size(), cases_per_thread, [&] {
+            return [&](std::size_t i) {
+                PlannedCase const& planned = plan.cases[begin + i];
+                auto summary = find_summary(planned);
+                if (!summary) return;
+                if (keep && summary->is_from_result) write_summary(planned, summary->record);
+                found[i] = std::move(summary->record);
+                if (auto const known = studied.find(planned.id); known != studied.end())
+                    found[i]->studied = known->second;
+            };
+        });
+        for (auto& record : found)
+            if (record) records.push_back(std::move(*record));
     }
     return records;
 }

@@ -1,0 +1,209 @@
+"""Engines that work in a scratch folder of the machine: what comes back, what is left, and what a machine that dies costs."""
+
+import json
+import os
+import shutil
+import signal
+import stat
+import subprocess
+import unittest
+from pathlib import Path
+
+from trough_program import EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time
+
+# Nobody would stop this for an hour; a checkpoint comes soon.
+ENDLESS = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000, "output.checkpoint_cycles": 5}
+# Long enough to be killed on the way, and then finished.
+LONG = {"measure.packings": 2, "measure.max_packings": 2, "measure.half_width": 0.00001, "measure.max_cycles": 192, "output.checkpoint_cycles": 5}
+
+
+class Scratch(EndToEndTest):
+    def setUp(self):
+        super().setUp()
+        self.scratch = self.folder / "node"
+        self.scratch.mkdir()
+        os.environ["VIBROTROUGH_TEST_SCRATCH"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "VIBROTROUGH_TEST_SCRATCH", None)
+
+    def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml"):
+        path = self.folder / name
+        path.write_text(campaign_text(changes) + (f'[run]\nscratch = "{scratch}"\n' if scratch else ""))
+        return path
+
+    def packing(self, number=1):
+        (case,) = (self.output / "cases").iterdir()
+        return case / f"packing-{number}"
+
+    def checkpoint(self):
+        """The cycle of the checkpoint that came back."""
+        seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
+        return json.loads(seals[0].read_text())["cycle"] if seals else 0
+
+    def places(self):
+        """The folders in which engines simulate now."""
+        found = []
+        for process in engines_in(self.scratch):
+            try:
+                place = Path(os.readlink(f"/proc/{process}/cwd"))
+                if (place / "in.liggghts").is_file():
+                    found.append(place)
+            except OSError:
+                pass  # ended meanwhile
+        return found
+
+    def wait_for_checkpoint(self, driver):
+        wait_until(lambda: self.checkpoint() >= 5 and self.places(), "a checkpoint came back and an engine ran", driver)
+
+    def kill(self, driver):
+        driver.send_signal(signal.SIGKILL)
+        self.finish(driver)
+        wait_until(lambda: not engines_in(self.scratch), "the engines of the killed driver were gone")
+
+    def test_the_digits_are_those_without_a_scratch_folder_and_all_files_are_there(self):
+        changes = {"measure.packings": 2, "output.frames_per_cycle": 2, "output.contacts": True}
+        self.run_campaign(self.write(changes, scratch=None), output=self.folder / "plain")
+        self.run_campaign(self.write(changes))
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
+        own = lambda folder: {path.relative_to(folder) for path in folder.glob("cases/*/packing-*/**/*") if path.name != ".engine"}  # noqa: E731
+        self.assertEqual(own(self.output), own(self.folder / "plain"))
+        for name in own(self.output):
+            if (self.output / name).is_file() and name.name not in ("packing.json", "engine.out", "log.liggghts"):
+                self.assertEqual((self.output / name).read_bytes(), (self.folder / "plain" / name).read_bytes(), name)
+        self.assertEqual(list(self.scratch.iterdir()), [], "nothing is left")
+
+    def test_the_engine_writes_in_a_private_folder_only(self):
+        driver = self.start_campaign(self.write(ENDLESS))
+        (place,) = wait_until(self.places, "an engine ran", driver)
+        self.assertEqual(place.parent, self.scratch)
+        self.assertTrue(place.name.startswith("vibrotrough-scratch-"))
+        self.assertEqual(stat.S_IMODE(place.stat().st_mode), 0o700)
+        self.assertEqual(engines_in(self.output), [])
+        self.wait_for_checkpoint(driver)
+        self.assertFalse((self.packing() / ".engine").exists())
+        for file in os.listdir(f"/proc/{engines_in(self.scratch)[0]}/fd"):
+            self.assertNotIn(str(self.output), os.readlink(f"/proc/{engines_in(self.scratch)[0]}/fd/{file}"))
+        driver.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(driver)[0], 130)
+        reached = max(int(line.split(",")[0]) for line in (self.packing() / "cycles.csv").read_text().splitlines() if line[:1].isdigit())
+        self.assertGreater(reached, 0)
+        self.assertEqual((self.packing() / "checkpoints.txt").read_text().split()[-1], str(self.checkpoint()), "no cycle is lost")
+        self.assertEqual(list(self.scratch.iterdir()), [])
+
+    def test_killed_in_the_middle_it_goes_on_and_ends_with_the_same_digits(self):
+        self.run_campaign(self.write(LONG, scratch=None), output=self.folder / "plain", wanted=None)
+        campaign = self.write(LONG)
+        driver = self.start_campaign(campaign)
+        self.wait_for_checkpoint(driver)
+        self.kill(driver)
+        left = list(self.scratch.iterdir())
+        self.assertTrue(left, "the control: what SIGKILL leaves")
+        kept = self.checkpoint()
+        self.assertGreater(kept, 0)
+        self.run_campaign(campaign, wanted=None)
+        self.assertIn(f"VIBROTROUGH BEGIN cycle {kept}\n", (self.packing() / "engine.out").read_text() + self.begun())
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
+        self.assertEqual(list(self.scratch.iterdir()), [], "the next run removes what was left")
+
+    def begun(self):
+        """All beginnings that the log names, which holds more than the last start."""
+        return "".join(line + "\n" for line in (self.packing() / "log.liggghts").read_text().splitlines() if "VIBROTROUGH BEGIN" in line)
+
+    def test_a_machine_that_dies_costs_what_was_not_brought_back(self):
+        campaign = self.write(ENDLESS)
+        driver = self.start_campaign(campaign)
+        self.wait_for_checkpoint(driver)
+        self.kill(driver)
+        for left in self.scratch.iterdir():
+            shutil.rmtree(left)  # and its disk with it
+        kept = self.checkpoint()
+        driver = self.start_campaign(campaign)
+
+        def begun():
+            for process in engines_in(self.scratch):
+                words = Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+                if b"done" in words:
+                    return int(words[words.index(b"done") + 1])
+            return None
+
+        self.assertEqual(wait_until(begun, "the packing went on", driver), kept)
+        driver.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(driver)[0], 130)
+
+    def test_each_moment_of_the_way_back_is_that_of_a_killed_run(self):
+        """What has come back when the driver dies between two files: with the old seal, or with the new one."""
+        campaign = self.write(LONG | {"measure.packings": 1, "measure.max_packings": 1})
+        driver = self.start_campaign(campaign)
+        self.wait_for_checkpoint(driver)
+        (place,) = self.places()
+        self.assertTrue(pause(engines_in(self.scratch)[0]))
+        self.kill(driver)
+        packing, before = self.packing(), self.checkpoint()
+        # All but the seal is newer.
+        for file in place.iterdir():
+            if file.name not in (".engine", "checkpoint.json") and ".part-" not in file.name:
+                shutil.copy(file, packing / file.name)
+        self.assertEqual(self.checkpoint(), before)
+        self.run_campaign(campaign, wanted=None)
+        campaign.write_text(campaign.read_text().partition("[run]")[0])
+        self.run_campaign(campaign, output=self.folder / "plain", wanted=None)
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
+
+    def test_no_link_is_followed_on_the_way_back(self):
+        precious = self.folder / "precious"
+        precious.mkdir()
+        (precious / "letter").write_text("dear")
+        # In the place of the engine, and in the campaign's folder where the file comes back to.
+        os.environ["VIBROTROUGH_TEST_BREAK"] = f"ln -sf '{precious}/letter' planted; ln -sf '{precious}' folder; mkfifo pipe"
+        driver = self.start_campaign(self.write(ENDLESS))
+        wait_until(self.places, "an engine ran", driver)
+        (self.packing() / "phases.csv").symlink_to(precious / "letter")
+        self.wait_for_checkpoint(driver)
+        driver.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(driver)[0], 130)
+        self.assertEqual([path.name for path in precious.iterdir()], ["letter"])
+        self.assertEqual((precious / "letter").read_text(), "dear")
+        self.assertFalse((self.packing() / "phases.csv").is_symlink())
+        for name in ("planted", "folder", "pipe"):
+            self.assertFalse(os.path.lexists(self.packing() / name), name)
+        self.assertEqual(list(self.scratch.iterdir()), [])
+
+    def test_a_scratch_folder_that_is_removed_is_not_the_engines_fault(self):
+        driver = self.start_campaign(self.write(ENDLESS))
+        (place,) = wait_until(self.places, "an engine ran", driver)
+        shutil.rmtree(place)
+        code, _, errors = self.finish(driver)
+        self.assertEqual(code, 3, errors)
+        self.assertIn(f"{place} was removed while an engine worked in it", errors)
+        self.assertEqual(list(self.output.glob("cases/*/failure.json")), [])
+
+    def test_a_full_scratch_folder_is_named(self):
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400k", "none", self.scratch], capture_output=True, text=True)
+        if mounted.returncode != 0:
+            self.skipTest(f"may not mount: {mounted.stderr}")
+        self.addCleanup(subprocess.run, ["umount", "-l", self.scratch], check=True)
+        done = self.run_campaign(self.write(ENDLESS), wanted=None)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"(disk-full|cannot write).*(scratch|node)")
+
+    def test_where_there_is_no_such_folder_it_is_said_in_one_line(self):
+        for scratch, said in (("$VIBROTROUGH_NO_SUCH", "VIBROTROUGH_NO_SUCH is not set on "), ("$VIBROTROUGH_TEST_SCRATCH/nowhere", "there is no folder "),
+                              ("/dev/null", "there is no folder /dev/null")):  # fmt: skip
+            done = self.run_campaign(self.write(ENDLESS, scratch), wanted=3)
+            self.assertIn(said, done.stderr.splitlines()[-1])
+        for scratch in ("here", "$", "$A B/c", "../up", "~/x", "$(id)", "/tmp/\\u001b[2J"):
+            done = self.run_campaign(self.write(ENDLESS, scratch), wanted=2)
+            self.assertIn("run.scratch", done.stderr.splitlines()[-1])
+
+    def test_tmpdir_is_that_of_the_machine(self):
+        os.environ["TMPDIR"] = str(self.scratch)
+        self.addCleanup(os.environ.pop, "TMPDIR", None)
+        driver = self.start_campaign(self.write(ENDLESS, "$TMPDIR"))
+        (place,) = wait_until(self.places, "an engine ran", driver)
+        self.assertEqual(place.parent, self.scratch)
+        driver.send_signal(signal.SIGINT)
+        self.finish(driver)
+        self.assertEqual(list(self.scratch.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
