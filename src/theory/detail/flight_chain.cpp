@@ -114,7 +114,8 @@ Hop FlightChain::landing(Start const& start, Ballistic const& path, double low, 
         double const newton = -gap / rate, step = newton / (1 + newton * bend / 2);
         (gap > 0 ? low : high) = t;
         double next = t + step;
-        bool const inside = rate < 0 && next >= low && next <= high;
+        // Beside the lowest gap, where the rate is zero, Halley's step is short and leads nowhere.
+        bool const inside = rate < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
             Instant const end = shifted(here, step);
             Decayed const to_end = path.decayed(end.t);
