@@ -17,8 +17,6 @@ namespace vibrotrough::theory {
 namespace {
 
 using detail::Instant;
-using detail::Law;
-using detail::NormalMotion;
 using detail::PlasticOrbit;
 using detail::two_pi;
 

@@ -21,6 +21,12 @@ void describe_period(std::vector<Piece> const& pieces, Motion& motion) {
     }
 }
 
+/// Moves what comes before number `first` to the end.
+template <class Item>
+void start_at(std::vector<Item>& items, std::size_t first) {
+    std::rotate(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(first), items.end());
+}
+
 }  // namespace
 
 void PhaseNotes::join_ends() {
@@ -99,8 +105,8 @@ void PhaseNotes::describe(ConveyorWaves const& waves, NormalOrbit const& orbit,
     double const length = two_pi * orbit.cycles;
     for (std::size_t i = 0; i < first; ++i) motion.pieces[i].start += length, motion.pieces[i].end += length;
     for (std::size_t i = 0; i < impacts_before; ++i) motion.impacts[i].t += length;
-    std::ranges::rotate(motion.pieces, motion.pieces.begin() + static_cast<std::ptrdiff_t>(first));
-    std::ranges::rotate(motion.impacts, motion.impacts.begin() + static_cast<std::ptrdiff_t>(impacts_before));
+    start_at(motion.pieces, first);
+    start_at(motion.impacts, impacts_before);
     describe_period(motion.pieces, motion.motion);
 }
 
