@@ -1,6 +1,7 @@
 #include "theory/conveyor.hpp"
 
 #include "theory/detail/conveyor_check.hpp"
+#include "theory/detail/conveyor_efficiency.hpp"
 #include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/conveyor_walk.hpp"
 #include "theory/detail/periodic.hpp"
@@ -364,20 +365,26 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 
 ConveyorMotion solve(Conveyor const& conveyor) {
     detail::check_ranges(conveyor);
+    Conveyor const noticeable = detail::with_noticeable_forces(conveyor);
+    auto quick = detail::ConveyorEfficiency().motion(noticeable);
+    ConveyorMotion answer = quick ? std::move(*quick) : detail::walked_motion(conveyor);
+    // Forces and energies are those of the conveyor itself, however weak they are.
+    answer.model = std::make_shared<ConveyorModel const>(conveyor);
+    return answer;
+}
+
+ConveyorMotion detail::walked_motion(Conveyor const& conveyor) {
     try {
-        Solver solver(detail::with_noticeable_forces(conveyor));
-        auto const known = solver.with_period();
-        ConveyorMotion answer = known ? *known : solver.averaged();
-        // Forces and energies are those of the conveyor itself, however weak they are.
-        answer.model = std::make_shared<ConveyorModel const>(conveyor);
-        return answer;
+        Solver solver(with_noticeable_forces(conveyor));
+        auto known = solver.with_period();
+        return known ? std::move(*known) : solver.averaged();
     } catch (PhaseError const& error) {
-        throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(conveyor) + ")");
+        throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }
 }
 
 std::optional<ConveyorMotion> detail::motion_with_period(Conveyor const& conveyor) {
-    return Solver(detail::with_noticeable_forces(conveyor)).with_period();
+    return Solver(conveyor).with_period();
 }
 
 ConveyorMotion solve_plastic(Conveyor const& conveyor, Detail detail) {

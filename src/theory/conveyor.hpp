@@ -92,15 +92,14 @@ struct ConveyorMotion {
     std::shared_ptr<ConveyorModel const> model;  ///< evaluates the pieces
 };
 
-/// The long-term motion that develops from a start at rest. The solution is analytic within each phase. The
-/// ends of phases are found in steps that provably do not skip a zero, so that short phases are not
-/// overlooked.
+/// The long-term motion that develops from a start at rest on the trough at t = 0. This is the answer of
+/// EfficiencySolver to the last bit, with its phases. Each phase is solved in closed form; its ends are zeros
+/// of sums of sines, all of which are found.
 ///
-/// The normal motion is followed until its state at the start of a cycle recurs after 1 to 64 cycles; the
-/// motion along the trough is then the fixed point of a map of one velocity. Two successive periods must
-/// agree to 1e-9, because long chains of rebounds amplify rounding errors. If the state does not recur within
-/// 3000 cycles, the mean of eta is given with the half-width of its confidence interval from 20 batches
-/// (Student's t). A batch has 125 cycles; more where flights are long, fewer where phases are very many.
+/// The normal motion is followed until it repeats after 1 to 64 cycles; the motion along the trough is then
+/// the fixed point of a map of one velocity. Where there is no period, the mean of eta is given with the
+/// half-width of its 95 % confidence interval from 20 batches of 16 to 128 cycles, and the phases of the same
+/// cycles.
 ///
 /// If static friction exceeds kinetic friction, several periodic motions can exist: the one reached from rest
 /// is given.

@@ -3,6 +3,7 @@
 #include "theory/detail/contact.hpp"
 #include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/conveyor_efficiency.hpp"
+#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
@@ -19,23 +20,13 @@ using detail::Instant;
 using detail::Law;
 
 constexpr int bits = 3, longest_mode = 21;
-constexpr double shortest_phase = 1e-12;  // rad, as in solve()
-
-// The last Newton step is added to first order instead of being evaluated again; the error is its square.
-constexpr double velocity_tolerance = 3e-6;
-
-/// Adds up one period: the displacement, its derivative with respect to the starting velocity, and the mode.
-struct Tally {
-    double displacement = 0, derivative = 0;
-    ModeCode mode = 0;
+/// The mode of one period.
+struct ModeOfPeriod {
+    ModeCode code = 0;
     int length = 0;
 
-    void operator()(PhaseKind kind, Instant from, Instant to, double moved, double slope) {
-        double const h = to.t - from.t;
-        displacement += moved;
-        derivative += slope * h;  // the time of a stop changes too, but the speed is zero there
-        if (h > shortest_phase) mode = append_phase(mode, kind, length++);
-    }
+    void clear() { *this = {}; }
+    void add(PhaseKind kind, Instant, Instant, double) { code = append_phase(code, kind, length++); }
 };
 
 /// Without a flight the period may start within a slide. Its first piece then continues its last one, and the
@@ -80,29 +71,17 @@ std::string to_string(ModeCode code) {
 struct EfficiencySolver::Memory {
     double throw_number = 0;  // that `normal` belongs to
     detail::NormalMotion normal;
-    detail::Hints hints;
-    double v = 0, v_before = 0;  // velocity at the start of the period for the last two points
-    ModeCode mode = 0, mode_before = 0;
     detail::ConveyorEfficiency conveyors;
 
-    /// A first guess: linear extrapolation from the last two points if they changed by similar amounts.
-    double guess(bool flies) const {
-        bool const flew = mode != 0 && static_cast<int>(mode & 7) == static_cast<int>(PhaseKind::flight) + 1;
-        if (flew != flies) return 0;
-        return mode == mode_before ? 2 * v - v_before : v;
-    }
-    Efficiency solve_periodic(PointMass const& input);
-    Efficiency without_period(PointMass const& input);
+    std::optional<Efficiency> solve_periodic(PointMass const& input);
 };
 
-// Motions without a period are rare: leave them to solve().
-Efficiency EfficiencySolver::Memory::without_period(PointMass const& input) {
-    Motion const motion = theory::solve(input);
-    return {motion.velocity_efficiency, 0, motion.period_cycles, motion.outcome};
-}
-
-Efficiency EfficiencySolver::Memory::solve_periodic(PointMass const& input) {
-    if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) return without_period(input);
+/// Nothing for motions without a period.
+std::optional<Efficiency> EfficiencySolver::Memory::solve_periodic(PointMass const& input) {
+    if (std::abs(input.tan_inclination) > input.friction || input.friction == 0) {
+        Motion const motion = theory::solve(input);
+        return Efficiency{motion.velocity_efficiency, 0, 0, motion.outcome};
+    }
     Law const law = detail::make_law(input);
     bool const flies = input.throw_number > 1;
     if (flies && input.throw_number != throw_number) {
@@ -110,29 +89,16 @@ Efficiency EfficiencySolver::Memory::solve_periodic(PointMass const& input) {
         detail::find_normal_motion(input.throw_number, normal);
         throw_number = input.throw_number;
     }
-    if (flies && normal.cycles == 0) return without_period(input);
+    if (flies && normal.cycles == 0) return std::nullopt;
     if (!flies) {
         throw_number = 0;
-        if (!detail::start_at_slide(law, normal)) {
-            return {0, append_phase(0, PhaseKind::rest, 0), 1, Outcome::periodic};
-        }
+        if (!detail::start_at_slide(law, normal))
+            return Efficiency{0, append_phase(0, PhaseKind::rest, 0), 1, Outcome::periodic};
     }
-    Tally tally;
-    auto const period = [&](double v0) {
-        tally = {};
-        return detail::follow_period(law, normal, v0, hints, tally);
-    };
-    auto start = detail::fixed_point(period, guess(flies), velocity_tolerance);
-    if (!flies && start.v != 0 && std::abs(start.v + start.error) <= velocity_tolerance) {
-        start =
-            detail::fixed_point(period, 0, velocity_tolerance);  // exact if there is a rest before the slide
-    }
-    v_before = v;
-    v = start.v + start.error;
-    mode_before = mode;
-    mode = !flies && start.v != 0 ? joined(tally.mode, tally.length) : tally.mode;
-    double const displacement = tally.displacement + tally.derivative * start.error;
-    return {displacement / (normal.end.t - normal.start.t), mode, normal.cycles, Outcome::periodic};
+    ModeOfPeriod mode;
+    detail::SteadyMotion const steady = detail::find_steady_motion(law, normal, mode);
+    ModeCode const code = !flies && steady.v != 0 ? joined(mode.code, mode.length) : mode.code;
+    return Efficiency{steady.eta, code, normal.cycles, Outcome::periodic};
 }
 
 EfficiencySolver::EfficiencySolver() : memory_(std::make_unique<Memory>()) {}
@@ -143,7 +109,11 @@ EfficiencySolver& EfficiencySolver::operator=(EfficiencySolver&&) noexcept = def
 Efficiency EfficiencySolver::operator()(PointMass const& input) {
     detail::check_ranges(input);
     try {
-        return memory_->solve_periodic(detail::with_noticeable_forces(input));
+        if (auto const answer = memory_->solve_periodic(detail::with_noticeable_forces(input)))
+            return *answer;
+        Conveyor conveyor{};
+        conveyor.point = input;
+        return solve(conveyor);
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }
@@ -153,7 +123,7 @@ Efficiency EfficiencySolver::solve(Conveyor const& input) {
     detail::check_ranges(input);
     auto const quick = memory_->conveyors(detail::with_noticeable_forces(input));
     if (quick) return *quick;
-    ConveyorMotion const m = theory::solve(input);
+    ConveyorMotion const m = detail::walked_motion(input);
     return {m.motion.velocity_efficiency, mode_code(m.motion), m.motion.period_cycles, m.motion.outcome,
             m.half_width};
 }

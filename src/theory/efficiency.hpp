@@ -31,9 +31,8 @@ struct Efficiency {
     double half_width = 0;       ///< of the 95 % confidence interval of eta if no period was found
 };
 
-/// Solves many point masses or conveyors (see solve()) one after another, fast. It reuses what neighbouring
-/// points share: the flights of the last throw number, and the last periodic motion as a first guess. The
-/// guesses change the cost but not the result beyond the stated error, because every root is still bracketed.
+/// Solves many point masses or conveyors (see solve()) one after another, fast. It reuses the flights while
+/// only other inputs change. What was solved before does not change a bit of an answer.
 ///
 /// Use one solver per thread. It is fastest when the throw number is the outermost loop.
 class EfficiencySolver {
@@ -47,8 +46,7 @@ class EfficiencySolver {
 
     /// @throws std::invalid_argument, PhaseError as solve() does
     Efficiency operator()(PointMass const& input);
-    /// The same for the general model. Extreme values, and motions that are marginal or have no period, take
-    /// as long as solve(Conveyor). @throws std::invalid_argument, PhaseError as solve(Conveyor) does
+    /// The same for the general model. @throws std::invalid_argument, PhaseError as solve(Conveyor) does
     Efficiency solve(Conveyor const& input);
 
   private:

@@ -47,7 +47,7 @@ class Grid {
         inputs.set(map_.x.input, x);
         inputs.set(map_.y.input, y);
         MapPoint point = solver(inputs);
-        if (!inputs.plastic()) point.mode = with_chains_joined(point.mode);
+        if (inputs.get(Input::restitution).value_or(0) > 0) point.mode = with_chains_joined(point.mode);
         return point;
     }
     MapPoint& at(int i, int j) const {

@@ -17,12 +17,8 @@ namespace vibrotrough::theory {
 namespace {
 
 using detail::Instant;
-using detail::Law;
-using detail::NormalMotion;
 using detail::PlasticOrbit;
 using detail::two_pi;
-
-constexpr double shortest_phase = 1e-12;  // rad; shorter phases are rounding errors, not motion
 
 Motion resting_motion() {
     return {.velocity_efficiency = 0,
@@ -46,87 +42,45 @@ Motion endless_motion(PointMass const& input) {
             .outcome = level ? Outcome::indifferent : Outcome::runs_away};
 }
 
-std::vector<Phase> record_period(Law const& law, NormalMotion const& normal, double v) {
-    std::vector<Phase> phases;
-    detail::Hints hints;
-    detail::follow_period(law, normal, v, hints,
-                          [&](PhaseKind kind, Instant from, Instant to, double displacement, double) {
-                              if (to.t - from.t > shortest_phase)
-                                  phases.push_back({kind, from.t, to.t, displacement});
-                          });
-    return phases;
-}
+struct PhasesOfPeriod {
+    std::vector<Phase> all;
 
-void describe(Motion& motion, double length) {
+    void clear() { all.clear(); }
+    void add(PhaseKind kind, Instant from, Instant to, double displacement) {
+        all.push_back({kind, from.t, to.t, displacement});
+    }
+};
+
+void describe(Motion& motion) {
     double const shift = two_pi * std::floor(motion.phases.front().start / two_pi);
-    double displacement = 0;
     for (Phase& phase : motion.phases) {
         phase.start -= shift;
         phase.end -= shift;
-        displacement += phase.relative_displacement;
         motion.mode += to_string(phase.kind);
         if (phase.kind == PhaseKind::flight) {
             motion.flight_number = std::max(motion.flight_number, (phase.end - phase.start) / two_pi);
         }
     }
-    motion.velocity_efficiency = displacement / length;
 }
 
-/// The result when no period was found: the mean over the second half of the flights followed.
-Motion unsettled_motion(Law const& law, NormalMotion const& normal) {
-    double const middle = (normal.start.t + normal.end.t) / 2;
-    double displacement = 0, time = 0;
-    detail::Hints hints;
-    detail::follow_period(law, normal, 0, hints,
-                          [&](PhaseKind, Instant from, Instant to, double moved, double) {
-                              if (from.t < middle) return;
-                              displacement += moved;
-                              time += to.t - from.t;
-                          });
-    return {.velocity_efficiency = displacement / time,
-            .mode = "",
-            .phases = {},
-            .flight_number = 0,
-            .period_cycles = 0,
-            .converged = false,
-            .outcome = Outcome::unsettled};
-}
-
-/// Without a flight: moves the start of the period from within a slide to the start of the positive slide, or
-/// of the negative slide if there is no positive one. @return whether it did
-bool start_at_first_slide(Motion& motion, Law const& law, NormalMotion& normal) {
-    for (auto const first : {PhaseKind::positive_slide, PhaseKind::negative_slide}) {
-        for (Phase const& phase : motion.phases) {
-            if (phase.kind != first || phase.start == normal.start.t) continue;
-            normal.start = Instant::at(phase.start);
-            normal.end = normal.start;
-            normal.end.t += two_pi;
-            motion.phases = record_period(law, normal, 0);
-            return true;
-        }
+/// Sets the motion and the velocity of an orbit whose normal motion is periodic.
+void solve_along(PlasticOrbit& orbit) {
+    PhasesOfPeriod phases;
+    auto const [v, eta] = detail::find_steady_motion(orbit.law, orbit.normal, phases);
+    orbit.velocity = v;
+    if (orbit.starts_within_slide()) {
+        detail::start_at_first_slide(phases.all, [](Phase& first, Phase const& last) {
+            first.relative_displacement += last.relative_displacement;
+        });
     }
-    return false;
-}
-
-/// @return the velocity at the start of the recorded period
-double solve_along(PlasticOrbit& orbit, bool flies) {
-    Law const& law = orbit.law;
-    NormalMotion& normal = orbit.normal;
-    Motion& motion = orbit.motion;
-    detail::Hints hints;
-    auto const ignore = [](PhaseKind, Instant, Instant, double, double) {};
-    auto const period = [&](double v0) { return detail::follow_period(law, normal, v0, hints, ignore); };
-    double const start = detail::fixed_point(period, 0, 0).v;
-    motion = {.velocity_efficiency = 0,
-              .mode = "",
-              .phases = record_period(law, normal, start),
-              .flight_number = 0,
-              .period_cycles = normal.cycles,
-              .converged = true,
-              .outcome = Outcome::periodic};
-    bool const moved = !flies && start != 0 && start_at_first_slide(motion, law, normal);
-    describe(motion, normal.end.t - normal.start.t);
-    return moved ? 0 : start;
+    orbit.motion = {.velocity_efficiency = eta,
+                    .mode = "",
+                    .phases = std::move(phases.all),
+                    .flight_number = 0,
+                    .period_cycles = orbit.normal.cycles,
+                    .converged = true,
+                    .outcome = Outcome::periodic};
+    describe(orbit.motion);
 }
 
 PlasticOrbit solve_checked(PointMass const& input) {
@@ -138,11 +92,11 @@ PlasticOrbit solve_checked(PointMass const& input) {
     bool const flies = input.throw_number > 1;
     if (flies) detail::find_normal_motion(input.throw_number, orbit.normal);
     if (flies && orbit.normal.cycles == 0) {
-        orbit.motion = unsettled_motion(orbit.law, orbit.normal);
+        orbit.motion.outcome = Outcome::unsettled;
     } else if (!flies && !detail::start_at_slide(orbit.law, orbit.normal)) {
         orbit.motion = resting_motion();
     } else {
-        orbit.velocity = solve_along(orbit, flies);
+        solve_along(orbit);
     }
     return orbit;
 }
@@ -201,7 +155,9 @@ PlasticOrbit solve_orbit(PointMass const& input) {
 }  // namespace detail
 
 Motion solve(PointMass const& input) {
-    return detail::solve_orbit(input).motion;
+    Conveyor conveyor{};
+    conveyor.point = input;
+    return solve_plastic(conveyor, Detail::motion).motion;
 }
 
 }  // namespace vibrotrough::theory

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
 
 namespace vibrotrough::theory {
 namespace {
@@ -104,20 +105,33 @@ struct Forces {
     double normal, tangential;
 };
 
+/// The maximum of f over a piece: the largest of equal steps, and then the highest point beside it.
+double largest(Piece const& piece, double step, std::function<double(double)> const& f) {
+    int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / step)));
+    double const width = (piece.end - piece.start) / parts;
+    double best = piece.start, most = f(best);
+    for (int i = 1; i <= parts; ++i) {
+        double const t = piece.start + width * i, value = f(t);
+        if (value > most) best = t, most = value;
+    }
+    auto const found = boost::math::tools::brent_find_minima([&](double t) { return -f(t); },
+                                                             std::max(best - width, piece.start),
+                                                             std::min(best + width, piece.end), 26);
+    return std::max(most, -found.second);
+}
+
 /// The largest forces in contact. Every piece is looked at, because the contacts may be a small part of a
-/// period; the distance of 1/20 of the shortest quarter period costs 1e-3 of the value at most.
+/// period.
 Forces largest_forces(ConveyorMotion const& motion) {
     double const step = shortest_stretch(motion.model->conveyor()) / 20;
     Forces most{};
     for (Piece const& piece : motion.pieces) {
         PieceMotion const m(*motion.model, piece);
         if (m.flies()) continue;
-        int const parts = std::max(1, static_cast<int>(std::ceil((piece.end - piece.start) / step)));
-        for (int i = 0; i <= parts; ++i) {
-            double const t = piece.start + (piece.end - piece.start) * i / parts;
-            most.normal = std::max(most.normal, m.normal_force(t));
-            most.tangential = std::max(most.tangential, std::abs(m.tangential_force(t)));
-        }
+        auto const most_of = [&](auto const& force) { return largest(piece, step, force); };
+        most.normal = std::max(most.normal, most_of([&](double t) { return m.normal_force(t); }));
+        most.tangential =
+            std::max(most.tangential, most_of([&](double t) { return std::abs(m.tangential_force(t)); }));
     }
     return most;
 }

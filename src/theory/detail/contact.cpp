@@ -48,7 +48,8 @@ Instant Slide::stop_between(double w0, Instant from, double lo, double hi, doubl
         double const newton = -w / slope, bend = b_ * here.cosine / slope;
         double const step = newton / (1 + newton * bend / 2);  // Halley
         double next = h + step;
-        bool const inside = slope < 0 && next >= lo && next <= hi;
+        // Where the speed is largest, Halley's step is short and leads nowhere.
+        bool const inside = slope < 0 && std::abs(newton * bend) < 1 && next >= lo && next <= hi;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
         // Near a tangency rounding keeps the steps from shrinking: then bisect.
         if (!inside || i > 20) next = lo + (hi - lo) / 2;

@@ -7,15 +7,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <boost/math/distributions/students_t.hpp>
 
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double shortest_phase = 1e-12;  // rad, as in solve()
-// The last Newton step is added to first order instead of being evaluated again; the error is its square.
-constexpr double velocity_tolerance = 1e-6;
+// The last Newton step is added to first order. It is so small that it changes neither the mode nor the sum
+// of the phases.
+constexpr double velocity_tolerance = 1e-13;
 constexpr double least_drift = 1e-9;  // per period, of a mass that runs away
 constexpr double settled = 1e-11;     // change of the velocity from period to period
 // Motions without a period. Batches become longer until the half-width is as wanted.
@@ -23,8 +24,9 @@ constexpr int settling = 100, shortest_batch = 16, longest_batch = 128;  // cycl
 constexpr std::size_t batch_count = 20;
 constexpr int flights_per_batch = 8;
 constexpr double wanted_half_width = 0.01;
-constexpr int most_periods = 3000;        // from rest
-constexpr double all_but_one = 1 - 1e-9;  // share of mu up to which gravity is plainly weaker than friction
+constexpr std::size_t most_notes = 20000;  // kept of a motion without a period, beside its last batch
+constexpr int most_periods = 3000;         // from rest
+constexpr double all_but_one = 1 - 1e-9;   // share of mu up to which gravity is plainly weaker than friction
 
 bool within(double x, double low, double high) {
     return x >= low && x <= high;
@@ -42,8 +44,6 @@ bool ordinary(Conveyor const& c) {
     if (c.air_drag == 0) good = good && a < all_but_one * f.static_friction;
     if (c.air_drag == 0 && f.static_friction <= f.kinetic_friction)
         good = good && a < 0.999 * f.kinetic_friction;
-    // Landings that hold exactly what gravity pulls leave any velocity as it is.
-    good = good && std::abs(a - f.landing_friction) > 1e-9 * a;
     for (auto const* harmonics : {&c.along, &c.normal}) {
         for (Harmonic const& h : *harmonics) good = good && h.order <= 64 && std::abs(h.amplitude) <= 30;
     }
@@ -57,10 +57,12 @@ Tangent ConveyorEfficiency::follow_period(double v) {
     notes_.clear();
     displacement_ = derivative_ = 0;
     hints_.next = 0;
-    auto const record = [this](PhaseKind kind, double from, double to, double moved, double derivative) {
+    std::size_t hop = orbit_.first;
+    auto const record = [&](PhaseKind kind, double from, double to, double speed, double moved,
+                            double derivative) {
         displacement_ += moved;
         derivative_ += derivative;
-        if (to - from > shortest_phase) notes_.push_back({kind, from, to - from});
+        notes_.add(kind, hop, from, to, speed, moved);
     };
     ContactLaw const law(waves_);
     Tangent s{v, 1};
@@ -68,8 +70,8 @@ Tangent ConveyorEfficiency::follow_period(double v) {
         Instant const end{start_.t + two_pi, start_.sine, start_.cosine};
         s = follow_contact(law, s, start_, end, false, hints_, record);
     } else {
-        for (std::size_t i = orbit_.first; i < orbit_.hops.size(); ++i)
-            s = follow_hop(law, orbit_.hops[i], leaps_[i], s, hints_, record);
+        for (; hop < orbit_.hops.size(); ++hop)
+            s = follow_hop(law, orbit_.hops[hop], leaps_[hop], s, hints_, record);
     }
     v_ = v;
     slope_ = s.slope;
@@ -79,9 +81,8 @@ Tangent ConveyorEfficiency::follow_period(double v) {
 /// From rest at t = 0 to the start of the period.
 Tangent ConveyorEfficiency::follow_from_rest() {
     if (orbit_.in_contact) return {0, 0};
-    auto const ignore = [](PhaseKind, double, double, double, double) {};
+    auto const ignore = [](PhaseKind, double, double, double, double, double) {};
     ContactLaw const law(waves_);
-    hints_ = {};
     Tangent s = follow_contact(law, {0, 0}, {0, 0, 1}, orbit_.hops.front().start, false, hints_, ignore);
     for (std::size_t i = 0; i < orbit_.first; ++i)
         s = follow_hop(law, orbit_.hops[i], leaps_[i], s, hints_, ignore);
@@ -111,14 +112,9 @@ ConveyorEfficiency::Search ConveyorEfficiency::find_fixed_point() {
         runs_away = true;
         return Tangent{v, 0};
     };
-    double const guess = guess_in_contact_ == orbit_.in_contact ? guess_ : 0;
-    FixedPoint found = fixed_point(map, guess, velocity_tolerance);
+    FixedPoint const found = fixed_point(map, 0, velocity_tolerance);
     if (runs_away) return Search::runs_away;
-    if (orbit_.in_contact && found.v != 0 && std::abs(found.v + found.error) <= velocity_tolerance)
-        found = fixed_point(map, 0, velocity_tolerance);
     error_ = found.error;
-    guess_ = found.v + found.error;
-    guess_in_contact_ = orbit_.in_contact;
     return slope_ < 1 ? Search::found : Search::failed;
 }
 
@@ -158,13 +154,13 @@ ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_rest() {
             continue;
         }
         stride = 1;
-        ModeCode const now = mode();
+        ModeCode const now = notes_.mode(orbit_);
         bool const same = now == before;
         before = now;
         double const newton = v + drift / (1 - slope_);
         if (same && slope_ > 0) {
             Tangent const there = follow_period(newton);
-            if (mode() == now && std::abs(there.v - newton) < std::abs(drift) / 2) {
+            if (notes_.mode(orbit_) == now && std::abs(there.v - newton) < std::abs(drift) / 2) {
                 v = newton;
                 continue;
             }
@@ -174,56 +170,16 @@ ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_rest() {
     return Search::failed;
 }
 
-/// Without flights the period may start within a phase.
-void ConveyorEfficiency::join_ends() {
-    if (!orbit_.in_contact || notes_.size() < 2 || notes_.front().kind != notes_.back().kind) return;
-    notes_.front().start = notes_.back().start;
-    notes_.front().duration += notes_.back().duration;
-    notes_.pop_back();
-}
-
-/// The phase with which the list of phases starts: a take-off from contact, otherwise any flight, otherwise
-/// the positive slide, otherwise the negative slide, otherwise the first phase.
-std::size_t ConveyorEfficiency::first_phase() const {
-    std::size_t const n = notes_.size();
-    auto const find = [&](auto const& wanted) {
-        std::size_t best = n;
-        double earliest = HUGE_VAL;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!wanted(notes_[i], notes_[(i + n - 1) % n])) continue;
-            double phase = notes_[i].start - two_pi * std::floor(notes_[i].start * (1 / two_pi));
-            if (phase <= 0) phase = two_pi;
-            if (orbit_.cycles == 1 ? phase < earliest : best == n) {
-                best = i;
-                earliest = phase;
-            }
-        }
-        return best;
-    };
-    std::size_t i = find([](Note const& now, Note const& before) {
-        return now.kind == PhaseKind::flight && before.kind != PhaseKind::flight;
-    });
-    for (auto const kind : {PhaseKind::flight, PhaseKind::positive_slide, PhaseKind::negative_slide}) {
-        if (i == n) i = find([kind](Note const& now, Note const&) { return now.kind == kind; });
-    }
-    return i < n ? i : 0;
-}
-
-ModeCode ConveyorEfficiency::mode() const {
-    ModeCode code = 0;
-    std::size_t const n = notes_.size(), first = first_phase();
-    for (std::size_t i = 0; i < n; ++i)
-        code = append_phase(code, notes_[(first + i) % n].kind, static_cast<int>(i));
-    return code;
-}
-
 /// Follows at least so many cycles of a motion without a period, from the start of hop number `hop`, and adds
 /// hops where there are not enough. @return the mean slip velocity
 double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycles) {
     FlightChain const chain(waves_);
     ContactLaw const law(waves_);
     double elapsed = 0, moved = 0;
-    auto const record = [&](PhaseKind, double, double, double distance, double) { moved += distance; };
+    auto const record = [&](PhaseKind kind, double from, double to, double speed, double distance, double) {
+        moved += distance;
+        if (keep_) notes_.add(kind, hop, from, to, speed, distance);
+    };
     for (; elapsed < two_pi * cycles; ++hop) {
         if (hop == orbit_.hops.size()) {
             FlightChain::Start const start = orbit_.next;
@@ -237,6 +193,7 @@ double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycle
         if (longest_flight_ * flights_per_batch > two_pi * longest_batch)
             throw PhaseError("flights are too long");
     }
+    cycles_followed_ += elapsed / two_pi;
     return moved / elapsed;
 }
 
@@ -283,9 +240,14 @@ std::optional<Efficiency> ConveyorEfficiency::average() {
     longest_flight_ = 0;
     follow_cycles(s, hop, settling);
     batches_.clear();
+    notes_.clear();
     double half_width = HUGE_VAL;
+    cycles_followed_ = 0;
     for (int cycles = shortest_batch;; cycles *= 2) {
-        while (batches_.size() < batch_count) batches_.push_back(follow_cycles(s, hop, cycles));
+        while (batches_.size() < batch_count) {
+            if (notes_.size() > most_notes) notes_.clear();
+            batches_.push_back(follow_cycles(s, hop, cycles));
+        }
         half_width = half_width_of(batches_);
         bool const has_flights = longest_flight_ * flights_per_batch <= two_pi * cycles;
         if (cycles == longest_batch || (has_flights && half_width <= wanted_half_width)) break;
@@ -298,16 +260,21 @@ std::optional<Efficiency> ConveyorEfficiency::average() {
 
 std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
     waves_.set(c);
+    hints_ = {};  // those of another point would change the last bit
+    walked_.reset();
     if (!waves_.same_normal() || !orbit_known_) {
         orbit_known_ = false;
         find_normal_orbit(waves_, orbit_);
         orbit_known_ = true;
     }
+    // Landings that hold exactly what gravity pulls leave any velocity as it is.
+    double const pull = std::abs(waves_.gravity()), held = waves_.landing_tangent() * waves_.weight();
+    if (!orbit_.in_contact && std::abs(pull - held) <= 1e-9 * pull) return std::nullopt;
     if (orbit_.in_doubt) {
         // solve() decides whether the period counts, but need not follow its 3000 cycles for a mean.
-        auto const known = motion_with_period(c);
-        if (!known) return average();
-        Motion const& motion = known->motion;
+        walked_ = motion_with_period(c);
+        if (!walked_) return average();
+        Motion const& motion = walked_->motion;
         return Efficiency{motion.velocity_efficiency, mode_code(motion), motion.period_cycles,
                           motion.outcome};
     }
@@ -326,10 +293,10 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
         double const infinity = std::numeric_limits<double>::infinity();
         return Efficiency{std::copysign(infinity, -c.point.tan_inclination), 0, 0, Outcome::runs_away};
     }
-    join_ends();
+    if (orbit_.in_contact) notes_.join_ends();
     double const eta = (displacement_ + derivative_ * error_) / (two_pi * orbit_.cycles);
     if (!std::isfinite(eta)) return std::nullopt;
-    return Efficiency{eta, mode(), orbit_.cycles, Outcome::periodic};
+    return Efficiency{eta, notes_.mode(orbit_), orbit_.cycles, Outcome::periodic};
 }
 
 std::optional<Efficiency> ConveyorEfficiency::operator()(Conveyor const& conveyor) {
@@ -339,6 +306,26 @@ std::optional<Efficiency> ConveyorEfficiency::operator()(Conveyor const& conveyo
     } catch (PhaseError const&) {
         return std::nullopt;
     }
+}
+
+std::optional<ConveyorMotion> ConveyorEfficiency::motion(Conveyor const& conveyor) {
+    keep_ = true;
+    auto const found = (*this)(conveyor);
+    keep_ = false;
+    if (!found || walked_) return std::move(walked_);
+    ConveyorMotion answer;
+    answer.motion = {.velocity_efficiency = found->velocity_efficiency,
+                     .mode = "",
+                     .phases = {},
+                     .flight_number = 0,
+                     .period_cycles = found->period_cycles,
+                     .converged = found->outcome == Outcome::periodic,
+                     .outcome = found->outcome};
+    answer.half_width = found->half_width;
+    if (found->outcome == Outcome::runs_away) return answer;
+    if (!answer.motion.converged) answer.cycles_followed = static_cast<int>(std::lround(cycles_followed_));
+    notes_.describe(waves_, orbit_, answer);
+    return answer;
 }
 
 }  // namespace vibrotrough::theory::detail

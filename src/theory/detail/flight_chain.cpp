@@ -114,7 +114,8 @@ Hop FlightChain::landing(Start const& start, Ballistic const& path, double low, 
         double const newton = -gap / rate, step = newton / (1 + newton * bend / 2);
         (gap > 0 ? low : high) = t;
         double next = t + step;
-        bool const inside = rate < 0 && next >= low && next <= high;
+        // Beside the lowest gap, where the rate is zero, Halley's step is short and leads nowhere.
+        bool const inside = rate < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
             Instant const end = shifted(here, step);
             Decayed const to_end = path.decayed(end.t);
@@ -240,11 +241,13 @@ std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since) {
 
 /// Whether a rebound is that of an earlier hop, as in nearly no hop of a motion without a period: only then
 /// is hops_to_return() worth its cost. The rebounds lie side by side, so that the compiler compares several
-/// at once.
+/// at once. Where they are many, a bit for each 1e-9 (by its remainder) says that most have no equal.
 class Rebounds {
   public:
-    /// @param memory  for the rebounds of all hops
-    explicit Rebounds(std::vector<double>& memory) : all_(memory) { all_.clear(); }
+    /// @param memory, seen  for the rebounds of all hops
+    Rebounds(std::vector<double>& memory, std::vector<bool>& seen) : all_(memory), seen_(seen) {
+        all_.clear();
+    }
 
     /// Adds the last of the hops. @param since  the first hop after the last contact
     bool repeat(std::vector<Hop> const& hops, std::size_t since) {
@@ -255,16 +258,36 @@ class Rebounds {
             if (after < longest_return + 1) break;
             elapsed_ = after;
         }
+        if (count == few) {
+            seen_.assign(places, false);
+            for (double const earlier : all_) seen_[place(step(earlier))] = true;
+        }
         std::int64_t near = 0;
-        for (std::size_t i = std::max(oldest_, since); i < count; ++i)
-            near += static_cast<std::int64_t>(std::abs(all_[i] - now) < state_match);
+        if (count < few || may_repeat(step(now))) {
+            for (std::size_t i = std::max(oldest_, since); i < count; ++i)
+                near += static_cast<std::int64_t>(std::abs(all_[i] - now) < state_match);
+        }
+        if (count >= few) seen_[place(step(now))] = true;
         all_.push_back(now);
         elapsed_ += duration(hops.back());
         return near > 0;
     }
 
   private:
+    static constexpr std::size_t few = 500;  // so few are compared faster than the bits are cleared
+    static constexpr std::size_t places = std::size_t{1} << 20;
+    static std::int64_t step(double rebound) {
+        return static_cast<std::int64_t>(std::min(rebound, 1e9) * 1e9);
+    }
+    static std::size_t place(std::int64_t k) {
+        return (static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15U >> 32U) % places;
+    }
+    bool may_repeat(std::int64_t k) const {
+        return seen_[place(k)] || seen_[place(k - 1)] || seen_[place(k + 1)];
+    }
+
     std::vector<double>& all_;
+    std::vector<bool>& seen_;
     std::size_t oldest_ = 0;  ///< that counts
     double elapsed_ = 0;      ///< from its start to the end of the last one
 };
@@ -313,7 +336,7 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
     double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
     bool irregular = false;
     std::size_t since = 0;  // the last contact
-    Rebounds rebounds(orbit.rebounds);
+    Rebounds rebounds(orbit.rebounds, orbit.seen);
     orbit.left_at.assign(waves.presses().count(), never);
     for (double elapsed = next.at.t; elapsed < two_pi * most_cycles;) {
         if (next.zero >= 0) {

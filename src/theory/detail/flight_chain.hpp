@@ -70,6 +70,7 @@ struct NormalOrbit {
     FlightChain::Start next;           ///< where the flight after the last one starts
     std::vector<std::size_t> left_at;  ///< hop that began at each zero of the normal force (memory)
     std::vector<double> rebounds;      ///< of all hops (memory)
+    std::vector<bool> seen;            ///< of their rebounds (memory)
 };
 
 /// Sets `orbit` for a conveyor, reusing its memory.

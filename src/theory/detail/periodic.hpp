@@ -81,4 +81,39 @@ FixedPoint fixed_point(Map const& map, double v, double tolerance) {
     throw PhaseError("the velocity at the start of the period was not found");
 }
 
+inline constexpr double shortest_phase = 1e-12;  ///< rad; shorter phases are rounding errors, not motion
+
+/// One period of the steady motion along the trough.
+struct SteadyMotion {
+    double v;    ///< slip velocity at its start, to 1e-13
+    double eta;  ///< mean slip velocity
+};
+
+/// Finds the steady motion over one period of the normal motion. The same inputs give the same bits, whatever
+/// was solved before.
+/// @param phases  is cleared and then takes the phases of the period by add(kind, from, to, displacement);
+/// one
+///                that lasts less than shortest_phase is left out
+template <class Phases>
+SteadyMotion find_steady_motion(Law const& law, NormalMotion const& normal, Phases& phases) {
+    // The last Newton step is added to first order. It is so small that it changes neither the mode nor the
+    // sum of the phases.
+    constexpr double velocity_tolerance = 1e-13;
+    Hints hints;
+    double displacement = 0, derivative = 0;
+    auto const record = [&](PhaseKind kind, Instant from, Instant to, double moved, double slope) {
+        double const h = to.t - from.t;
+        displacement += moved;
+        derivative += slope * h;  // the time of a stop changes too, but the speed is zero there
+        if (h > shortest_phase) phases.add(kind, from, to, moved);
+    };
+    auto const period = [&](double v0) {
+        phases.clear();
+        displacement = derivative = 0;
+        return follow_period(law, normal, v0, hints, record);
+    };
+    FixedPoint const start = fixed_point(period, 0, velocity_tolerance);
+    return {start.v, (displacement + derivative * start.error) / (normal.end.t - normal.start.t)};
+}
+
 }  // namespace vibrotrough::theory::detail

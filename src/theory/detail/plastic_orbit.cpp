@@ -8,8 +8,6 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double shortest_piece = 1e-12;  // rad; shorter pieces are rounding errors
-
 /// Takes the phases of a period in order and knows the slip velocity at the start of each.
 class PieceRecorder {
   public:
@@ -18,7 +16,7 @@ class PieceRecorder {
 
     void operator()(PhaseKind kind, Instant from, Instant to, double displacement, double) {
         if (kind == PhaseKind::rest) v_ = 0;
-        if (to.t - from.t > shortest_piece)
+        if (to.t - from.t > shortest_phase)
             answer_.pieces.push_back({kind, from.t, to.t, v_ + from.cosine, 0, 0, displacement});
         if (kind == PhaseKind::flight) {
             fly(from, to);
@@ -58,6 +56,12 @@ void add_pieces(PlasticOrbit const& orbit, ConveyorMotion& answer) {
     Hints hints;
     PieceRecorder record(orbit, answer);
     follow_period(orbit.law, orbit.normal, orbit.velocity, hints, record);
+    if (orbit.starts_within_slide()) {
+        start_at_first_slide(answer.pieces, [](Piece& first, Piece const& last) {
+            first.along_velocity = last.along_velocity;
+            first.displacement += last.displacement;
+        });
+    }
 }
 
 }  // namespace vibrotrough::theory::detail

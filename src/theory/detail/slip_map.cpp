@@ -36,7 +36,8 @@ bool ContactLaw::stop_between(Speed const& speed, double low, double high, doubl
         double const newton = -w / slope, step = newton / (1 + newton * bend / 2);
         (w > 0 ? low : high) = t;
         double next = t + step;
-        bool const inside = slope < 0 && next >= low && next <= high;
+        // Where the speed is largest, Halley's step is short and leads nowhere.
+        bool const inside = slope < 0 && std::abs(newton * bend) < 1 && next >= low && next <= high;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) {
             Instant const stop = shifted(here, step);
             end = speed.end(stop, speed.decayed(stop.t), true);

@@ -58,8 +58,9 @@ class ContactLaw {
 
 Leap leap(ConveyorWaves const& waves, Hop const& hop);
 
-/// Follows a contact from `at` to `end`. Calls `record(kind, from, to, displacement, derivative)` for each
-/// phase, with the derivative of the displacement with respect to the velocity at the start of the period.
+/// Follows a contact from `at` to `end`. Calls `record(kind, from, to, v, displacement, derivative)` for each
+/// phase, with the slip velocity at its start and the derivative of the displacement with respect to the
+/// velocity at the start of the period.
 template <class Record>
 Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant const& end, bool landed,
                        Hints& hints, Record& record) {
@@ -71,7 +72,7 @@ Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant con
             if (start.at.t > at.t) {
                 bool const to_end = start.at.t >= end.t;
                 Instant const& to = to_end ? end : start.at;
-                record(PhaseKind::rest, at.t, to.t, 0.0, 0.0);
+                record(PhaseKind::rest, at.t, to.t, 0.0, 0.0, 0.0);
                 s = {0, 0};
                 if (to_end) return s;
                 at = to;
@@ -82,7 +83,8 @@ Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant con
         Sliding const& slide = law.waves().slide(sliding != 0 ? sliding : s.v);
         SlideEnd const to = law.slide(slide, std::abs(s.v), at, end, hints.guess());
         hints.learn(to.stopped ? to.at.t - at.t : unknown);
-        record(slide_kind(slide.sign > 0, landed), at.t, to.at.t, slide.sign * to.moved, s.slope * to.reach);
+        record(slide_kind(slide.sign > 0, landed), at.t, to.at.t, s.v, slide.sign * to.moved,
+               s.slope * to.reach);
         landed = false;
         at = to.at;
         sliding = 0;
@@ -99,7 +101,8 @@ Tangent follow_contact(ContactLaw const& law, Tangent s, Instant at, Instant con
 template <class Record>
 Tangent follow_hop(ContactLaw const& law, Hop const& hop, Leap const& leap, Tangent s, Hints& hints,
                    Record& record) {
-    record(PhaseKind::flight, hop.start.t, hop.end.t, s.v * leap.reach + leap.drift, s.slope * leap.reach);
+    record(PhaseKind::flight, hop.start.t, hop.end.t, s.v, s.v * leap.reach + leap.drift,
+           s.slope * leap.reach);
     s = landed({s.v * leap.decay + leap.push, s.slope * leap.decay}, leap.impulse);
     return follow_contact(law, s, hop.end, hop.leave, true, hints, record);
 }

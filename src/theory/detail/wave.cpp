@@ -42,7 +42,7 @@ Instant zero_between(Wave const& wave, double low, double high, Instant here, bo
         ((value > 0) == rises ? high : low) = here.t;
         double const newton = -value / rate, step = newton / (1 + newton * bend / 2);
         double next = here.t + step;
-        bool const inside = next >= low && next <= high;
+        bool const inside = std::abs(newton * bend) < 1 && next >= low && next <= high;
         if (inside && std::abs(step) * std::max(1.0, std::abs(bend)) < root_step) return shifted(here, step);
         if (!inside || i > 20) next = low + (high - low) / 2;
         if (high - low <= 4e-16 * (1 + here.t) || next == here.t) break;
