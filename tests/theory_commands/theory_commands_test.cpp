@@ -284,6 +284,28 @@ TEST_F(TheoryFiles, BatchRepeatsItsColumnsAndAddsTheAnswers) {
     EXPECT_TRUE(fs::exists(path("out.h5")));
 }
 
+// Both commands write 17 digits, which are the number itself: a plastic mass, one with rebounds that has a
+// period of 3 cycles, and one that has none.
+TEST_F(TheoryFiles, BatchGivesWhatPointGives) {
+    std::ofstream(path("in.csv"))
+        << "throw_number,tan_vibration_angle,tan_inclination,friction,restitution\n"
+           "2,0.5,0,0.23,\n2.85854,0.89676,0.122648,0.139461,0.239105\n4.4,0.5,-0.1,0.35,0.5\n";
+    ASSERT_EQ(run_program("theory batch " + path("in.csv") + " --output " + path("out.csv")).exit_code, 0);
+    auto const rows = read_csv(path("out.csv"));
+    ASSERT_EQ(rows.size(), 4u);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        auto const& row = rows[i];
+        std::string const rebounds = row[4].empty() ? "" : " --restitution " + row[4];
+        Answer const answer =
+            run_program("theory point --throw-number " + row[0] + " --tan-vibration-angle " + row[1] +
+                        " --tan-inclination " + row[2] + " --friction " + row[3] + rebounds + " --json");
+        auto const point = nlohmann::json::parse(answer.text);
+        EXPECT_EQ(point.at("velocity_efficiency").get<double>(), std::stod(row[5])) << i;
+        EXPECT_EQ(point.at("half_width").get<double>(), std::stod(row[6])) << i;
+        EXPECT_EQ(std::to_string(point.at("period_cycles").get<int>()), row[8]) << i;
+    }
+}
+
 // An engineer's columns: f = n / 60, r = stroke / 2, v = eta omega r cos(beta). Tolerance: rounding.
 TEST_F(TheoryFiles, BatchTakesTurnsAndStrokes) {
     auto const answer_to = [&](std::string const& text) {
