@@ -12,7 +12,12 @@ namespace vibrotrough::deck {
 
 /// One atom type of the engine.
 struct AtomType {
-    enum class Kind { grains, trough, side_wall };
+    /// What a type can stand for.
+    enum class Kind {
+        grains,     ///< of one material
+        trough,     ///< its floor or mesh
+        side_wall,  ///< the side walls beside the flat floor
+    };
     Kind kind;                                     ///< what it stands for
     scenario::Material const* material = nullptr;  ///< of grains
     std::string name;                              ///< of the material, "trough" or "side walls"
@@ -29,7 +34,8 @@ int atom_type_of(prepare::PreparedCase const& prepared, int material);
 /// Friction and restitution of all pairs of types, row by row, as the engine takes them. It requires values
 /// also for pairs that never touch.
 struct PairTables {
-    std::string frictions, restitutions;
+    std::string frictions;     ///< coefficients of friction
+    std::string restitutions;  ///< coefficients of restitution
 };
 
 /// The tables of a case.

@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
@@ -51,8 +50,10 @@ double rayleigh_time(SmallestGrains const& smallest) {
 }
 
 double rayleigh_time(scenario::Scenario const& s, double smallest_radius) {
-    auto const all = smallest_grains(s, smallest_radius);
-    return std::ranges::min(all | std::views::transform([](auto const& one) { return rayleigh_time(one); }));
+    double shortest = std::numeric_limits<double>::infinity();
+    for (SmallestGrains const& one : smallest_grains(s, smallest_radius))
+        shortest = std::min(shortest, rayleigh_time(one));
+    return shortest;
 }
 
 double contact_time(scenario::Scenario const& s, ContactPair const& pair, double restitution, double speed) {

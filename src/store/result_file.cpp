@@ -222,8 +222,12 @@ void add_case_table(Hdf5MemoryFileWriter& file, std::string const& name, std::ve
                     std::vector<CaseValues> const& values) {
     std::vector<Hdf5Column> columns;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        auto const& [column, units, meaning] = entries[i];
-        std::visit([&](auto const& list) { columns.push_back({column, units, meaning, list}); }, values[i]);
+        Entry const& entry = entries[i];
+        std::visit(
+            [&](auto const& list) {
+                columns.push_back({entry.name, entry.units, entry.meaning, list});
+            },
+            values[i]);
     }
     if (!columns.empty()) file.table(name, columns, Rank::array);
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 import pathlib
 import sys
+from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
@@ -12,11 +13,11 @@ import figure_style  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 # What differs from base.toml. The first material is that of [grains], the index is that of the other one.
-CASES = {
+CASES: dict[str, dict[str, Any]] = {
     "sizes": {"materials.1.diameter": "1.5 mm"},
     "densities": {"materials.1.density": "5600 kg/m3"},
     "intruder": {"grains.diameter": "2 mm", "materials.1.diameter": "4.5 mm", "materials.1.diameter_spread": 0, "materials.1.mass_fraction": None,
-                 "materials.1.number_fraction": 0.0024, "layer.length": "18.5 mm", "layer.width": "18.5 mm", "layer.height": "10 mm"},
+                 "materials.1.number_fraction": 0.0024, "measure.packings": 12, "measure.max_packings": 12, "layer.length": "18.5 mm", "layer.width": "18.5 mm", "layer.height": "10 mm"},
     "same": {},
     "large and heavy": {"grains.diameter": "1.5 mm", "materials.1.diameter": "3 mm", "materials.1.density": "5600 kg/m3"},
 }  # fmt: skip
@@ -52,10 +53,10 @@ def judge(run: ValidationCase) -> None:
             run.between(f"{reference['words']}: index times {sign}", sign * index, half_width, np.inf,
                         because="the interval at 95 % must not reach 0")
     heavy = measured["large and heavy"]
-    sign = "stay below" if float(heavy["segregation"]) + float(heavy["half_width"]) < 0 else \
-        "come to the top" if float(heavy["segregation"]) > float(heavy["half_width"]) else "stay mixed with them"
-    run.finding("large grains that are four times as dense as the small ones sink (reverse Brazil-nut effect)", sign == "stay below",
-                f"they {sign}: {float(heavy['segregation']):.2f} +- {float(heavy['half_width']):.2f} after 150 cycles. Which way they go depends on the "
+    index, half_width = float(heavy["segregation"]), float(heavy["half_width"])
+    way = "stay below" if index < -half_width else "come to the top" if index > half_width else "stay mixed with them"
+    run.finding("large grains that are four times as dense as the small ones sink (reverse Brazil-nut effect)", index < -half_width,
+                f"they {way}: {index:.2f} +- {half_width:.2f} after 150 cycles. Which way they go depends on the "
                 "excitation (Breu et al., Phys. Rev. Lett. 90, 2003, 014302)")
 
 

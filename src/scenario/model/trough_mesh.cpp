@@ -234,7 +234,7 @@ std::vector<Triangle> divided(std::vector<Triangle> const& triangles, double lon
         // The longest edge is from the first to the second corner.
         std::array<double, 3> const edges{length(minus(t[1], t[0])), length(minus(t[2], t[1])),
                                           length(minus(t[0], t[2]))};
-        std::ranges::rotate(t, t.begin() + (std::ranges::max_element(edges) - edges.begin()));
+        std::rotate(t.begin(), t.begin() + (std::ranges::max_element(edges) - edges.begin()), t.end());
         if (std::ranges::max(edges) <= longest) {
             result.push_back(t);
             continue;

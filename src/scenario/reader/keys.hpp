@@ -105,12 +105,15 @@ std::string default_text(Key const& key);
 /// The words of a choice: "a, b or c" is {a, b, c}.
 std::vector<std::string_view> choices(Key const& key);
 
-/// The sections that are lists, [[materials]] and [[pairs]]. The keys of their entries count them from 1:
-/// "materials.2.density".
-inline constexpr std::string_view materials_section = "materials", pairs_section = "pairs";
+/// A section that is a list, [[materials]]. The keys of its entries count them from 1: "materials.2.density".
+inline constexpr std::string_view materials_section = "materials";
+/// The other one, [[pairs]].
+inline constexpr std::string_view pairs_section = "pairs";
 
-/// How many entries these lists may have: four materials with that of [grains], and all their pairs.
-inline constexpr std::size_t most_materials = 3, most_pairs = 6;
+/// How many entries [[materials]] may have: four materials with that of [grains].
+inline constexpr std::size_t most_materials = 3;
+/// How many entries [[pairs]] may have: all pairs of four materials.
+inline constexpr std::size_t most_pairs = 6;
 
 /// Whether a section is a list.
 bool is_list_section(std::string_view section);
