@@ -194,8 +194,7 @@ void write_case_files(PlannedCase const& planned) {
 
 void write_case_files(std::vector<PlannedCase const*> cases) {
     std::ranges::sort(cases);
-    auto const repeated = std::ranges::unique(cases);
-    cases.erase(repeated.begin(), repeated.end());
+    cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
     core::for_each_index(cases.size(), cases_per_thread,
                          [&] { return [&](std::size_t i) { write_case_files(*cases[i]); }; });
 }
