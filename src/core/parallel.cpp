@@ -46,10 +46,10 @@ class Stopwatch {
     /// work: what a single thread asks of a file system that takes 20 ms for each answer, it waits for alone.
     std::size_t threads_for(std::size_t count, std::size_t least) const {
         constexpr double worth_a_thread = 2e-3;  // s; a thread costs some 1e-5
-        constexpr double much = 4;               // times its processor time: other programs delay it, too
+        constexpr double much = 4;               // times what it worked or wanted to
         constexpr std::size_t most = 64;
         double const elapsed = seconds(CLOCK_MONOTONIC) - start_;
-        double const factor = elapsed / std::max(1e-6, seconds(CLOCK_THREAD_CPUTIME_ID) - own_start_);
+        double const factor = elapsed / std::max(1e-6, busy_time() - busy_start_);
         auto const cores = static_cast<std::size_t>(count_available_cores());
         if (elapsed < worth_a_thread || factor < much)
             return std::min(cores, count / std::max<std::size_t>(1, least));
@@ -63,7 +63,15 @@ class Stopwatch {
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
-    double start_ = seconds(CLOCK_MONOTONIC), own_start_ = seconds(CLOCK_THREAD_CPUTIME_ID);
+    /// s that this thread has worked, or would have if other programs had not had the core.
+    static double busy_time() {
+        std::istringstream words(read_or_nothing("/proc/thread-self/schedstat"));
+        double worked = 0, waited_for_core = 0;  // ns; the first is late by some milliseconds
+        if (!(words >> worked >> waited_for_core)) return seconds(CLOCK_MONOTONIC);  // nothing is known
+        return seconds(CLOCK_THREAD_CPUTIME_ID) + 1e-9 * waited_for_core;
+    }
+
+    double start_ = seconds(CLOCK_MONOTONIC), busy_start_ = busy_time();
 };
 
 int count_cores_of_mask() {

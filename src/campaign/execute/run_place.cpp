@@ -108,7 +108,7 @@ void RunPlace::bring_back() {
                         folder().string(), error.code().message()));
     }
     auto const is_seal = [](fs::path const& name) { return name == checkpoint_seal; };
-    std::ranges::stable_partition(changed, std::not_fn(is_seal));
+    std::stable_partition(changed.begin(), changed.end(), std::not_fn(is_seal));
     for (fs::path const& name : changed) {
         if (name.has_parent_path()) core::make_folder((home_ / name).parent_path());
         core::write_file_atomically(home_ / name, core::read_own_file(folder() / name));
