@@ -98,7 +98,7 @@ class Convergence(EndToEndTest):
 
     def start_study(self, campaign):
         arguments = self.run_arguments
-        self.run_arguments = lambda campaign: ["convergence", *(word for word in arguments(campaign)[1:] if word != "--accept-findings")]
+        self.run_arguments = lambda *given: ["convergence", *(word for word in arguments(*given)[1:] if word != "--accept-findings")]
         try:
             return self.start_campaign(campaign)
         finally:
