@@ -236,6 +236,24 @@ void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c
     }
 }
 
+/// What a check of single contacts finds for a layer of one material. In a mixture it is done for each of
+/// them, as if the layer were of this one, and the largest number of each finding counts.
+void check_each_material(std::vector<Finding>& findings, prepare::PreparedCase const& c,
+                         void (*check_one)(std::vector<Finding>&, prepare::PreparedCase const&)) {
+    std::vector<Finding> worst;
+    for (scenario::Material const& material : c.materials) {
+        prepare::PreparedCase one = c;
+        one.scenario.grains = material.grains;
+        one.scenario.materials.clear();
+        std::vector<Finding> found;
+        check_one(found, one);
+        if (worst.empty()) worst = found;
+        for (std::size_t i = 0; i < std::min(worst.size(), found.size()); ++i)
+            if (found[i].measured > worst[i].measured) worst[i] = found[i];
+    }
+    findings.insert(findings.end(), worst.begin(), worst.end());
+}
+
 }  // namespace
 
 std::string to_string(Severity severity) {
@@ -254,10 +272,10 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
     check_time_step(findings, prepared);
     if (!is_block(prepared.scenario)) {
-        check_overlaps(findings, prepared);
+        check_each_material(findings, prepared, check_overlaps);
         check_cohesion(findings, prepared);
     }
-    check_contact_time(findings, prepared);
+    check_each_material(findings, prepared, check_contact_time);
     if (!is_block(prepared.scenario)) {
         check_box(findings, prepared);
         check_softness(findings, prepared);

@@ -47,11 +47,11 @@ void scale_solid_fraction(measure::Profiles& profiles, scenario::Scenario const&
 }
 
 /// How much of the difference to the theory comes from the layer's normal force and from its landing. Not
-/// with side walls or a mesh, whose inclined surfaces carry a part of the load that the force on the floor
-/// does not show.
+/// with several materials, which have several frictions, nor with side walls or a mesh, whose inclined
+/// surfaces carry a part of the load that the force on the floor does not show.
 void add_friction_numbers(measure::LayerMotion& motion, prepare::PreparedCase const& prepared) {
     scenario::Scenario const& s = prepared.scenario;
-    if (s.trough.side_wall_friction || s.trough.mesh) return;
+    if (s.trough.side_wall_friction || s.trough.mesh || !s.materials.empty()) return;
     motion.landing_friction = measure::landing_friction(motion);
     motion.efficiency_by_normal_force = measure::efficiency_by_normal_force(
         motion.curves, {prepared.mass, s.trough.friction, -scenario::gravity * std::sin(s.trough.inclination),

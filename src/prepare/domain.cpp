@@ -10,7 +10,7 @@ Domain domain_of(scenario::Scenario const& s) {
     double const unit = metres_in(s.trough.mesh_unit);
     Domain domain{.is_closed = mesh.has_upright_sides,
                   .surface = mesh.triangles,
-                  .floor_top = unit * std::ranges::max(mesh.heights),
+                  .floor_top = unit * mesh.floor_top,
                   .top = unit * mesh.extent[2]};
     std::array<double, 2> const ends{s.layer.length, s.layer.width};
     for (scenario::Triangle& triangle : domain.surface) {

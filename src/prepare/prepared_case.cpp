@@ -84,6 +84,7 @@ void prepare_modulus(PreparedCase& c) {
     c.modulus_chosen = !modulus;
     if (!modulus)
         modulus = block ? modulus_of_blocks : stiff_enough(c.scenario, share * c.scenario.measure.half_width);
+    for (scenario::Material& material : c.materials) material.grains.youngs_modulus = modulus;
     c.numerics = numerical_errors(c.scenario);
 }
 

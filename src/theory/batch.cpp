@@ -1,6 +1,9 @@
 #include "theory/batch.hpp"
 
+#include "theory/errors.hpp"
+
 #include <ctime>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -48,6 +51,9 @@ BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs,
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 try {
                     answer.points[i] = solver(inputs[i]);
+                } catch (PhaseError const&) {
+                    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+                    answer.points[i] = {unknown, unknown, 0, 0, Outcome::unsettled};
                 } catch (std::invalid_argument const& error) {
                     first_error.note(i, error.what());
                 }

@@ -178,7 +178,7 @@ MapPoint PointSolver::operator()(Inputs const& inputs) {
     }
     if (inputs.plastic()) {
         Efficiency const e = point_mass_(inputs.point());
-        return {e.velocity_efficiency, 0, e.mode, e.period_cycles, e.outcome};
+        return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
     }
     Efficiency const e = point_mass_.solve(inputs.conveyor());
     return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};

@@ -75,6 +75,34 @@ std::string with_chains_joined(ModeCode code) {
     return text;
 }
 
+// A plastic mass whose flights do not repeat has a mean with an interval, in a batch as alone.
+TEST(OneAnswer, OfPlasticMotionsWithoutAPeriod) {
+    Inputs in;
+    in.set(Input::throw_number, 3.72419);
+    in.set(Input::tan_vibration_angle, 10);
+    in.set(Input::friction, 0.23);
+    ConveyorMotion const alone = point(in);
+    ASSERT_GT(alone.half_width, 0);
+    EXPECT_EQ(solve_batch({in}, 1).points.front().half_width, alone.half_width);
+}
+
+// A motion whose phases cannot be solved costs a batch one row, not all.
+TEST(OneAnswer, OfAnUnsolvableRowIsUnsettled) {
+    Inputs in, hard;
+    in.set(Input::throw_number, 2);
+    in.set(Input::tan_vibration_angle, 0.5);
+    in.set(Input::friction, 0.3);
+    hard.set(Input::throw_number, 3.2969083095);
+    hard.set(Input::tan_vibration_angle, 10);
+    hard.set(Input::tan_inclination, 0.1);
+    hard.set(Input::friction, 0.1);
+    hard.set(Input::static_friction, 0.1000000000000001);
+    BatchResult const batch = solve_batch({in, hard, in}, 1);
+    EXPECT_EQ(batch.points[2].velocity_efficiency, batch.points[0].velocity_efficiency);
+    bool const is_solved = std::isfinite(batch.points[1].velocity_efficiency);
+    EXPECT_TRUE(is_solved || batch.points[1].outcome == Outcome::unsettled);
+}
+
 // `theory point` and `theory batch` of 10,000 motions give the same to the last bit.
 TEST(OneAnswer, OfPointAndBatch) {
     RandomInputs random;

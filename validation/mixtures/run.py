@@ -31,8 +31,7 @@ def simulate(run: ValidationCase) -> None:
     for name, changes in CASES.items():
         folder = name.replace(" ", "-")
         (answer,) = run.campaign(folder, changes, {})
-        (result,) = (run.runs / folder).glob("cases/*/result.h5")
-        with h5py.File(result) as file:
+        with h5py.File(run.runs / folder / "cases" / answer["case"] / "result.h5") as file:
             share, index = file["materials"]["number_fraction"][1], file["segregation"]
             for row in index[::EVERY]:
                 curves.append([name, int(row["cycle"]), f"{row['index_1']:.4f}", f"{row['half_width_1']:.4f}"])

@@ -69,10 +69,11 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
     int const packings = deck::expected_packings(prepared.scenario);
     double const work = packings * deck::expected_work(prepared);
     scenario::Grains const& grains = prepared.scenario.grains;
+    double const density = mean_density(prepared.scenario);
     return {{"case", number},
             {"throw_number", prepared.throw_number},
-            {"grain_density_kg_per_m3", grains.density},
-            {"bulk_density_kg_per_m3", bulk_density(grains)},
+            {"grain_density_kg_per_m3", density},
+            {"bulk_density_kg_per_m3", scenario::settled_solid_fraction * density},
             {"youngs_modulus_pa", grains.youngs_modulus.value()},
             {"youngs_modulus_chosen", prepared.modulus_chosen},
             {"findings", findings},
@@ -108,11 +109,11 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
 }
 
 /// "600 kg/m3", or "500 to 600 kg/m3" when the cases differ.
-std::string densities(scenario::Campaign const& campaign, double (*of)(scenario::Grains const&)) {
-    double least = of(campaign.cases.front().grains), most = least;
+std::string densities(scenario::Campaign const& campaign, double factor) {
+    double least = factor * mean_density(campaign.cases.front()), most = least;
     for (scenario::Scenario const& one : campaign.cases) {
-        least = std::min(least, of(one.grains));
-        most = std::max(most, of(one.grains));
+        least = std::min(least, factor * mean_density(one));
+        most = std::max(most, factor * mean_density(one));
     }
     if (most - least <= 1e-9 * most) return fmt::format("{:.4g} kg/m3", least);
     return fmt::format("{:.4g} to {:.4g} kg/m3", least, most);
@@ -121,8 +122,7 @@ std::string densities(scenario::Campaign const& campaign, double (*of)(scenario:
 /// One of the two was given; the user sees whether the other is as expected.
 void print_densities(scenario::Campaign const& campaign) {
     fmt::print("bulk density of the settled layer: {}, with grains of {} and a solid fraction of {}\n",
-               densities(campaign, scenario::bulk_density),
-               densities(campaign, [](scenario::Grains const& grains) { return grains.density; }),
+               densities(campaign, scenario::settled_solid_fraction), densities(campaign, 1),
                scenario::settled_solid_fraction);
 }
 

@@ -50,6 +50,9 @@ int run_init(InitArguments const& options) {
     for (auto const& [file, text] : files) {
         std::error_code unreadable;
         if (!fs::exists(file, unreadable)) continue;
+        bool const is_same = file != path && fs::is_regular_file(file, unreadable) &&
+                             core::read_file(file, core::largest_note) == text;
+        if (is_same) continue;
         throw core::InputError(fmt::format(
             "{} exists already and is not overwritten; choose another name or folder with --output",
             file.string()));

@@ -50,8 +50,8 @@ std::optional<std::string> full_scratch(std::string const& scratch) {
     try {
         core::TemporaryFolder const probe("vibrotrough-scratch", scratch_here(scratch));
         return full_disk(probe.path());
-    } catch (core::MissingError const& error) {
-        return error.what();
+    } catch (core::MissingError const&) {
+        return {};  // it cannot be used, which is said where it is made
     }
 }
 

@@ -1,6 +1,7 @@
 #include "campaign/execute/run_place.hpp"
 
 #include "campaign/state/checkpoint.hpp"
+#include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -42,6 +43,15 @@ std::vector<fs::path> files_below(fs::path const& folder) {
         if (entry.symlink_status().type() == fs::file_type::regular && is_copied(name)) names.push_back(name);
     }
     return names;
+}
+
+/// Whether a run removes files of this name itself: checkpoints, and snapshots and frames that were written
+/// after the one from which it goes on.
+bool may_go(fs::path const& name) {
+    std::string const last = name.filename().string();
+    if (name.has_parent_path()) return is_frame_file(last);
+    return is_run_file(last) &&
+           (last.starts_with("checkpoint.") || last.starts_with("profiles.") || last.starts_with("surface."));
 }
 
 }  // namespace
@@ -88,6 +98,7 @@ void RunPlace::take(fs::path const& name) {
     fs::path const to = folder() / name;
     core::replace_file(to, core::read_own_file(home_ / name));
     known_[name] = {fs::file_size(to), fs::last_write_time(to)};
+    if (!may_go(name)) needed_.insert(name);
 }
 
 void RunPlace::bring_back() {
@@ -107,6 +118,13 @@ void RunPlace::bring_back() {
                         "call the same command again",
                         folder().string(), error.code().message()));
     }
+    for (fs::path const& name : needed_) {
+        if (now.contains(name)) continue;
+        throw core::MissingError(fmt::format(
+            "{} was removed from {} while an engine worked there, as by a purge of old files; nothing is "
+            "recorded as a failure; call the same command again",
+            name.string(), folder().string()));
+    }
     auto const is_seal = [](fs::path const& name) { return name == checkpoint_seal; };
     std::stable_partition(changed.begin(), changed.end(), std::not_fn(is_seal));
     for (fs::path const& name : changed) {
@@ -114,7 +132,7 @@ void RunPlace::bring_back() {
         core::write_file_atomically(home_ / name, core::read_own_file(folder() / name));
     }
     for (auto const& [name, stamp] : known_) {
-        if (!now.contains(name)) core::remove_file(home_ / name);
+        if (!now.contains(name) && may_go(name)) core::remove_file(home_ / name);
     }
     known_ = std::move(now);
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -31,9 +32,11 @@ class RunPlace {
     /// In which the engine works.
     std::filesystem::path const& folder() const { return scratch_ ? scratch_->path() : home_; }
 
-    /// Copies what has changed in the private folder back to the home, and removes there what was removed
-    /// here. Does nothing when the engine works in the home.
-    /// @throws core::MissingError when the disk refuses, or the private folder is gone
+    /// Copies what has changed in the private folder back to the home, and removes there what a run removed
+    /// here: older checkpoints and what it wrote after the one from which it went on. Does nothing when the
+    /// engine works in the home.
+    /// @throws core::MissingError when the disk refuses, or the private folder or files in it are gone, as
+    /// after a purge; then nothing is changed in the home
     void bring_back();
 
   private:
@@ -44,6 +47,7 @@ class RunPlace {
     std::optional<core::TemporaryFolder> scratch_;
     std::optional<core::OwnFolder> own_;            ///< of the private folder: no link in it is followed
     std::map<std::filesystem::path, Stamp> known_;  ///< what the home has, by its name below the folder
+    std::set<std::filesystem::path> needed_;  ///< what a run never removes: without it the folder was purged
 };
 
 }  // namespace vibrotrough::campaign

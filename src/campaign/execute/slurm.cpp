@@ -147,11 +147,16 @@ std::optional<double> count_core_time(std::vector<SubmittedArray>& arrays) {
     if (names.empty()) return 0;
     if (!has_command("sacct")) return {};
     CallAnswer const answer =
-        call({"sacct", "-n", "-P", "-X", "-a", "-D", "-j", ids_of(names), "-o", "JobID,CPUTimeRAW"});
+        call({"sacct", "-n", "-P", "-X", "-a", "-D", "-j", ids_of(names), "-o", "JobID,JobName,CPUTimeRAW"});
     if (answer.code != 0) return {};
-    double sum = 0;
+    std::optional<double> sum;
     for (auto const& row : rows_of(answer.output, '|')) {
-        if (row.size() == 2) sum += static_cast<double>(number_in<long>(row[1]).value_or(0));
+        if (row.size() != 3) continue;
+        // Numbers of jobs may begin anew, so that a job of somebody else may have had the same one.
+        auto const job = number_in<long>(row[0].substr(0, row[0].find('_')));
+        auto const name = job ? names.find(*job) : names.end();
+        if (name == names.end() || name->second != row[1]) continue;
+        sum = sum.value_or(0) + static_cast<double>(number_in<long>(row[2]).value_or(0));
     }
     return sum;
 }

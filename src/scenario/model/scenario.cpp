@@ -54,7 +54,8 @@ double mass_per_area(Scenario const& s) {
 
 std::optional<double> trough_width(Scenario const& s) {
     if (s.trough.width) return s.trough.width;
-    if (s.trough.side_wall_friction) return s.layer.width;
+    bool const has_walls = s.trough.side_wall_friction || (s.trough.mesh && s.trough.mesh->has_upright_sides);
+    if (has_walls) return s.layer.width;
     return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -15,10 +16,11 @@
 namespace vibrotrough::scenario {
 namespace {
 
-constexpr std::size_t most_triangles = 20'000;
-constexpr std::size_t places = 100;  ///< of the grid in plan, along and across
-constexpr double at_end = 1e-6;      ///< of the length or width: nodes so close to an end lie on it
-constexpr double no_area = 1e-12;    ///< of the square of the longest edge
+constexpr std::size_t most_triangles = 5'000;
+constexpr std::size_t most_bytes = 1 << 20;  ///< of the text, as of every file that a campaign names
+constexpr std::size_t places = 300;          ///< of the grid in plan, along and across
+constexpr double at_end = 1e-6;              ///< of the length or width: nodes so close to an end lie on it
+constexpr double no_area = 1e-12;            ///< of the square of the longest edge
 
 Point minus(Point const& a, Point const& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -64,17 +66,26 @@ std::vector<Triangle> read_binary(std::string_view content, std::size_t count) {
     return triangles;
 }
 
+std::string lower(std::string word) {
+    std::ranges::transform(word, word.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word;
+}
+
 std::vector<Triangle> read_text(std::string_view content) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
     std::istringstream text{std::string(content)};
     text.imbue(std::locale::classic());
     std::vector<Triangle> triangles;
-    std::string word;
-    if (!(text >> word) || word != "solid")
+    std::string word, name;
+    if (!(text >> word) || lower(word) != "solid")
         throw std::invalid_argument("it is neither a text nor a binary STL");
+    std::getline(text, name);
     std::size_t corner = 0;
     Triangle triangle{};
     while (text >> word && triangles.size() <= most_triangles) {
-        if (word != "vertex") continue;
+        if (lower(word) != "vertex") continue;
         Point& p = triangle[corner];
         if (!(text >> p[0] >> p[1] >> p[2]))
             throw std::invalid_argument(
@@ -99,12 +110,16 @@ void check(std::vector<Triangle> const& triangles) {
     }
 }
 
-/// Height of a triangle at a place in plan; none outside of it and for vertical ones.
-std::optional<double> height_of(Triangle const& t, double x, double y) {
-    double const determinant =
+/// Twice the area of a triangle in plan, with its sign; 0 when it is vertical.
+double plan_area(Triangle const& t) {
+    double const twice =
         (t[1][1] - t[2][1]) * (t[0][0] - t[2][0]) + (t[2][0] - t[1][0]) * (t[0][1] - t[2][1]);
     double const edge = longest_edge(t);
-    if (std::abs(determinant) <= 1e-9 * edge * edge) return {};
+    return std::abs(twice) <= 1e-9 * edge * edge ? 0 : twice;
+}
+
+/// Height of a triangle that is not vertical at a place in plan; none outside of it.
+std::optional<double> height_of(Triangle const& t, double determinant, double x, double y) {
     double const a =
         ((t[1][1] - t[2][1]) * (x - t[2][0]) + (t[2][0] - t[1][0]) * (y - t[2][1])) / determinant;
     double const b =
@@ -118,14 +133,36 @@ double place(std::size_t i, double whole) {
     return (static_cast<double>(i) + 0.5) / places * whole;
 }
 
-/// The uppermost triangle at a place in plan; NaN where there is none.
-double height_at(std::vector<Triangle> const& triangles, double x, double y) {
-    double highest = std::numeric_limits<double>::quiet_NaN();
-    for (Triangle const& triangle : triangles) {
-        auto const height = height_of(triangle, x, y);
-        if (height && !(*height <= highest)) highest = *height;
+/// Heights of the surface at places in plan, x[i] and y[j], row by row; NaN where there is none.
+/// @throws std::invalid_argument when there are two surfaces above each other
+std::vector<double> heights_at(std::vector<Triangle> const& triangles, std::vector<double> const& x,
+                               std::vector<double> const& y, double most) {
+    std::vector<double> heights(x.size() * y.size(), std::numeric_limits<double>::quiet_NaN());
+    for (Triangle const& t : triangles) {
+        double const determinant = plan_area(t);
+        if (determinant == 0) continue;
+        auto const [x0, x1] = std::minmax({t[0][0], t[1][0], t[2][0]});
+        auto const [y0, y1] = std::minmax({t[0][1], t[1][1], t[2][1]});
+        for (auto i = std::ranges::lower_bound(x, x0) - x.begin(); i < std::ssize(x); ++i) {
+            if (x[static_cast<std::size_t>(i)] > x1) break;
+            for (auto j = std::ranges::lower_bound(y, y0) - y.begin(); j < std::ssize(y); ++j) {
+                double const at_x = x[static_cast<std::size_t>(i)], at_y = y[static_cast<std::size_t>(j)];
+                if (at_y > y1) break;
+                auto const height = height_of(t, determinant, at_x, at_y);
+                if (!height) continue;
+                double& known = heights[static_cast<std::size_t>(i) * y.size() + static_cast<std::size_t>(j)];
+                if (std::abs(known - *height) > 1e-3 * most) {
+                    throw std::invalid_argument(
+                        fmt::format("there are two surfaces above each other at x = {:.4g}, y = {:.4g} from "
+                                    "its corner; export "
+                                    "only the surface that the grains touch",
+                                    at_x, at_y));
+                }
+                if (!(*height <= known)) known = *height;
+            }
+        }
     }
-    return highest;
+    return heights;
 }
 
 /// Moves the box of the triangles to 0 and returns its extent.
@@ -150,28 +187,71 @@ Point move_to_zero(std::vector<Triangle>& triangles) {
     return extent;
 }
 
-/// The largest difference in height between the ends of the mesh in one direction.
-double mismatch(TroughMesh const& mesh, std::size_t direction) {
+/// Places of the grid along one side of the box.
+std::vector<double> grid(double whole) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < places; ++i) all.push_back(place(i, whole));
+    return all;
+}
+
+/// The largest difference between two rows of heights; infinite where a surface is missing.
+double mismatch(std::vector<double> const& one, std::vector<double> const& other) {
     double largest = 0;
-    for (std::size_t i = 0; i < places; ++i) {
-        double const other = place(i, mesh.extent[1 - direction]), end = mesh.extent[direction];
-        auto const height = [&](double at) {
-            return direction == 0 ? height_at(mesh.triangles, at, other)
-                                  : height_at(mesh.triangles, other, at);
-        };
-        double const difference = std::abs(height(0) - height(end));
-        if (!(difference <= largest)) largest = difference;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        double const difference = std::abs(one[i] - other[i]);
+        largest =
+            std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(largest, difference);
+        if (std::isinf(largest)) break;
     }
     return largest;
 }
 
-bool has_upright_side(TroughMesh const& mesh) {
-    return std::ranges::any_of(mesh.triangles, [&](Triangle const& t) {
-        auto const all_at = [&](double y) {
-            return std::ranges::all_of(t, [y](Point const& corner) { return corner[1] == y; });
-        };
-        return all_at(0) || all_at(mesh.extent[1]);
-    });
+/// Whether a triangle lies in a plane of the box: k is 0 for its ends and 1 for its sides.
+bool lies_at(Triangle const& t, std::size_t k, double value) {
+    return std::ranges::all_of(t, [&](Point const& corner) { return corner[k] == value; });
+}
+
+/// Whether upright walls close the side at y from the surface, whose heights there are given, to the top.
+/// @throws std::invalid_argument when there are walls, but not everywhere
+bool is_closed(TroughMesh const& mesh, double y, std::vector<double> const& heights) {
+    double walls = 0, open = 0;
+    for (Triangle const& t : mesh.triangles)
+        if (lies_at(t, 1, y)) walls += length(area(t)) / 2;
+    for (double const height : heights)
+        open += (mesh.extent[2] - height) * mesh.extent[0] / static_cast<double>(heights.size());
+    if (walls == 0) return false;
+    if (std::abs(walls - open) <= 0.01 * open) return true;
+    throw std::invalid_argument(
+        "the upright walls in one of its sides do not reach from the surface to the top of the mesh "
+        "everywhere; "
+        "make both walls as long as the trough and equally high");
+}
+
+/// Fills in what follows from the triangles.
+void survey(TroughMesh& mesh) {
+    auto const [length_x, width, top] = mesh.extent;
+    std::vector<double> const x = grid(length_x), y = grid(width);
+    double const most = std::max(top, 1e-6 * length_x);
+    mesh.heights = heights_at(mesh.triangles, x, y, most);
+    auto const row = [&](std::vector<double> const& along, std::vector<double> const& across) {
+        return heights_at(mesh.triangles, along, across, std::numeric_limits<double>::infinity());
+    };
+    std::vector<double> const left = row(x, {0}), right = row(x, {width});
+    mesh.mismatch_along = mismatch(row({0}, y), row({length_x}, y));
+    mesh.mismatch_across = mismatch(left, right);
+    for (Triangle const& t : mesh.triangles) {
+        mesh.area += length(area(t)) / 2;
+        if (lies_at(t, 0, 0) || lies_at(t, 0, length_x))
+            throw std::invalid_argument(
+                "there is an upright plate in one of its ends, which are joined; remove it");
+        if (lies_at(t, 1, 0) || lies_at(t, 1, width)) continue;
+        for (Point const& corner : t) mesh.floor_top = std::max(mesh.floor_top, corner[2]);
+    }
+    bool const is_left = is_closed(mesh, 0, left), is_right = is_closed(mesh, width, right);
+    if (is_left != is_right)
+        throw std::invalid_argument(
+            "there is an upright wall in only one of its sides; put one in both or in none");
+    mesh.has_upright_sides = is_left;
 }
 
 }  // namespace
@@ -191,16 +271,14 @@ std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file) {
     check(triangles);
     // A copy is kept in results, which hold texts.
     if (binary) file.content = stl_text("trough", triangles);
+    if (file.content.size() > most_bytes)
+        throw std::invalid_argument(
+            "as a text it is larger than 1 MiB; simplify it to fewer than 4000 triangles");
     Point const extent = move_to_zero(triangles);
     if (!(extent[0] > 0 && extent[1] > 0))
         throw std::invalid_argument("its surface has no length or no width");
-    TroughMesh mesh{std::move(file), std::move(triangles), extent, {}, 0, 0, false};
-    for (std::size_t i = 0; i < places; ++i)
-        for (std::size_t j = 0; j < places; ++j)
-            mesh.heights.push_back(height_at(mesh.triangles, place(i, extent[0]), place(j, extent[1])));
-    mesh.mismatch_along = mismatch(mesh, 0);
-    mesh.mismatch_across = mismatch(mesh, 1);
-    mesh.has_upright_sides = has_upright_side(mesh);
+    TroughMesh mesh{std::move(file), std::move(triangles), extent, {}, 0, 0, false, 0, 0};
+    survey(mesh);
     return std::make_shared<TroughMesh const>(std::move(mesh));
 }
 

@@ -42,7 +42,9 @@ struct TroughMesh {
     std::vector<double> heights;
     double mismatch_along;  ///< largest difference in height between its two ends, which a periodic box joins
     double mismatch_across;  ///< the same between its two sides
-    bool has_upright_sides;  ///< whether vertical triangles lie in one of its sides
+    bool has_upright_sides;  ///< whether upright walls close both of its sides, from the surface to its top
+    double floor_top;        ///< height of the highest node of a triangle that does not lie in a side
+    double area;             ///< of all triangles
 
     /// The first place of the grid (x, y) without a surface; none when it covers its box in plan.
     std::optional<std::array<double, 2>> hole() const;
@@ -54,7 +56,9 @@ struct TroughMesh {
 
 /// Reads an STL file, text or binary.
 /// @throws std::invalid_argument with one line that describes what is wrong with it: no STL, no triangles,
-/// more than 20,000, one without area, or a mesh without length or width
+/// more than 1 MiB as text (about 4000 triangles), one without area, a mesh without length or width, two
+/// surfaces above each other, a plate across the trough in one of its ends, or walls that leave a part of the
+/// sides open
 std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file);
 
 /// Divides triangles until no edge is longer than `longest`: the longest edge is cut in the middle, for all

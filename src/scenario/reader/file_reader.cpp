@@ -167,6 +167,9 @@ class CampaignFileReader {
             fail(where, section, fmt::format("has {} entries, more than {}", list->size(), most),
                  "leave out the others");
         for (std::size_t i = 0; i < list->size(); ++i) {
+            if ((*list)[i].as_table()->empty())
+                fail(position_of((*list)[i].source()), section, fmt::format("number {} is empty", i + 1),
+                     "remove it");
             for (auto const& [key, value] : in_file_order(*(*list)[i].as_table()))
                 read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()),
                          *value);

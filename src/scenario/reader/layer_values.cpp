@@ -55,7 +55,13 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
                 unit * (*hole)[0], unit * (*hole)[1]),
             "close it: the surface must cover its length and width");
     }
-    double const allowed = 0.01 * smallest_diameter(scenario);
+    double const size = smallest_diameter(scenario), grains = mesh.area * unit * unit / (size * size);
+    if (grains > most_grains_on_floor) {
+        fail(fmt::format("{:.3g} grains of {:.3g} m would cover its surface, more than {:.0f}", grains, size,
+                         most_grains_on_floor),
+             "take a smaller piece of the trough or larger grains; is mesh_unit right?");
+    }
+    double const allowed = 0.01 * size;
     if (unit * mesh.mismatch_along > allowed) {
         fail(
             fmt::format("its two ends along the trough differ by {:.3g} m in height, but the box is periodic",
@@ -94,6 +100,10 @@ int grains_for(double height, Scenario const& scenario, GivenKeys const& given) 
         scenario.trough.mesh ? settled_solid_fraction * space_below(height, scenario)
                              : settled_solid_fraction * scenario.layer.length * scenario.layer.width * height;
     double const count = volume / mean_grain_volume(scenario);
+    if (count < 1) {
+        given.fail("layer.height",
+                   fmt::format("{:.6g} m leaves no room for a grain above the trough", height), "raise it");
+    }
     Key const& key = *find_key("layer.grains");
     if (count > key.most) {
         given.fail("layer.height",

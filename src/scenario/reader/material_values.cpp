@@ -82,6 +82,22 @@ void check_pair(Scenario const& s, std::size_t index, GivenKeys const& given) {
         given.fail(place, "gives neither friction nor restitution", "write friction = 0.3");
 }
 
+void check_sizes(Scenario const& s, std::size_t index, GivenKeys const& given) {
+    constexpr std::size_t most_classes = 100;
+    AddedMaterial const& added = s.materials[index];
+    if (added.diameter_spread && !added.diameter && s.grains.size_law == SizeLaw::listed) {
+        given.fail(key_of(materials_section, index, "diameter_spread"),
+                   "is given without a diameter, and the diameters of [grains] are a list",
+                   "write diameter as well");
+    }
+    if (size_classes(s).size() > most_classes) {
+        given.fail(any_key_of(materials_section, index, given),
+                   fmt::format("the layer has {} sizes of grains, more than {}", size_classes(s).size(),
+                               most_classes),
+                   "give the materials a diameter of their own, or shorten the list of [grains]");
+    }
+}
+
 /// Clumps and blocks have one material: the engine's rigid bodies were tried with one template only.
 void check_spheres(Scenario const& s, GivenKeys const& given) {
     std::string const place = any_key_of(materials_section, 0, given);
@@ -102,6 +118,7 @@ void complete_materials(Scenario const& s, GivenKeys const& given) {
     for (std::size_t i = 0; i < s.pairs.size(); ++i) check_pair(s, i, given);
     if (s.materials.empty()) return;
     check_sum(s, given);
+    for (std::size_t i = 0; i < s.materials.size(); ++i) check_sizes(s, i, given);
     check_spheres(s, given);
 }
 
