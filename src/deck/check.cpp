@@ -240,6 +240,7 @@ void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c
 /// them, as if the layer were of this one, and the largest number of each finding counts.
 void check_each_material(std::vector<Finding>& findings, prepare::PreparedCase const& c,
                          void (*check_one)(std::vector<Finding>&, prepare::PreparedCase const&)) {
+    if (c.materials.size() == 1) return check_one(findings, c);
     std::vector<Finding> worst;
     for (scenario::Material const& material : c.materials) {
         prepare::PreparedCase one = c;
