@@ -1,7 +1,8 @@
 #include "deck/trough_mesh.hpp"
 
+#include "scenario/model/trough_mesh.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,14 +10,7 @@
 namespace vibrotrough::deck {
 namespace {
 
-using Node = std::array<double, 3>;
-
-std::string facet(Node const& normal, std::array<Node, 3> const& nodes) {
-    std::string text =
-        fmt::format("  facet normal {} {} {}\n    outer loop\n", normal[0], normal[1], normal[2]);
-    for (Node const& node : nodes) text += fmt::format("      vertex {} {} {}\n", node[0], node[1], node[2]);
-    return text + "    endloop\n  endfacet\n";
-}
+using Node = scenario::Point;
 
 /// A rectangle over x in [0, length] and another coordinate in [0, width]. `node_at` gives the node at (x,
 /// other).
@@ -32,8 +26,8 @@ std::string rectangle(std::string const& name, double length, double width, doub
     std::string text = fmt::format("solid {}\n", name);
     for (int i = 0; i < along; ++i) {
         for (int j = 0; j < across; ++j) {
-            text += facet(normal, {node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-            text += facet(normal, {node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+            text += scenario::facet_text(normal, {node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+            text += scenario::facet_text(normal, {node(i, j), node(i + 1, j + 1), node(i, j + 1)});
         }
     }
     return text + fmt::format("endsolid {}\n", name);

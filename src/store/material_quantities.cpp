@@ -2,6 +2,7 @@
 
 #include "measure/mass_flow.hpp"
 #include "measure/segregation.hpp"
+#include "scenario/reader/keys.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,9 @@ namespace vibrotrough::store {
 namespace {
 
 using Case = CaseRecord const&;
+
+// The campaign file allows as many materials as cycles.csv has columns for.
+static_assert(scenario::most_added_materials + 1 == measure::most_materials);
 
 bool is_mixture(Case record) {
     return !record.scenario.materials.empty() && !record.packings.empty();

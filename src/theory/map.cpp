@@ -176,11 +176,8 @@ MapPoint PointSolver::operator()(Inputs const& inputs) {
         Motion const m = (*rolling_)(inputs.point()).motion;
         return {m.velocity_efficiency, 0, mode_code(m), m.period_cycles, m.outcome};
     }
-    if (inputs.plastic()) {
-        Efficiency const e = point_mass_(inputs.point());
-        return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
-    }
-    Efficiency const e = point_mass_.solve(inputs.conveyor());
+    Efficiency const e =
+        inputs.plastic() ? point_mass_(inputs.point()) : point_mass_.solve(inputs.conveyor());
     return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
 }
 

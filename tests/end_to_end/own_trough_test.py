@@ -47,7 +47,7 @@ class OwnTrough(EndToEndTest):
             self.assertAlmostEqual(one, other, delta=0.05)
 
     def test_a_channel_keeps_its_grains(self):
-        """With upright walls the box is not periodic across; the friction of the walls slows the layer."""
+        """With upright walls the box is not periodic across, and no grain leaves it."""
         self.run_campaign(self.write(FLOOR + WALLS, changes={"trough.friction": 0.5}))
         row = self.table()[0]
         self.assertIn(row["outcome"], ("finished", "not-precise"))

@@ -325,16 +325,20 @@ std::vector<Triangle> divided(std::vector<Triangle> const& triangles, double lon
     return result;
 }
 
+std::string facet_text(Point const& normal, Triangle const& triangle) {
+    std::string text =
+        fmt::format("  facet normal {} {} {}\n    outer loop\n", normal[0], normal[1], normal[2]);
+    for (Point const& corner : triangle)
+        text += fmt::format("      vertex {} {} {}\n", corner[0], corner[1], corner[2]);
+    return text + "    endloop\n  endfacet\n";
+}
+
 std::string stl_text(std::string_view name, std::vector<Triangle> const& triangles) {
     std::string text = fmt::format("solid {}\n", name);
     for (Triangle const& t : triangles) {
         Point const normal = area(t);
         double const size = length(normal);
-        text += fmt::format("  facet normal {} {} {}\n    outer loop\n", normal[0] / size, normal[1] / size,
-                            normal[2] / size);
-        for (Point const& corner : t)
-            text += fmt::format("      vertex {} {} {}\n", corner[0], corner[1], corner[2]);
-        text += "    endloop\n  endfacet\n";
+        text += facet_text({normal[0] / size, normal[1] / size, normal[2] / size}, t);
     }
     return text + fmt::format("endsolid {}\n", name);
 }

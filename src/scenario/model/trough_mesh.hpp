@@ -67,6 +67,9 @@ std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file);
 /// much larger than grains.
 std::vector<Triangle> divided(std::vector<Triangle> const& triangles, double longest);
 
+/// One triangle of an STL text, with this normal and all digits.
+std::string facet_text(Point const& normal, Triangle const& triangle);
+
 /// An STL text of triangles with the normals of their corners' order and all digits.
 std::string stl_text(std::string_view name, std::vector<Triangle> const& triangles);
 

@@ -111,7 +111,7 @@ inline constexpr std::string_view materials_section = "materials";
 inline constexpr std::string_view pairs_section = "pairs";
 
 /// How many entries [[materials]] may have: four materials with that of [grains].
-inline constexpr std::size_t most_materials = 3;
+inline constexpr std::size_t most_added_materials = 3;
 /// How many entries [[pairs]] may have: all pairs of four materials.
 inline constexpr std::size_t most_pairs = 6;
 

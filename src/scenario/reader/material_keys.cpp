@@ -93,7 +93,7 @@ std::span<Key const> material_keys() {
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             (add_material<i>(rows), ...);
         }
-        (std::make_index_sequence<most_materials>());
+        (std::make_index_sequence<most_added_materials>());
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             (add_pair<i>(rows), ...);
         }
