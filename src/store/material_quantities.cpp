@@ -70,18 +70,18 @@ double half_width_of(Case record, std::vector<double> const& values) {
 }
 
 /// The field of a packing as a quantity.
-using Number = Field<PackingRecord, std::optional<double>>;
+using OptionalNumber = Field<PackingRecord, std::optional<double>>;
 
-Number segregation() {
+OptionalNumber segregation() {
     return packing_field([](auto& packing) -> auto& { return packing.segregation; });
 }
 
-Number lead() {
+OptionalNumber lead() {
     return packing_field([](auto& packing) -> auto& { return packing.material_lead; });
 }
 
 /// Half-width of the interval of a number of the packings; none with fewer than two.
-template <Number (*number)()>
+template <OptionalNumber (*number)()>
 std::optional<double> half_width_over_packings(Case record) {
     std::vector<double> values;
     for (PackingRecord const& packing : record.packings)
