@@ -32,7 +32,7 @@ struct CycleSeries {
     std::vector<double> flight_fraction;   ///< fraction of the steps without contact with the trough
 
     /// Of each material of a mixture, that of [grains] first; empty for the others and without a mixture.
-    std::array<MaterialSeries, most_materials> materials;
+    std::array<MaterialSeries, most_materials> materials{};
 
     /// Number of whole cycles n.
     int cycles() const { return static_cast<int>(normal_force.size()); }
