@@ -1,7 +1,9 @@
 #include "scenario/reader/file_reader.hpp"
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
+#include "scenario/reader/other_words.hpp"
 #include "scenario/reader/run_section.hpp"
 #include "scenario/reader/value_reader.hpp"
 
@@ -93,9 +95,11 @@ class CampaignFileReader {
     }
 
     CampaignText read() {
-        for (auto const& [name, node] : in_file_order(root_)) read_section(*name, *node);
-        check_design(result_, file_);
-        for (Key const& key : all_keys()) check_present(key);
+        for (auto const& [name, node] : in_file_order(root_))
+            attempt("", [&, &name = name, &node = node] { read_section(*name, *node); });
+        attempt("", [&] { check_design(result_, file_); });
+        for (Key const& key : all_keys()) attempt(key.path, [&] { check_present(key); });
+        if (!problems_.empty()) throw core::InputError(all_problems());
         return std::move(result_);
     }
 
@@ -103,6 +107,32 @@ class CampaignFileReader {
     [[noreturn]] void fail(Position where, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
         throw_at({file_, where}, key, wrong, instead);
+    }
+
+    /// Does `step` for a key, and keeps what it finds wrong until the whole file is read, so that a person
+    /// sees all mistakes at once. A key that is refused is not missing, too; nor is the one that was meant.
+    template <typename Step>
+    void attempt(std::string_view path, Step const& step) {
+        try {
+            step();
+        } catch (core::InputError const& error) {
+            problems_.emplace_back(error.what());
+            if (path.empty()) return;
+            refused_.emplace(path);
+            refused_.emplace(nearest_key(path));
+        }
+    }
+
+    /// A line for each problem, ten at most.
+    std::vector<std::string> all_problems() const {
+        constexpr std::size_t most = 10;
+        std::vector<std::string> lines = problems_;
+        if (lines.size() > most) {
+            lines.resize(most);
+            lines.push_back(
+                fmt::format("{}: {} more mistakes follow; mend these first", file_, problems_.size() - most));
+        }
+        return lines;
     }
 
     static bool is_section(std::string_view name) {
@@ -137,6 +167,10 @@ class CampaignFileReader {
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
+            std::string_view const meant = section_in_other_words(name.str());
+            if (!meant.empty())
+                fail(where, core::printable(name.str(), 60), "unknown section",
+                     fmt::format("did you mean [{}]?", meant));
             fail(where, core::printable(name.str(), 60), "unknown section",
                  fmt::format("the sections are {}, sweep, zip, points, points_from, sample, domain, exclude "
                              "and run",
@@ -148,11 +182,14 @@ class CampaignFileReader {
         }
         sections_[std::string(name.str())] = where;
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            if (name.str() == "sweep") {
-                read_sweep_entry(*key, *value);
-            } else {
-                read_key(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
-            }
+            std::string const path = fmt::format("{}.{}", name.str(), key->str());
+            attempt(path, [&, &key = key, &value = value] {
+                if (name.str() == "sweep") {
+                    read_sweep_entry(*key, *value);
+                } else {
+                    read_key(path, position_of(key->source()), *value);
+                }
+            });
         }
     }
 
@@ -170,9 +207,12 @@ class CampaignFileReader {
             if ((*list)[i].as_table()->empty())
                 fail(position_of((*list)[i].source()), section, fmt::format("number {} is empty", i + 1),
                      "remove it");
-            for (auto const& [key, value] : in_file_order(*(*list)[i].as_table()))
-                read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()),
-                         *value);
+            for (auto const& [key, value] : in_file_order(*(*list)[i].as_table())) {
+                std::string const path = fmt::format("{}.{}.{}", section, i + 1, key->str());
+                attempt(path, [&, &key = key, &value = value] {
+                    read_key(path, position_of(key->source()), *value);
+                });
+            }
         }
     }
 
@@ -220,7 +260,8 @@ class CampaignFileReader {
             return;
         }
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            read_sweep_entry(*key, *value, path + ".");
+            attempt(path + "." + std::string(key->str()),
+                    [&, &key = key, &value = value] { read_sweep_entry(*key, *value, path + "."); });
         }
     }
 
@@ -300,7 +341,7 @@ class CampaignFileReader {
     }
 
     bool given(std::string_view path) const {
-        return result_.base.contains(path) ||
+        return result_.base.contains(path) || refused_.contains(path) ||
                std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; }) ||
                std::ranges::any_of(result_.lists, [&](PointList const& list) {
                    return std::ranges::find(list.keys, path) != list.keys.end();
@@ -328,6 +369,8 @@ class CampaignFileReader {
     toml::table root_;
     CampaignText result_;
     std::map<std::string, Position> sections_;
+    std::vector<std::string> problems_;
+    std::set<std::string, std::less<>> refused_;  ///< keys with a problem, and those that were meant
 };
 
 }  // namespace
