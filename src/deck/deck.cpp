@@ -71,6 +71,7 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
         files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
+        if (domain.open) files["back.stl"] = back_wall_stl(width, prepared.wall_height, coarse);
     }
     return files;
 }
@@ -78,13 +79,14 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
 std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
-    std::array<double, 6> const shape{metres_in(scenario.trough.mesh_unit),
+    std::array<double, 7> const shape{metres_in(scenario.trough.mesh_unit),
                                       scenario.layer.length,
                                       scenario.layer.width,
                                       mean_diameter(scenario),
                                       scenario.trough.side_wall_friction ? 1.0 : 0.0,
-                                      prepared.wall_height};
-    thread_local std::array<double, 6> last_shape{};
+                                      prepared.wall_height,
+                                      prepared.domain.open ? 1.0 : 0.0};
+    thread_local std::array<double, 7> last_shape{};
     thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
     thread_local std::map<std::string, std::string> last;
     if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh) {

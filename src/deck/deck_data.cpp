@@ -58,13 +58,15 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
     for (prepare::ClassCount const& size : n.classes) {
         core::TemplateData entry;
-        so_far += size.count;
+        so_far += is_open(n.scenario) ? 1 : size.count;  // an open trough begins with one of each
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
         entry.set("count", std::to_string(size.count));
         entry.set("of_material",
                   n.materials.size() == 1 ? std::string() : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
+        entry.set("mass_share",
+                  rounded(size.count * material_of(n, size).grains.density * std::pow(size.diameter, 3)));
         entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
@@ -307,8 +309,14 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("bottom", text(n.box_bottom));
     data.set("top", text(n.box_top));
     // The box is wider than the side walls, so that the walls are inside it.
-    data.set("box_left", text(walls ? -extent : 0));
-    data.set("box_right", text(s.layer.width + (walls ? extent : 0)));
+    double const beside = n.domain.open ? n.domain.open->box_side : walls ? extent : 0;
+    data.set("box_left", text(walls ? -beside : 0));
+    data.set("box_right", text(s.layer.width + beside));
+    data.set("box_start", text(n.domain.open ? n.domain.open->box_start : 0));
+    data.set("box_end", text(n.domain.open ? n.domain.open->box_end : s.layer.length));
+    data.set("fill_start", text(n.domain.open ? n.domain.open->feed_start : 0));
+    data.set("fill_end", text(n.domain.open ? n.domain.open->feed_end : s.layer.length));
+    data.set("settled_grains", std::to_string(n.settled_grains));
     data.set("fill_left", text(walls ? extent / 2 : 0));
     data.set("fill_right", text(s.layer.width - (walls ? extent / 2 : 0)));
     data.set("fill_bottom", text(n.fill_bottom));
@@ -317,8 +325,48 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / step))));
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
-    data.set("settled_energy", rounded(1e-7 * n.mass * scenario::gravity * diameter));
+    double const settled_mass = n.domain.open ? n.mass * n.settled_weight / n.weight : n.mass;
+    data.set("settled_energy", rounded(1e-7 * settled_mass * scenario::gravity * diameter));
     data.set("mass", text(n.mass));
+    data.set("settled_mass", text(settled_mass));
+}
+
+/// The feed of an open trough, where grains have left it, and where they are measured.
+void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
+    constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
+    scenario::Scenario const& s = n.scenario;
+    data.set("open", n.domain.open.has_value());
+    for (char const* name : {"open_columns", "open_values", "open_first_values"})
+        data.set(name, std::string());
+    if (!n.domain.open) return;
+    // What came and went, in addition to the other columns of cycles.csv.
+    data.set("open_columns", std::string(",fed,fed_mass,left,left_mass,held_mass,window_mass"));
+    data.set("open_values",
+             std::string(",${fed},${fed_mass},${left},${left_mass},${held_mass},${window_mass}"));
+    data.set("open_first_values", std::string(",0,0,0,0,${held_mass},0"));
+    prepare::OpenTrough const& open = *n.domain.open;
+    double const flow = *s.feed.mass_flow;
+    data.set("mass_flow", text(flow));
+    data.set("feeds_per_cycle", std::to_string(prepare::feeds_per_cycle));
+    data.set("feed_steps", std::to_string(n.time.steps_per_cycle / prepare::feeds_per_cycle));
+    data.set("feed_seed", std::to_string(seed_number(5000 + packing)));
+    data.set("feed_distribution_seed", std::to_string(seed_number(6100 + packing)));
+    for (auto const& [name, value] :
+         std::initializer_list<std::pair<char const*, double>>{{"feed_start", open.feed_start},
+                                                               {"feed_end", open.feed_end},
+                                                               {"feed_bottom", open.feed_bottom},
+                                                               {"feed_top", open.feed_top},
+                                                               {"feed_speed", open.feed_speed},
+                                                               {"window_start", open.window_start},
+                                                               {"window_end", open.window_end},
+                                                               {"out_x", open.out_x},
+                                                               {"out_near_x", open.out_near_x},
+                                                               {"out_z", open.out_z},
+                                                               {"along_bin", open.bin}})
+        data.set(name, text(value));
+    double const largest =
+        n.mass / s.layer.grains * std::pow(n.classes.front().diameter / mean_diameter(s), 3);
+    data.set("overfull_mass", rounded(late_cycles * flow / s.trough.frequency + late_grains * largest));
 }
 
 }  // namespace
@@ -351,6 +399,7 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);
     describe_material_columns(data, n);
+    describe_open(data, n, packing.number);
     return data;
 }
 
