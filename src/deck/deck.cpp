@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
+#include "deck/open_trough.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
 #include "deck/rolling.hpp"
@@ -113,6 +114,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     }
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
+    describe_open(data, prepared, packing.number);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);

@@ -331,44 +331,6 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("settled_mass", text(settled_mass));
 }
 
-/// The feed of an open trough, where grains have left it, and where they are measured.
-void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int packing) {
-    constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
-    scenario::Scenario const& s = n.scenario;
-    data.set("open", n.domain.open.has_value());
-    for (char const* name : {"open_columns", "open_values", "open_first_values"})
-        data.set(name, std::string());
-    if (!n.domain.open) return;
-    // What came and went, in addition to the other columns of cycles.csv.
-    data.set("open_columns", std::string(",fed,fed_mass,left,left_mass,held_mass,window_mass"));
-    data.set("open_values",
-             std::string(",${fed},${fed_mass},${left},${left_mass},${held_mass},${window_mass}"));
-    data.set("open_first_values", std::string(",0,0,0,0,${held_mass},0"));
-    prepare::OpenTrough const& open = *n.domain.open;
-    double const flow = *s.feed.mass_flow;
-    data.set("mass_flow", text(flow));
-    data.set("feeds_per_cycle", std::to_string(prepare::feeds_per_cycle));
-    data.set("feed_steps", std::to_string(n.time.steps_per_cycle / prepare::feeds_per_cycle));
-    data.set("feed_seed", std::to_string(seed_number(5000 + packing)));
-    data.set("feed_distribution_seed", std::to_string(seed_number(6100 + packing)));
-    for (auto const& [name, value] :
-         std::initializer_list<std::pair<char const*, double>>{{"feed_start", open.feed_start},
-                                                               {"feed_end", open.feed_end},
-                                                               {"feed_bottom", open.feed_bottom},
-                                                               {"feed_top", open.feed_top},
-                                                               {"feed_speed", open.feed_speed},
-                                                               {"window_start", open.window_start},
-                                                               {"window_end", open.window_end},
-                                                               {"out_x", open.out_x},
-                                                               {"out_near_x", open.out_near_x},
-                                                               {"out_z", open.out_z},
-                                                               {"along_bin", open.bin}})
-        data.set(name, text(value));
-    double const largest =
-        n.mass / s.layer.grains * std::pow(n.classes.front().diameter / mean_diameter(s), 3);
-    data.set("overfull_mass", rounded(late_cycles * flow / s.trough.frequency + late_grains * largest));
-}
-
 }  // namespace
 
 int seed_number(int index) {
@@ -399,7 +361,6 @@ core::TemplateData describe(prepare::PreparedCase const& n, PackingPlan const& p
     describe_drive(data, n);
     describe_output(data, s, n.time, packing.number);
     describe_material_columns(data, n);
-    describe_open(data, n, packing.number);
     return data;
 }
 

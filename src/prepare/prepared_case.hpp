@@ -44,7 +44,7 @@ struct PreparedCase {
     /// How many grains there are before the drive begins, and their weight, N. In an open trough it is one of
     /// each class, because the engine cannot start with none.
     int settled_grains;
-    double settled_weight;
+    double settled_weight;  ///< see settled_grains
 
     // Stiffness. Where the campaign file gives no modulus, the scenario above holds the one that was chosen.
     bool modulus_chosen;       ///< whether Young's modulus was chosen here
