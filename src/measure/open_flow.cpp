@@ -37,13 +37,15 @@ void read_snapshots(core::TextFile const& file, int steps_per_cycle, long start,
     auto const damaged = [&] {
         throw core::InputError(fmt::format("{} is damaged; run its case again", file.path.string()));
     };
+    // Whether there is a whole line; the engine may be writing the last one.
+    auto const next = [&](std::string& line) { return std::getline(text, line) && !text.eof(); };
     std::string line;
-    while (std::getline(text, line)) {
+    while (next(line)) {
         if (line != "ITEM: TIMESTEP") damaged();
         long step = -1, count = -1;
         std::vector<std::string> head(9);  // step, number of grains, box, columns
         for (std::size_t i = 1; i < head.size(); ++i)
-            if (!std::getline(text, head[i])) return;  // the engine may be writing it
+            if (!next(head[i])) return;
         std::istringstream(head[1]) >> step;
         std::istringstream(head[3]) >> count;
         if (step < 0 || count < 0 || count > 100'000'000 || step % steps_per_cycle != 0 ||
@@ -51,7 +53,7 @@ void read_snapshots(core::TextFile const& file, int steps_per_cycle, long start,
             damaged();
         std::vector<LeftGrain> grains;
         for (long i = 0; i < count; ++i) {
-            if (!std::getline(text, line) || text.eof()) return;
+            if (!next(line)) return;
             LeftGrain grain{static_cast<int>(step / steps_per_cycle), 0, 0, 0};
             if (!(std::istringstream(line) >> grain.id >> grain.x >> grain.vx)) damaged();
             grains.push_back(grain);
