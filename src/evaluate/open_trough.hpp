@@ -15,7 +15,8 @@ void measure_open(store::PackingRecord& record, prepare::PreparedCase const& pre
                   PackingFiles const& files);
 
 /// Why a case with an open trough is not steady: its outflow differs from the inflow by more than 2 % and the
-/// interval of the difference over the packings. Empty when it is, and for other cases.
+/// interval of the difference over the packings (of one packing: 2 / sqrt(n) for n grains that were fed).
+/// Empty when it is, and for other cases.
 std::string unsteady_flow(store::CaseRecord const& record);
 
 }  // namespace vibrotrough::evaluate
