@@ -80,7 +80,7 @@ std::vector<PackingTable> const& open_tables() {
          {"depth", "m", "Height of the layer in the bin if it had settled, mean over the cycles that count"},
          packing_field([](auto& p) -> auto& { return p.open.along.depth; })},
         {"along",
-         {"speed", "m/s", "Mean velocity of its grains along the trough; NaN where there were none"},
+         {"velocity", "m/s", "Mean velocity of its grains along the trough; NaN where there were none"},
          packing_field([](auto& p) -> auto& { return p.open.along.speed; })},
         {"residence",
          {"time", "s",
