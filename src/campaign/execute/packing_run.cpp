@@ -69,7 +69,7 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
 void PackingRun::begin() {
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
-    settled_.obtain(deck_, planned_.prepared->weight,
+    settled_.obtain(deck_, planned_.prepared->settled_weight,
                     [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
                         if (!alive.expired()) start_on(made);
                     });

@@ -354,7 +354,7 @@ class CampaignFileReader {
         for (Key const& other : all_keys()) {
             if (key.group.empty() || other.group != key.group || other.path == key.path) continue;
             if (given(other.path)) return;
-            names.push_back(last_name(other.path));
+            names.push_back(section_of(other) == section_of(key) ? last_name(other.path) : other.path);
         }
         std::string const section(section_of(key));
         auto const found = sections_.find(section);
