@@ -6,10 +6,11 @@ import shutil
 import signal
 import stat
 import subprocess
+import time
 import unittest
 from pathlib import Path
 
-from trough_program import EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time
+from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time
 
 # Nobody would stop this for an hour; a checkpoint comes soon.
 ENDLESS = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000, "output.checkpoint_cycles": 5}
@@ -25,9 +26,9 @@ class Scratch(EndToEndTest):
         os.environ["VIBROTROUGH_TEST_SCRATCH"] = str(self.folder)
         self.addCleanup(os.environ.pop, "VIBROTROUGH_TEST_SCRATCH", None)
 
-    def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml"):
+    def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml", sweep=None):
         path = self.folder / name
-        path.write_text(campaign_text(changes) + (f'[run]\nscratch = "{scratch}"\n' if scratch else ""))
+        path.write_text(campaign_text(changes, sweep) + (f'[run]\nscratch = "{scratch}"\n' if scratch else ""))
         return path
 
     def packing(self, number=1):
@@ -147,6 +148,78 @@ class Scratch(EndToEndTest):
         campaign.write_text(campaign.read_text().partition("[run]")[0])
         self.run_campaign(campaign, output=self.folder / "plain", wanted=None)
         self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
+
+    def start_tasks(self, campaign):
+        """One process for each task of the campaign, as on the nodes of a cluster."""
+        tasks = self.folder / "tasks"
+        prepared = self.call("prepare", campaign, "--output", self.output, "--task-list", tasks, "--liggghts", self.engine, "--accept-findings")
+        self.assertEqual(prepared.returncode, 0, prepared.stderr)
+        started = []
+        for index in range(len(tasks.read_text().splitlines())):
+            words = [PROGRAM, "work", self.output, "--task-list", tasks, "--index", index]
+            started.append(subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True))
+            self.addCleanup(self.end, started[-1])
+        return started
+
+    def files_of_packing(self):
+        return {path.name: path.read_bytes() for path in self.packing().iterdir() if path.is_file()}
+
+    def test_a_packing_that_a_task_has_is_left_alone(self):
+        """Whether its engine works in a scratch folder or not, before the first checkpoint as after it."""
+        for scratch in ("$VIBROTROUGH_TEST_SCRATCH/node", None):
+            for cycles in (1000, 5):  # between two checkpoints
+                with self.subTest(scratch=scratch, cycles=cycles):
+                    self.output = self.folder / f"runs {scratch is None} {cycles}"
+                    campaign = self.write(ENDLESS | {"output.checkpoint_cycles": cycles}, scratch)
+                    (task,) = self.start_tasks(campaign)
+                    place = self.scratch if scratch else self.output
+                    wait_until(lambda: engines_in(place) and (self.checkpoint() or cycles > 5) and list(place.rglob("cycles.csv")), "the task simulated", task)  # noqa: B023
+                    self.assertTrue(pause(engines_in(place)[0]))
+                    self.assertTrue(pause(task.pid))
+                    before, engines = self.files_of_packing(), engines_in(place)
+                    done = self.run_campaign(campaign, wanted=3)
+                    self.assertIn("another process runs packing 1 of case ", done.stderr)
+                    self.assertEqual(self.files_of_packing(), before)
+                    self.assertEqual(engines_in(place), engines)
+                    # A lock ends with its process, whatever the engine is still about to do.
+                    os.kill(task.pid, signal.SIGKILL)
+                    self.finish(task)
+                    begin = time.monotonic()
+                    driver = self.start_campaign(campaign)
+                    wait_until(lambda: set(engines_in(place)) - set(engines), "the packing went on", driver)  # noqa: B023
+                    self.assertLess(time.monotonic() - begin, 8, "nobody waits for a lock")
+                    self.assertEqual(set(engines_in(place)) & set(engines), set())
+                    driver.send_signal(signal.SIGINT)
+                    self.assertEqual(self.finish(driver)[0], 130)
+
+    def test_two_tasks_settle_one_packing(self):
+        """Each in a folder of its own, which a third driver does not take for that of a killed one."""
+        campaign = self.write({"measure.packings": 1, "measure.max_packings": 1}, sweep={"trough.throw_number": [1.8, 2.0]})
+        self.run_campaign(campaign, output=self.folder / "alone")
+        self.settles_file.unlink()
+        tasks = self.start_tasks(campaign)
+        engines = set()
+
+        def both_settle():
+            for process in engines_in(self.scratch):
+                if b"settle.liggghts" in Path(f"/proc/{process}/cmdline").read_bytes() and pause(process):
+                    engines.add(process)
+            return len(engines) == 2
+
+        wait_until(both_settle, "both settled", tasks[0])
+        settling = lambda: sorted(path.name for path in (self.output / "packings").iterdir())  # noqa: E731
+        before = settling()
+        self.assertEqual(len(before), 4, before)  # two folders with their locks
+        done = self.run_campaign(campaign, wanted=3)
+        self.assertIn("another process runs packing 1 of case ", done.stderr)
+        self.assertEqual(settling(), before)
+        for engine in engines:
+            os.kill(engine, signal.SIGCONT)
+        for task in tasks:
+            self.assertEqual(self.finish(task)[0], 0)
+        self.assertEqual(len(self.settles_file.read_text().splitlines()), 2)
+        self.assertEqual(len(settling()), 1, "one of them is used, and nothing is left of the other")
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "alone")))
 
     def test_no_link_is_followed_on_the_way_back(self):
         precious = self.folder / "precious"

@@ -71,4 +71,12 @@ std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing) {
     return FileLock::take(planned.folder / fmt::format(".packing-{}.lock", packing));
 }
 
+FileLock require_packing(PlannedCase const& planned, int packing) {
+    if (auto lock = lock_packing(planned, packing)) return std::move(*lock);
+    throw core::MissingError(fmt::format(
+        "another process runs packing {} of case {} (a task of a cluster, or 'vibrotrough work'); "
+        "wait for it, or end it",
+        packing, planned.id));
+}
+
 }  // namespace vibrotrough::campaign
