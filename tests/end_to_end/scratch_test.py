@@ -1,7 +1,9 @@
 """Engines that work in a scratch folder of the machine: what comes back, what is left, and what a machine that dies costs."""
 
+import contextlib
 import json
 import os
+import re
 import shutil
 import signal
 import stat
@@ -25,6 +27,13 @@ class Scratch(EndToEndTest):
         self.scratch.mkdir()
         os.environ["VIBROTROUGH_TEST_SCRATCH"] = str(self.folder)
         self.addCleanup(os.environ.pop, "VIBROTROUGH_TEST_SCRATCH", None)
+
+    def mount_small(self, place, size):
+        """A small file system of its own."""
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", place], capture_output=True, text=True)
+        if mounted.returncode != 0:
+            self.skipTest(f"may not mount: {mounted.stderr}")
+        self.addCleanup(subprocess.run, ["umount", "-l", place], check=True)
 
     def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml", sweep=None):
         path = self.folder / name
@@ -250,13 +259,52 @@ class Scratch(EndToEndTest):
         self.assertEqual(list(self.output.glob("cases/*/failure.json")), [])
 
     def test_a_full_scratch_folder_is_named(self):
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400k", "none", self.scratch], capture_output=True, text=True)
-        if mounted.returncode != 0:
-            self.skipTest(f"may not mount: {mounted.stderr}")
-        self.addCleanup(subprocess.run, ["umount", "-l", self.scratch], check=True)
+        self.mount_small(self.scratch, "400k")
         done = self.run_campaign(self.write(ENDLESS), wanted=None)
         self.assertNotEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"(disk-full|cannot write).*(scratch|node)")
+
+    def fill_the_disk_of_the_campaign(self, campaign, is_time, wanted):
+        """Until the driver has ended, from a moment in which its engine works. @return what the driver said"""
+        ballast = self.output.parent / "ballast"
+        driver = self.start_campaign(campaign)
+        engine = wait_until(lambda: next((one for one in engines_in(self.scratch) if is_time(Path(f"/proc/{one}/cmdline").read_bytes())), None), "the engine worked", driver)
+        self.assertTrue(pause(engine), "the engine ended too soon")
+        self.assertTrue(pause(driver.pid))
+        with contextlib.suppress(OSError), open(ballast, "wb", buffering=0) as file:
+            while file.write(bytes(4096)):
+                pass
+        os.kill(engine, signal.SIGCONT)
+        driver.send_signal(signal.SIGCONT)
+        code, _, errors = self.finish(driver)
+        self.assertIn(code, wanted, errors)
+        said = re.search(r"case \w+: disk-full: .*No space left.*is kept in (\S*/vibrotrough-kept-\w+) on \S+: call the same command again", errors.replace(str(self.folder), "/folder"))
+        self.assertTrue(said, errors)
+        kept = self.folder / said[1].removeprefix("/folder/")
+        self.assertEqual(list(self.scratch.iterdir()), [kept])
+        self.assertEqual(stat.S_IMODE(kept.stat().st_mode), 0o700)
+        refused = self.run_campaign(campaign, wanted=None)
+        self.assertNotEqual(refused.returncode, 0, "the disk is still full")
+        self.assertEqual(list(self.scratch.iterdir()), [kept])
+        ballast.unlink()
+        return errors
+
+    def test_what_a_full_disk_does_not_take_back_is_not_lost(self):
+        """Of a packing, and of a settling: the next run takes it, and no engine repeats it."""
+        campaign = self.write({"measure.packings": 1, "measure.max_cycles": 24, "measure.half_width": 0.00001, "output.checkpoint_cycles": 5})
+        self.run_campaign(campaign, output=self.folder / "plain", wanted=None)
+        for deck, file in ((b"in.liggghts", self.starts_file), (b"settle.liggghts", self.settles_file)):
+            with self.subTest(deck=deck):
+                self.output = self.folder / deck.decode() / "runs"
+                self.output.parent.mkdir()
+                self.mount_small(self.output.parent, "4m")
+                file.unlink()
+                self.fill_the_disk_of_the_campaign(campaign, lambda words: deck in words, (1, 3))  # noqa: B023
+                self.run_campaign(campaign, wanted=None)
+                self.assertEqual(len(file.read_text().splitlines()), 1, "the work was done once")
+                self.assertEqual(list(self.scratch.iterdir()), [])
+                self.assertEqual(list(self.output.glob("cases/*/failure.json")), [])
+                self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
 
     def test_where_there_is_no_such_folder_it_is_said_in_one_line(self):
         for scratch, said in (("$VIBROTROUGH_NO_SUCH", "VIBROTROUGH_NO_SUCH is not set on "), ("$VIBROTROUGH_TEST_SCRATCH/nowhere", "there is no folder "),

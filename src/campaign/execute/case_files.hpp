@@ -28,7 +28,8 @@ struct ResultParts {
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
                               ResultParts const& parts, evaluate::EvaluatedPackings evaluated = {});
 
-/// Writes failure.json for a packing that failed, and counts the attempts.
+/// Writes failure.json for a packing that failed, and counts the attempts. A disk that is full for the
+/// packing may be so for this file; then there is none.
 /// @param attempts_before  that are known to have failed, when failure.json may have been removed since
 /// @throws core::MissingError when the disk refuses
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,

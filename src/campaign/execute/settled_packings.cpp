@@ -136,7 +136,12 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     core::remove_tree(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
     settling->watch.emplace(settling->folder);
-    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch);
+    if (bring_back_kept(settling->folder, engine_.scratch, folder_ / key)) {
+        settling_.emplace(key, std::move(settling));
+        boost::asio::post(context_, [this, key] { ended(key, {}); });
+        return;
+    }
+    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch, folder_ / key);
     settling->process = std::make_unique<engine::EngineProcess>(
         context_, engine_, settling->place->folder(),
         [this, key](engine::ExitStatus status) { ended(key, status); },
@@ -177,7 +182,7 @@ void SettledPackings::remove_leftovers() {
 void SettledPackings::interrupt() {
     for (auto& [key, settling] : settling_) {
         settling->interrupted = true;
-        settling->process->terminate();
+        if (settling->process) settling->process->terminate();
     }
 }
 
@@ -189,12 +194,16 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
     settling->watch->check();
-    if (!settling->interrupted) settling->place->bring_back();
-    if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+    try {
+        if (settling->place && !settling->interrupted) settling->place->bring_back();
+        if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+    } catch (core::DiskFullError const& error) {
+        settled = {core::Outcome::disk_full, error.what()};
+    }
     if (!settled.failure) {
         publish(settling->folder, folder_ / key, settling->deck);
         settled.restart = folder_ / key / deck::settled_file;
-    } else if (settling->interrupted) {
+    } else if (settling->interrupted || settled.failure == core::Outcome::disk_full) {
         core::remove_tree(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
