@@ -56,4 +56,10 @@ class MissingError : public Error {
     explicit MissingError(std::string const& message) : Error(ErrorKind::missing, message) {}
 };
 
+/// A file system takes no more: it is full, or a quota or the limit of a file's size (ulimit -f) is reached.
+class DiskFullError : public MissingError {
+  public:
+    using MissingError::MissingError;
+};
+
 }  // namespace vibrotrough::core
