@@ -218,7 +218,7 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
           sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
           std::string("campaign = 1\n")}) {
         try {
-            parse_campaign(text, "c.toml");
+            scenario::parse_campaign(text, "c.toml");
             ADD_FAILURE() << "accepted: " << text;
         } catch (core::InputError const& error) {
             for (std::string const& problem : error.problems()) {
@@ -237,7 +237,7 @@ TEST(CampaignFile, SeveralMistakesAreToldAtOnce) {
     text = std::regex_replace(text, std::regex("height = \"12 mm\""), "height = \"12,5 mm\"");
     text += "[engin]\ncontact = \"hooke\"\n";
     try {
-        parse_campaign(text, "c.toml");
+        scenario::parse_campaign(text, "c.toml");
         FAIL() << "accepted";
     } catch (core::InputError const& error) {
         ASSERT_EQ(error.problems().size(), 3u) << error.what();
