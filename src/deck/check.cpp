@@ -2,6 +2,7 @@
 
 #include "deck/estimates.hpp"
 #include "prepare/softness.hpp"
+#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -235,6 +236,24 @@ void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c
                             "lengthen the box: the mesh moves by more than the length of the box"));
 }
 
+/// Numbers that hardly any machine or material has. They are told only where they are unusual.
+void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    double const omega = 2 * std::numbers::pi * c.scenario.trough.frequency;
+    double const machine_number = omega * omega * c.scenario.trough.amplitude / scenario::gravity;
+    if (machine_number > theory::largest_usual_machine_number)
+        findings.push_back(most(
+            "machine number", "trough.amplitude", machine_number, theory::largest_usual_machine_number, never,
+            "lower it, or write stroke for the distance between the ends of the vibration, which is "
+            "twice the amplitude: troughs bear 3 to 6 times gravity"));
+    constexpr double lightest_usual = 30;  // kg/m3, foamed polystyrene
+    if (c.scenario.grains.density < lightest_usual) {
+        Finding light = least("density of the grains", "grains.density", c.scenario.grains.density,
+                              lightest_usual, 0, "check its unit: 0.6 t/m3 are 600 kg/m3");
+        light.unit = "kg/m3";
+        findings.push_back(light);
+    }
+}
+
 void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     prepare::TimeGrid const& time = c.time;
     findings.push_back(least("steps between rebuilds of neighbour lists at twice the trough's speed",
@@ -302,6 +321,7 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
         check_sizes(findings, prepared);
     }
     check_stroke(findings, prepared);
+    check_unusual(findings, prepared);
     check_engine(findings, prepared);
     return findings;
 }

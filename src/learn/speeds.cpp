@@ -2,10 +2,12 @@
 
 #include "core/csv.hpp"
 #include "learn/machine_keys.hpp"
+#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -131,6 +133,39 @@ std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const&
     }
     if (speeds.empty()) table.fail("the table has no measurement", "write one measurement per line");
     return speeds;
+}
+
+std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds) {
+    std::vector<std::string> sentences;
+    auto const tell_first = [&](auto const& is_unusual, auto const& sentence) {
+        auto const found = std::ranges::find_if(speeds, is_unusual);
+        if (found != speeds.end())
+            sentences.push_back(fmt::format("line {}: {}", found->line, sentence(*found)));
+    };
+    auto const unusual = [](MeasuredSpeed const& s) {
+        return theory::unusual_numbers({.frequency = s.frequency, .amplitude = s.amplitude});
+    };
+    tell_first([&](MeasuredSpeed const& s) { return !unusual(s).empty(); },
+               [&](MeasuredSpeed const& s) { return unusual(s).front(); });
+    // A mass that does not rebound is never faster than the trough.
+    auto const fastest = [](MeasuredSpeed const& s) {
+        return 2 * std::numbers::pi * s.frequency * s.amplitude;
+    };
+    tell_first([&](MeasuredSpeed const& s) { return std::abs(s.speed) > fastest(s); },
+               [&](MeasuredSpeed const& s) {
+                   return fmt::format(
+                       "a speed of {:.3g} m/s is more than the trough's own largest speed of "
+                       "{:.3g} m/s; were m/min meant (speed_m_per_min)?",
+                       s.speed, fastest(s));
+               });
+    tell_first([](MeasuredSpeed const& s) { return s.vibration_angle && *s.vibration_angle < 1.6 * degree; },
+               [](MeasuredSpeed const& s) {
+                   return fmt::format(
+                       "a vibration angle of {:.3g} degrees is unusual: 20 to 45 are usual; were "
+                       "radians meant ({:.3g} degrees)?",
+                       *s.vibration_angle / degree, *s.vibration_angle / degree / degree);
+               });
+    return sentences;
 }
 
 }  // namespace vibrotrough::learn

@@ -39,4 +39,8 @@ struct MeasuredSpeed {
 std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const& path,
                                        std::optional<double> relative_uncertainty = {});
 
+/// A sentence for each kind of number that is unusual in a table of measured speeds, with the line where it
+/// stands first and the slip that would explain it: m/min for m/s, Hz for rpm, radians for degrees.
+std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds);
+
 }  // namespace vibrotrough::learn

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace vibrotrough::theory {
 namespace {
@@ -62,18 +63,19 @@ std::optional<std::string> outside_tested_range(PointMass const& p, std::optiona
 }
 
 DriveSpace within_tested_range(DriveSpace space) {
+    constexpr double degrees = 180 / std::numbers::pi;
     auto const narrowed = [](Range const& range, double low, double high, char const* name) {
         Range const common{std::max(range.low, low), std::min(range.high, high)};
         std::string const allowed =
-            "in rad, " + text({low, high}) + ", where the rolling-layer law has been tested";
-        detail::require_range(common.low <= common.high, name, range.low, allowed.c_str());
+            text({low * degrees, high * degrees}) + " deg, where the rolling-layer law has been tested";
+        detail::require_range(common.low <= common.high, name, range.low * degrees, allowed.c_str());
         return common;
     };
     space.max_throw_number = std::min(space.max_throw_number, tested_level.throw_number.high);
     space.vibration_angle = narrowed(space.vibration_angle, std::atan(tested_tan_vibration_angle.low),
-                                     std::atan(tested_tan_vibration_angle.high), "vibration_angle");
+                                     std::atan(tested_tan_vibration_angle.high), "vibration angle in deg");
     double const slope = std::atan(tested_slopes.slope);
-    space.inclination = narrowed(space.inclination, -slope, slope, "inclination");
+    space.inclination = narrowed(space.inclination, -slope, slope, "inclination in deg");
     return space;
 }
 

@@ -67,6 +67,21 @@ void expect_refused(std::string const& text, std::string const& words) {
     }
 }
 
+TEST(Speeds, SlipsOfUnitsAreTold) {
+    auto const told = [](char const* row) {
+        std::string text;
+        std::string const table =
+            std::string("stroke_mm,rpm,vibration_angle_deg,speed_m_per_s\n") + row + "\n";
+        for (std::string const& sentence : unusual_speeds(read_speeds(table, "t.csv", 0.03)))
+            text += sentence + "\n";
+        return text;
+    };
+    EXPECT_EQ(told("9.7,960,30,0.2"), "");
+    EXPECT_THAT(told("9.7,960,30,12"), testing::HasSubstr("line 2: a speed of 12 m/s is more than"));
+    EXPECT_THAT(told("9.7,16,30,0.005"), testing::HasSubstr("were 16 Hz meant, not rpm?"));
+    EXPECT_THAT(told("9.7,960,0.52,0.2"), testing::HasSubstr("were radians meant (29.8 degrees)?"));
+}
+
 TEST(Speeds, WrongTablesAreRefused) {
     std::string const good = "amplitude_mm,rpm,speed_m_per_s,uncertainty_m_per_s\n";
     expect_refused("", "empty");

@@ -35,6 +35,39 @@ TEST(TheoryPoint, PrintsTheContract) {
     EXPECT_NEAR(displacement / (2 * std::acos(-1.0)), answer.at("velocity_efficiency"), 1e-12);
 }
 
+// What people write: a motor's turns, a percentage, German units. Tolerance: none, the input is the same.
+TEST(TheoryPoint, TakesWhatPeopleWrite) {
+    std::string const rest = " --amplitude \"4 mm\" --vibration-angle \"25 deg\" ";
+    auto const expected = point("--frequency \"16 Hz\" --friction 0.3" + rest);
+    for (char const* const same : {"--rpm 960 --friction 0.3", "--rpm \"960 rpm\" --friction \"30 %\"",
+                                   "--frequency \"960 U/min\" --friction 0.3"})
+        EXPECT_EQ(point(same + rest), expected) << same;
+    Answer const both = run_program("theory point --rpm 960 --frequency \"16 Hz\" --friction 0.3" + rest);
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_NE(both.text.find("both given"), std::string::npos) << both.text;
+    Answer const comma = run_program("theory point --rpm 960 --friction 0,3" + rest);
+    EXPECT_EQ(comma.exit_code, 2);
+    EXPECT_NE(comma.text.find("has a decimal comma; write 0.3"), std::string::npos) << comma.text;
+}
+
+// Possible, but hardly any machine: a warning says what is usual and which slip would explain it.
+TEST(TheoryPoint, WarnsOfUnusualNumbers) {
+    std::string const angle = " --vibration-angle \"25 deg\" ";
+    std::pair<char const*, char const*> const slips[] = {
+        {"--frequency \"960 Hz\" --amplitude \"4 mm\" --friction 0.3",
+         "were 960 turns per minute meant (rpm)?"},
+        {"--rpm 16 --amplitude \"4 mm\" --friction 0.3", "were 16 Hz meant, not rpm?"},
+        {"--rpm 960 --stroke \"9.7 m\" --friction 0.3", "were mm meant, not m?"},
+        {"--rpm 960 --amplitude \"9.7 mm\" --friction 0.3", "was the stroke given as the amplitude"},
+        {"--throw-number 2 --friction 30", "an angle of friction meant (its tangent is 0.577)"},
+    };
+    for (auto const& [options, told] : slips)
+        EXPECT_NE(run_program("theory point " + (options + angle)).text.find(told), std::string::npos)
+            << options;
+    Answer const usual = run_program("theory point --rpm 960 --stroke \"9.7 mm\" --friction 0.3" + angle);
+    EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
+}
+
 // tan(30 deg) and the angle itself are one input. Tolerance: rounding of the tangent.
 TEST(TheoryPoint, TakesAnglesWithUnits) {
     auto const angle =

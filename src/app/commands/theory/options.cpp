@@ -1,6 +1,8 @@
 #include "app/commands/theory/options.hpp"
 
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
+#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -173,6 +175,16 @@ std::optional<theory::Machine> TheoryOptions::machine() const {
     double const omega = 2 * std::numbers::pi * *f;
     machine.amplitude = theory::machine_number(conveyor().point) * machine.gravity / (omega * omega);
     return machine;
+}
+
+void TheoryOptions::tell_unusual() const {
+    theory::MachineNumbers numbers{frequency(), amplitude(), {}, given().get(Input::friction)};
+    if (numbers.frequency && numbers.amplitude) {
+        double const omega = 2 * std::numbers::pi * *numbers.frequency;
+        numbers.machine_number = omega * omega * *numbers.amplitude / gravity();
+    }
+    for (std::string const& sentence : theory::unusual_numbers(numbers))
+        tell("vibrotrough: warning: {}\n", sentence);
 }
 
 theory::Inputs TheoryOptions::given() const {

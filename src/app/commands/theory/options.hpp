@@ -77,6 +77,9 @@ class TheoryOptions {
     /// amplitude that follows from the frequency; none when no amplitude is known.
     /// @throws core::InputError when an option is wrong
     std::optional<theory::Machine> machine() const;
+    /// Says on standard error which numbers are unusual, and which slip would explain it.
+    /// @throws core::InputError when an option is wrong
+    void tell_unusual() const;
 
   private:
     void add_extensions(CLI::App& command);
