@@ -175,7 +175,7 @@ fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::s
         (parent / fmt::format("{}-{}{}XXXXXX", purpose, boot, boot.empty() ? "" : "-")).string();
     if (::mkdtemp(name.data()) == nullptr) {
         throw MissingError(
-            fmt::format("cannot make a folder in {} ({}){}", parent.string(), std::strerror(errno), cure));
+            fmt::format("cannot make a temporary folder in {} ({}){}", parent.string(), std::strerror(errno), cure));
     }
     // The owner may use it, whatever the umask says.
     ::chmod(name.c_str(), 0700);
