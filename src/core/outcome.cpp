@@ -42,8 +42,8 @@ constexpr std::array table{
                  useless, "choose a smaller inclination or more friction"},
     OutcomeEntry{
         overfull, "overfull",
-        "An open trough is fed more than it conveys: the layer has reached the feed, for which there was "
-        "no room any more.",
+        "An open trough is fed more than it conveys: the layer has grown up to the feed, so that new "
+        "grains found no more room.",
         useless, "feed less, or convey faster"},
     OutcomeEntry{diverged, "diverged",
                  "A number is NaN or infinite, or the layer is faster than 100 times the trough.", useless,

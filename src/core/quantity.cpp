@@ -131,31 +131,38 @@ struct NumberAndRest {
     std::string_view rest;
 };
 
-/// @param otherwise  what a text is said to be when there is no number
-NumberAndRest split_number(std::string_view whole, char const* otherwise) {
+/// What is said of "9,7 mm". Three digits behind the comma, as in "1,000 mm", may be thousands as well.
+std::string comma_problem(std::string const& text, std::smatch const& parts) {
+    std::string const point =
+        fmt::format("write {}.{}{} with a point", parts[1].str(), parts[2].str(), parts[3].str());
+    if (parts[2].length() != 3) return fmt::format("'{}' has a decimal comma; {}", text, point);
+    return fmt::format("'{}' has a comma; {}, or {}{}{} if thousands are meant", text, point, parts[1].str(),
+                       parts[2].str(), parts[3].str());
+}
+
+/// @param problem  what is wrong with a text that does not begin with a number
+NumberAndRest split_number(std::string_view whole, char const* problem) {
     static std::regex const decimal_comma(R"(([+-]?\d+),(\d+)([^\d,.].*)?)");
     std::string_view digits = whole;
     if (digits.starts_with('+')) digits.remove_prefix(1);
     double number = 0;
     auto const [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (failure != std::errc() || !std::isfinite(number))
-        throw QuantityError(fmt::format("'{}' {}", whole, otherwise));
+        throw QuantityError(fmt::format("'{}' {}", whole, problem));
     std::string const owned(whole.substr(0, 100));
     std::smatch parts;
-    if (std::regex_match(owned, parts, decimal_comma))
-        throw QuantityError(fmt::format("'{}' has a decimal comma; write {}.{}{} with a point", owned,
-                                        parts[1].str(), parts[2].str(), parts[3].str()));
+    if (std::regex_match(owned, parts, decimal_comma)) throw QuantityError(comma_problem(owned, parts));
     return {number, trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())))};
 }
 
 }  // namespace
 
 double parse_number(std::string_view text) {
-    constexpr char const* otherwise = "is not a finite number";
+    constexpr char const* problem = "is not a finite number";
     std::string_view const whole = trimmed(text);
-    auto const [number, rest] = split_number(whole, otherwise);
+    auto const [number, rest] = split_number(whole, problem);
     if (rest == "%") return number / 100;
-    if (!rest.empty()) throw QuantityError(fmt::format("'{}' {}", whole, otherwise));
+    if (!rest.empty()) throw QuantityError(fmt::format("'{}' {}", whole, problem));
     return number + 0.0;  // "-0" is 0
 }
 

@@ -174,8 +174,8 @@ fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::s
     std::string name =
         (parent / fmt::format("{}-{}{}XXXXXX", purpose, boot, boot.empty() ? "" : "-")).string();
     if (::mkdtemp(name.data()) == nullptr) {
-        throw MissingError(
-            fmt::format("cannot make a folder in {} ({}){}", parent.string(), std::strerror(errno), cure));
+        throw MissingError(fmt::format("cannot make a temporary folder in {} ({}){}", parent.string(),
+                                       std::strerror(errno), cure));
     }
     // The owner may use it, whatever the umask says.
     ::chmod(name.c_str(), 0700);

@@ -16,8 +16,8 @@ class TemporaryFolder {
     /// Makes the folder.
     /// @param purpose  beginning of the folder's name, such as "vibrotrough-probe"
     /// @param parent   below which it lies; empty: below TMPDIR, or below /tmp if that is not set
-    /// @throws MissingError when the folder cannot be made: "cannot make a folder in PARENT (reason)", and
-    /// what to do if it is that of TMPDIR
+    /// @throws MissingError when the folder cannot be made: "cannot make a temporary folder in PARENT
+    /// (reason)", and what to do if it is that of TMPDIR
     explicit TemporaryFolder(std::string_view purpose = "vibrotrough", std::filesystem::path parent = {});
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;

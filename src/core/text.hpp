@@ -21,7 +21,7 @@ std::string harmless(std::string_view text);
 /// Whether a text begins with the byte order mark of UTF-16, as Excel's "Unicode text" does.
 bool is_utf16(std::string_view text);
 
-/// Such a text in UTF-8, without its mark. What is no character is left out.
+/// Such a text in UTF-8, without its mark. Bytes that do not form a character are left out.
 std::string utf8_of_utf16(std::string_view text);
 
 /// Bytes, such as those of a path, as a text that is UTF-8 and can stand in a JSON file: a byte that is not

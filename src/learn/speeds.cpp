@@ -143,7 +143,7 @@ std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds
             sentences.push_back(fmt::format("line {}: {}", found->line, sentence(*found)));
     };
     auto const unusual = [](MeasuredSpeed const& s) {
-        return theory::unusual_numbers({.frequency = s.frequency, .amplitude = s.amplitude});
+        return theory::unusual_numbers({s.frequency, s.amplitude, {}, {}});
     };
     tell_first([&](MeasuredSpeed const& s) { return !unusual(s).empty(); },
                [&](MeasuredSpeed const& s) { return unusual(s).front(); });

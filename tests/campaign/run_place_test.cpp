@@ -147,7 +147,7 @@ TEST_F(RunPlaceTest, AScratchFolderThatRefusesIsNamedWithReasonAndKey) {
     } catch (core::MissingError const& error) {
         std::string const said = error.what();
         for (char const* const part :
-             {"run.scratch = \"/proc\"", "cannot make a folder in /proc (No such file"})
+             {"run.scratch = \"/proc\"", "cannot make a temporary folder in /proc (No such file"})
             EXPECT_NE(said.find(part), std::string::npos) << said;
         EXPECT_EQ(said.find("TMPDIR"), std::string::npos) << said;
     }

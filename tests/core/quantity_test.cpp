@@ -65,6 +65,8 @@ TEST(Quantity, ADecimalCommaIsNamed) {
               "'9,7 mm' has a decimal comma; write 9.7 mm with a point");
     EXPECT_EQ(message([] { core::parse_number("0,3"); }),
               "'0,3' has a decimal comma; write 0.3 with a point");
+    EXPECT_EQ(message([] { core::parse_quantity("1,000 mm", "m"); }),
+              "'1,000 mm' has a comma; write 1.000 mm with a point, or 1000 mm if thousands are meant");
     EXPECT_NE(message([] { core::parse_number("1,2,3"); }).find("is not a finite number"), std::string::npos);
 }
 

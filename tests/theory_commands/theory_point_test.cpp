@@ -68,6 +68,26 @@ TEST(TheoryPoint, WarnsOfUnusualNumbers) {
     EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
 }
 
+// A range may have its unit once, and a dash between plain numbers; a minus before one value is its sign.
+TEST(Design, TakesRangesAsPeopleWriteThem) {
+    auto const design = [](std::string const& limits) {
+        return run_program(
+            "design --mass-flow \"12 t/h\" --bulk-density \"600 kg/m3\" --width \"300 mm\" "
+            "--friction 0.3 --inclination \"-2 deg\" " +
+            limits);
+    };
+    Answer const expected =
+        design("--vibration-angle \"25 deg to 35 deg\" --rpm \"900 to 1000\" --stroke \"4 mm to 8 mm\"");
+    ASSERT_EQ(expected.exit_code, 0) << expected.text;
+    for (char const* const same :
+         {"--vibration-angle \"25-35 deg\" --rpm 900-1000 --stroke \"4-8 mm\"",
+          "--vibration-angle \"25 to 35 deg\" --rpm \"900 to 1000 rpm\" --stroke \"4 to 8 mm\""})
+        EXPECT_EQ(design(same).text, expected.text) << same;
+    Answer const turned = design("--vibration-angle \"35-25 deg\"");
+    EXPECT_EQ(turned.exit_code, 2);
+    EXPECT_NE(turned.text.find("the first value is above the second"), std::string::npos) << turned.text;
+}
+
 // tan(30 deg) and the angle itself are one input. Tolerance: rounding of the tangent.
 TEST(TheoryPoint, TakesAnglesWithUnits) {
     auto const angle =

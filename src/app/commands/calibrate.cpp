@@ -7,7 +7,6 @@
 #include "app/learning.hpp"
 #include "app/standard_streams.hpp"
 #include "campaign/state/campaign_folder.hpp"
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "learn/calibration_report.hpp"
 #include "learn/surface_model.hpp"
@@ -100,9 +99,7 @@ int refine(CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> 
 }
 
 int run_calibrate(CalibrateArguments& options) {
-    core::TextFile const table = core::read_text_file(options.measured);
-    auto const speeds =
-        learn::read_speeds(table.content, options.measured, options.shared.relative_uncertainty());
+    auto const speeds = options.shared.read_speeds(options.measured);
     if (options.budget && fs::is_directory(options.campaign))
         throw core::InputError("--budget: simulates, and needs the campaign file instead of its folder");
     fs::path const folder = folder_of(options);

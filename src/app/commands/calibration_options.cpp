@@ -4,6 +4,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/decision_page.hpp"
 #include "app/python.hpp"
+#include "app/standard_streams.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
@@ -69,9 +70,13 @@ void CalibrationOptions::add_to(CLI::App& command) {
     command.add_flag("--json", json, "Print JSON");
 }
 
-std::optional<double> CalibrationOptions::relative_uncertainty() const {
-    if (!uncertainty) return {};
-    return read_number_within("--uncertainty", *uncertainty, "0.03", 1e-6, 1);
+std::vector<learn::MeasuredSpeed> CalibrationOptions::read_speeds(std::string const& file) const {
+    std::optional<double> relative;
+    if (uncertainty) relative = read_number_within("--uncertainty", *uncertainty, "0.03", 1e-6, 1);
+    auto speeds = learn::read_speeds(core::read_text_file(file).content, file, relative);
+    for (std::string const& sentence : learn::unusual_speeds(speeds))
+        tell("vibrotrough: warning: {}: {}\n", file, sentence);
+    return speeds;
 }
 
 std::pair<std::string, std::string> split_setting(std::string const& option, std::string const& text,

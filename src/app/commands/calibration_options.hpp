@@ -30,8 +30,9 @@ struct CalibrationOptions {
 
     /// Declares the options of a command.
     void add_to(CLI::App& command);
-    /// Uncertainty over speed where the table has none. @throws core::InputError when it has no sense
-    std::optional<double> relative_uncertainty() const;
+    /// Reads a table of measured speeds, and says on standard error which of its numbers are unusual.
+    /// @throws core::InputError or core::MissingError as learn::read_speeds() and core::read_text_file() do
+    std::vector<learn::MeasuredSpeed> read_speeds(std::string const& file) const;
     /// The free parameters, with the priors that the user gave, else those of `known`.
     /// @throws core::InputError when a name is unknown or a range has no sense
     std::vector<learn::FreeParameter> parameters(std::vector<learn::FreeParameter> const& known) const;

@@ -99,13 +99,12 @@ std::string not_brought_back(fs::path const& kept, std::string const& reason) {
         reason, core::harmless(kept.string()), core::host_name());
 }
 
-/// Whether a run removes files of this name itself: checkpoints, and snapshots and frames that were written
-/// after the one from which it goes on.
+/// Whether a run removes files of this name itself: older checkpoints, and frames that were written after the
+/// one from which it goes on.
 bool may_go(fs::path const& name) {
     std::string const last = name.filename().string();
     if (name.has_parent_path()) return is_frame_file(last);
-    return is_run_file(last) &&
-           (last.starts_with("checkpoint.") || last.starts_with("profiles.") || last.starts_with("surface."));
+    return is_run_file(last) && last.starts_with("checkpoint.");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class RunPlace {
     std::filesystem::path const& folder() const { return scratch_ ? scratch_->path() : home_; }
 
     /// Copies what has changed in the private folder back to the home, and removes there what a run removed
-    /// here: older checkpoints and what it wrote after the one from which it went on. Does nothing when the
+    /// here: older checkpoints, and frames after the one from which it went on. Does nothing when the
     /// engine works in the home.
     /// @throws core::MissingError when the home's disk refuses, a DiskFullError when it is full: all of it is
     /// brought back by the next call, or kept when there is none; the message says where

@@ -96,9 +96,9 @@ class CampaignFileReader {
 
     CampaignText read() {
         for (auto const& [name, node] : in_file_order(root_))
-            attempt("", [&, &name = name, &node = node] { read_section(*name, *node); });
-        attempt("", [&] { check_design(result_, file_); });
-        for (Key const& key : all_keys()) attempt(key.path, [&] { check_present(key); });
+            attempt([&, &name = name, &node = node] { read_section(*name, *node); });
+        attempt([&] { check_design(result_, file_); });
+        if (problems_.empty()) check_all_present();
         if (!problems_.empty()) throw core::InputError(all_problems());
         return std::move(result_);
     }
@@ -109,17 +109,14 @@ class CampaignFileReader {
         throw_at({file_, where}, key, wrong, instead);
     }
 
-    /// Does `step` for a key, and keeps what it finds wrong until the whole file is read, so that a person
-    /// sees all mistakes at once. A key that is refused is not missing, too; nor is the one that was meant.
+    /// Does `step`, and keeps what it finds wrong until the whole file is read, so that a person sees all
+    /// mistakes at once.
     template <typename Step>
-    void attempt(std::string_view path, Step const& step) {
+    void attempt(Step const& step) {
         try {
             step();
         } catch (core::InputError const& error) {
             problems_.emplace_back(error.what());
-            if (path.empty()) return;
-            refused_.emplace(path);
-            refused_.emplace(nearest_key(path));
         }
     }
 
@@ -183,7 +180,7 @@ class CampaignFileReader {
         sections_[std::string(name.str())] = where;
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
             std::string const path = fmt::format("{}.{}", name.str(), key->str());
-            attempt(path, [&, &key = key, &value = value] {
+            attempt([&, &key = key, &value = value] {
                 if (name.str() == "sweep") {
                     read_sweep_entry(*key, *value);
                 } else {
@@ -209,9 +206,8 @@ class CampaignFileReader {
                      "remove it");
             for (auto const& [key, value] : in_file_order(*(*list)[i].as_table())) {
                 std::string const path = fmt::format("{}.{}.{}", section, i + 1, key->str());
-                attempt(path, [&, &key = key, &value = value] {
-                    read_key(path, position_of(key->source()), *value);
-                });
+                attempt(
+                    [&, &key = key, &value = value] { read_key(path, position_of(key->source()), *value); });
             }
         }
     }
@@ -260,8 +256,7 @@ class CampaignFileReader {
             return;
         }
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            attempt(path + "." + std::string(key->str()),
-                    [&, &key = key, &value = value] { read_sweep_entry(*key, *value, path + "."); });
+            attempt([&, &key = key, &value = value] { read_sweep_entry(*key, *value, path + "."); });
         }
     }
 
@@ -341,11 +336,24 @@ class CampaignFileReader {
     }
 
     bool given(std::string_view path) const {
-        return result_.base.contains(path) || refused_.contains(path) ||
+        return result_.base.contains(path) ||
                std::ranges::any_of(result_.sweep, [&](Axis const& axis) { return axis.key == path; }) ||
                std::ranges::any_of(result_.lists, [&](PointList const& list) {
                    return std::ranges::find(list.keys, path) != list.keys.end();
                });
+    }
+
+    /// Tells all keys that are missing, or the first section that is missing as a whole.
+    void check_all_present() {
+        std::set<std::string_view> told;  // groups, of which each key would say the same
+        for (Key const& key : all_keys()) {
+            if (!key.group.empty() && told.contains(key.group)) continue;
+            std::size_t const before = problems_.size();
+            attempt([&] { check_present(key); });
+            if (problems_.size() == before) continue;
+            told.insert(key.group);
+            if (!sections_.contains(std::string(section_of(key)))) return;
+        }
     }
 
     void check_present(Key const& key) const {
@@ -370,7 +378,6 @@ class CampaignFileReader {
     CampaignText result_;
     std::map<std::string, Position> sections_;
     std::vector<std::string> problems_;
-    std::set<std::string, std::less<>> refused_;  ///< keys with a problem, and those that were meant
 };
 
 }  // namespace

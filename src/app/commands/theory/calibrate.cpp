@@ -2,8 +2,6 @@
 #include "app/commands/calibration_options.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
-#include "app/standard_streams.hpp"
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "learn/calibration_report.hpp"
 #include "learn/point_mass_model.hpp"
@@ -25,11 +23,7 @@ struct TheoryCalibrateArguments {
 };
 
 int run_theory_calibrate(TheoryCalibrateArguments const& options) {
-    core::TextFile const table = core::read_text_file(options.file);
-    auto const speeds =
-        learn::read_speeds(table.content, options.file, options.shared.relative_uncertainty());
-    for (std::string const& sentence : learn::unusual_speeds(speeds))
-        tell("vibrotrough: warning: {}: {}\n", options.file, sentence);
+    auto const speeds = options.shared.read_speeds(options.file);
     std::map<std::string, double> fixed;
     for (std::string const& text : options.fixed) {
         auto const [name, value] = split_setting("--fix", text, "friction=0.3");

@@ -172,7 +172,6 @@ int run_theory_point(TheoryPointArguments const& options) {
     check_machine_number(input);
     auto const machine = read_machine(options);
     auto const untested = law ? theory::outside_tested_range(input.point) : std::nullopt;
-    options.motion.tell_unusual();
     if (untested && !options.rolling.accepts_untested()) {
         withhold(input, *untested, options.json);
         return some_cases_failed;
@@ -195,6 +194,7 @@ int run_theory_point(TheoryPointArguments const& options) {
         }
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
+    options.motion.tell_unusual();
     return std::isfinite(answer.motion.velocity_efficiency) ? all_well : some_cases_failed;
 }
 
