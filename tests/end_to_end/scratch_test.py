@@ -90,8 +90,9 @@ class Scratch(EndToEndTest):
         self.assertEqual(engines_in(self.output), [])
         self.wait_for_checkpoint(driver)
         self.assertFalse((self.packing() / ".engine").exists())
-        for file in os.listdir(f"/proc/{engines_in(self.scratch)[0]}/fd"):
-            self.assertNotIn(str(self.output), os.readlink(f"/proc/{engines_in(self.scratch)[0]}/fd/{file}"))
+        for file in Path(f"/proc/{engines_in(self.scratch)[0]}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # closed since it was listed
+                self.assertNotIn(str(self.output), os.readlink(file))
         driver.send_signal(signal.SIGINT)
         self.assertEqual(self.finish(driver)[0], 130)
         reached = max(int(line.split(",")[0]) for line in (self.packing() / "cycles.csv").read_text().splitlines() if line[:1].isdigit())
