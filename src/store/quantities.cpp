@@ -2,6 +2,7 @@
 #include "prepare/softness.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
+#include "store/stage_quantities.hpp"
 #include "store/quantity.hpp"
 
 #include <limits>
@@ -357,7 +358,8 @@ std::vector<Quantity> const& quantities() {
         std::vector<Quantity> rows;
         for (auto const& part : {drive_quantities(), efficiency_quantities(), flow_quantities(),
                                  run_quantities(), start_and_scatter_quantities(),
-                                 grain_and_layer_quantities(), layer_quantities(), material_quantities()})
+                                 grain_and_layer_quantities(), layer_quantities(), material_quantities(),
+                                 stage_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();
