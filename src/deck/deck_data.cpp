@@ -2,8 +2,8 @@
 
 #include "deck/atom_types.hpp"
 #include "deck/drive_formula.hpp"
-#include "deck/stage_data.hpp"
 #include "deck/estimates.hpp"
+#include "deck/stage_data.hpp"
 
 #include <algorithm>
 #include <cmath>

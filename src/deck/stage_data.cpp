@@ -60,8 +60,8 @@ std::string blended(PartFormulas& formulas, scenario::DrivePart const& part, cha
     bool const along = axis[0] == 'x';
     auto const displacement = [&](char const* name, scenario::DriveMotion const& motion) {
         DriveFormula const formula =
-            displacement_formula(along ? motion.along : motion.normal, fmt::format("{}_{}{}_", name, axis, ending),
-                                 fmt::format("angle{}", ending));
+            displacement_formula(along ? motion.along : motion.normal,
+                                 fmt::format("{}_{}{}_", name, axis, ending), fmt::format("angle{}", ending));
         add(formulas, formula);
         return formula.speed;
     };
@@ -72,8 +72,7 @@ std::string blended(PartFormulas& formulas, scenario::DrivePart const& part, cha
 PartFormulas ramp(scenario::DrivePart const& part, int steps_per_cycle) {
     PartFormulas formulas;
     add_angles(formulas, part, steps_per_cycle);
-    for (auto const& [axis, speed] :
-         {std::pair{"x", &formulas.speed_x}, {"z", &formulas.speed_z}}) {
+    for (auto const& [axis, speed] : {std::pair{"x", &formulas.speed_x}, {"z", &formulas.speed_z}}) {
         std::string const now = blended(formulas, part, axis, ""),
                           before = blended(formulas, part, axis, "_before");
         formulas.variables.push_back({fmt::format("place_{}", axis), now});

@@ -1,8 +1,8 @@
 #include "evaluate/case.hpp"
 
 #include "evaluate/layer.hpp"
-#include "scenario/reader/written_campaign.hpp"
 #include "measure/mass_flow.hpp"
+#include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
 #include "store/stage_quantities.hpp"
 

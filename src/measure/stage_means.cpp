@@ -19,7 +19,8 @@ using Series = std::vector<double>;
 
 double mean_between(Series const& values, int first, int count) {
     if (count < 1) return not_known;
-    return as_array(std::span(values).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)))
+    return as_array(
+               std::span(values).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count)))
         .mean();
 }
 
@@ -126,10 +127,9 @@ std::vector<StageMeans> measure_stages(std::vector<StageCycles> const& stages,
         StageMeans means;
         means.speed = of_packings(packings, [&](Series const& v) { return speed_at_end(stage, v); });
         means.change = of_packings(packings, [&](Series const& v) { return change_at_end(stage, v); });
-        means.distance =
-            of_packings(packings, [&](Series const& v) { return distance_in(stage, v, velocities.durations); });
-        EnsembleNumber const before =
-            i == 0 ? EnsembleNumber{Series(packings.size(), 0)} : all.back().speed;
+        means.distance = of_packings(
+            packings, [&](Series const& v) { return distance_in(stage, v, velocities.durations); });
+        EnsembleNumber const before = i == 0 ? EnsembleNumber{Series(packings.size(), 0)} : all.back().speed;
         means.time_to_speed = {Series(packings.size(), not_known)};
         if (differ(before, means.speed, confidence)) {
             means.time_to_speed = jackknife(packings, [&](Series const& v) {

@@ -10,9 +10,9 @@ namespace vibrotrough::measure {
 
 /// The cycles of one stage.
 struct StageCycles {
-    int first;        ///< number of cycles before it
-    int ramp;         ///< cycles of its ramp
-    int cycles;       ///< with those of the ramp
+    int first;   ///< number of cycles before it
+    int ramp;    ///< cycles of its ramp
+    int cycles;  ///< with those of the ramp
 };
 
 /// The mean velocity of the layer along the trough in each cycle of each packing, m/s, and the durations of
@@ -28,8 +28,8 @@ struct StagedVelocities {
 /// 586-596). NaN where there is no value.
 struct EnsembleNumber {
     std::vector<double> values;
-    double mean() const;                          ///< of the values
-    double half_width(double confidence) const;   ///< Student's t over the values; NaN with fewer than two
+    double mean() const;                         ///< of the values
+    double half_width(double confidence) const;  ///< Student's t over the values; NaN with fewer than two
 };
 
 /// What is measured in one stage. SI units.

@@ -64,9 +64,9 @@ void add_ramp(PreparedCase& c, scenario::Stage const& stage, double excursion_be
     faster.frequency = std::max(stage.first_frequency, stage.trough.frequency);
     add_bounds(c, faster);
     double const change = 2 * (excursion_before + largest_excursion(drive_motion(stage.trough)));
-    c.largest_speed = std::max(c.largest_speed, largest_speed(drive_motion(stage.trough),
-                                                              angular_frequency(faster)) +
-                                                    change / stage.ramp_time());
+    c.largest_speed =
+        std::max(c.largest_speed, largest_speed(drive_motion(stage.trough), angular_frequency(faster)) +
+                                      change / stage.ramp_time());
 }
 
 void prepare_drive(PreparedCase& c) {
@@ -126,8 +126,7 @@ void prepare_modulus(PreparedCase& c) {
     bool const block = c.scenario.layer.block != scenario::Block::none;
     std::optional<double>& modulus = c.scenario.grains.youngs_modulus;
     c.modulus_chosen = !modulus;
-    if (!modulus)
-        modulus = block ? modulus_of_blocks : modulus_for(c, share * c.scenario.measure.half_width);
+    if (!modulus) modulus = block ? modulus_of_blocks : modulus_for(c, share * c.scenario.measure.half_width);
     for (scenario::Material& material : c.materials) material.grains.youngs_modulus = modulus;
     c.numerics = numerical_errors(c.scenario);
 }

@@ -27,13 +27,13 @@ struct PreparedCase {
     // Drive. That of [trough], but for what is said of all stages.
     std::vector<scenario::Stage> stages;  ///< none: the drive has no end
     scenario::DriveMotion motion;         ///< of the trough, as Fourier series
-    double throw_number;           ///< Gamma, as given where it was given
-    double machine_number;         ///< K, as given where it was given
-    double angular_frequency;      ///< omega, rad/s
-    double velocity_scale;         ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
-    double largest_speed;          ///< m/s, upper bound of the speed of the trough, in all stages
-    double largest_excursion;      ///< m, upper bound of its distance from its mean position, in all stages
-    int highest_order;             ///< of the harmonics of its motion, in all stages
+    double throw_number;                  ///< Gamma, as given where it was given
+    double machine_number;                ///< K, as given where it was given
+    double angular_frequency;             ///< omega, rad/s
+    double velocity_scale;                ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
+    double largest_speed;                 ///< m/s, upper bound of the speed of the trough, in all stages
+    double largest_excursion;  ///< m, upper bound of its distance from its mean position, in all stages
+    int highest_order;         ///< of the harmonics of its motion, in all stages
 
     // Grains and layer.
     std::vector<scenario::Material> materials;  ///< that of [grains] first

@@ -2,8 +2,8 @@
 #include "prepare/softness.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
-#include "store/stage_quantities.hpp"
 #include "store/quantity.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <limits>
 
@@ -356,10 +356,10 @@ std::vector<Quantity> run_quantities() {
 std::vector<Quantity> const& quantities() {
     static std::vector<Quantity> const all = [] {
         std::vector<Quantity> rows;
-        for (auto const& part : {drive_quantities(), efficiency_quantities(), flow_quantities(),
-                                 run_quantities(), start_and_scatter_quantities(),
-                                 grain_and_layer_quantities(), layer_quantities(), material_quantities(),
-                                 stage_quantities()})
+        for (auto const& part :
+             {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
+              start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
+              material_quantities(), stage_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

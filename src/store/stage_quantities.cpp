@@ -98,8 +98,9 @@ View shown(int place, std::string_view heading, std::string_view format) {
 }  // namespace
 
 std::vector<Entry> const& stages_entries() {
-    constexpr auto width = "Half-width of its interval at measure.confidence, Student's t over the packings; "
-                           "NaN with one packing";
+    constexpr auto width =
+        "Half-width of its interval at measure.confidence, Student's t over the packings; "
+        "NaN with one packing";
     static std::vector<Entry> const entries{
         {"start", "s", "When the stage begins; only of drives with stages"},
         {"time", "s", "How long it is, with its ramp"},
@@ -111,7 +112,8 @@ std::vector<Entry> const& stages_entries() {
         {"frequency", "Hz", "Frequency behind the ramp; at a standstill that of the stage before"},
         {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
         {"speed", "m/s",
-         "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, mean "
+         "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, "
+         "mean "
          "over the packings; NaN without such cycles"},
         {"speed_half_width", "m/s", width},
         {"speed_change", "m/s",
@@ -119,7 +121,8 @@ std::vector<Entry> const& stages_entries() {
          "not steady"},
         {"speed_change_half_width", "m/s", width},
         {"distance", "m",
-         "Displacement of the layer along the trough in the whole stage; at a standstill the distance in which "
+         "Displacement of the layer along the trough in the whole stage; at a standstill the distance in "
+         "which "
          "it stops"},
         {"distance_half_width", "m", width},
         {"time_to_speed", "s",
@@ -201,7 +204,8 @@ std::vector<Quantity> stage_quantities() {
     std::vector<Quantity> rows{
         {"stage_speed",
          "m/s",
-         "Speed of the layer at the end of the last stage of the drive in which the trough moves, see the table "
+         "Speed of the layer at the end of the last stage of the drive in which the trough moves, see the "
+         "table "
          "stages; NaN without stages",
          stage_speed(),
          OverPackings::mean,
@@ -227,7 +231,8 @@ std::vector<Quantity> stage_quantities() {
          {shown(955, "+-", "{:.3f}")}},
         {"stopping_distance",
          "m",
-         "Displacement of the layer along the trough in the last stage in which the trough stands still, with "
+         "Displacement of the layer along the trough in the last stage in which the trough stands still, "
+         "with "
          "its ramp; NaN without one",
          stopping_distance(),
          OverPackings::mean,

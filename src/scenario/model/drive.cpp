@@ -151,9 +151,10 @@ std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& 
     }
     if (std::abs(amplitude - trough.amplitude) > 0.01 * amplitude ||
         std::abs(angle - trough.vibration_angle) > 0.01) {
-        faults.push_back(fmt::format(
-            "its fundamental has amplitude {:.6g} mm and vibration angle {:.5g} deg, which differ from the keys",
-            1e3 * amplitude, in_degrees(angle)));
+        faults.push_back(
+            fmt::format("its fundamental has amplitude {:.6g} mm and vibration angle {:.5g} deg, which "
+                        "differ from the keys",
+                        1e3 * amplitude, in_degrees(angle)));
     }
     check_harmonics(faults, waveform.motion.along, along, "along");
     check_harmonics(faults, waveform.motion.normal, normal, "normal to");
@@ -162,9 +163,10 @@ std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& 
     double const frequency = (count - 1) / (count * (waveform.times.back() - waveform.times.front()));
     return WaveformFault{
         fmt::format("{}: {}", waveform.file.name, fmt::join(faults, "; besides, ")),
-        fmt::format("write frequency = \"{:.6g} Hz\", amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} "
-                    "deg\", with evenly spaced samples of one cycle whose fundamental is not small",
-                    frequency, 1e3 * amplitude, in_degrees(angle))};
+        fmt::format(
+            "write frequency = \"{:.6g} Hz\", amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} "
+            "deg\", with evenly spaced samples of one cycle whose fundamental is not small",
+            frequency, 1e3 * amplitude, in_degrees(angle))};
 }
 
 }  // namespace vibrotrough::scenario

@@ -95,7 +95,8 @@ std::vector<NamedFile> named_files(Scenario const& scenario) {
     if (scenario.trough.mesh) files.push_back(scenario.trough.mesh->file);
     if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
     for (GivenStage const& stage : scenario.stages)
-        if (stage.waveform && std::ranges::find(files, stage.waveform->file.name, &NamedFile::name) == files.end())
+        if (stage.waveform &&
+            std::ranges::find(files, stage.waveform->file.name, &NamedFile::name) == files.end())
             files.push_back(stage.waveform->file);
     if (scenario.engine.extra) files.push_back(scenario.engine.extra->file);
     if (scenario.engine.templates) {

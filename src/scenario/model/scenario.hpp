@@ -58,13 +58,13 @@ struct Trough {
 /// t_r)). Position and velocity of the trough are continuous at both ends of the ramp. A trough that stands
 /// still has the displacement 0 and keeps the frequency of its neighbour.
 struct Stage {
-    Trough trough;            ///< with the drive of the stage; at a standstill with that of the stage before
-    bool standstill;          ///< the trough stands still, but for the ramp
-    int first_cycle;          ///< number of cycles before the stage
-    int cycles;               ///< at least 1, with those of the ramp
-    int ramp_cycles;          ///< of the ramp at its beginning; 0 without a ramp
-    double first_frequency;   ///< Hz, with which the ramp begins
-    double start;             ///< s, when the stage begins
+    Trough trough;           ///< with the drive of the stage; at a standstill with that of the stage before
+    bool standstill;         ///< the trough stands still, but for the ramp
+    int first_cycle;         ///< number of cycles before the stage
+    int cycles;              ///< at least 1, with those of the ramp
+    int ramp_cycles;         ///< of the ramp at its beginning; 0 without a ramp
+    double first_frequency;  ///< Hz, with which the ramp begins
+    double start;            ///< s, when the stage begins
 
     double ramp_time() const;  ///< s
     double time() const;       ///< s, with the ramp

@@ -60,8 +60,16 @@ std::vector<DrivePart> drive_parts(std::vector<Stage> const& stages) {
             parts.push_back({number, true, stage.first_cycle, stage.ramp_cycles, stage.start, ramp,
                              stage.first_frequency, frequency, before, motion});
         if (rest > 0)
-            parts.push_back({number, false, stage.first_cycle + stage.ramp_cycles, rest, stage.start + ramp,
-                             rest / frequency, frequency, frequency, {}, motion});
+            parts.push_back({number,
+                             false,
+                             stage.first_cycle + stage.ramp_cycles,
+                             rest,
+                             stage.start + ramp,
+                             rest / frequency,
+                             frequency,
+                             frequency,
+                             {},
+                             motion});
         before = std::move(motion);
     }
     return parts;

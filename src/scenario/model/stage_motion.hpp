@@ -14,16 +14,16 @@ namespace vibrotrough::scenario {
 /// D(phi) = X(phi) - X(0) for a motion X, and 0 for a trough that stands still. The angle phi is that of a
 /// whole number of cycles, with a frequency that goes over linearly.
 struct DrivePart {
-    int stage;                ///< index of the stage, from 0
-    bool ramp;                ///< whether it is a ramp
-    int first_cycle;          ///< number of cycles before the part
-    int cycles;               ///< at least 1
-    double start;             ///< s, when it begins
-    double time;              ///< s, how long it is
-    double first_frequency;   ///< Hz, at its beginning
-    double frequency;         ///< Hz, at its end
-    DriveMotion from;         ///< of the stage before, for a ramp; empty for a standstill
-    DriveMotion to;           ///< of the stage; empty for a standstill
+    int stage;               ///< index of the stage, from 0
+    bool ramp;               ///< whether it is a ramp
+    int first_cycle;         ///< number of cycles before the part
+    int cycles;              ///< at least 1
+    double start;            ///< s, when it begins
+    double time;             ///< s, how long it is
+    double first_frequency;  ///< Hz, at its beginning
+    double frequency;        ///< Hz, at its end
+    DriveMotion from;        ///< of the stage before, for a ramp; empty for a standstill
+    DriveMotion to;          ///< of the stage; empty for a standstill
 
     /// The angle phi at a share u of the time, rad.
     double angle(double share) const;

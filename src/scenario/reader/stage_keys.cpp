@@ -72,7 +72,8 @@ void add_drive(std::vector<Key>& rows) {
     add("along_phase",
         "as trough.along_phase, in this stage; 180 deg less than before reverses the direction of conveying",
         entry_field<list, index, &GivenStage::along_phase>);
-    add("waveform", "as trough.waveform, in this stage", KeyAccess{stage_waveform_of<index>, set_stage_waveform<index>});
+    add("waveform", "as trough.waveform, in this stage",
+        KeyAccess{stage_waveform_of<index>, set_stage_waveform<index>});
 }
 
 template <std::size_t index>

@@ -55,7 +55,8 @@ class StageChecks {
              {"machine_number", "frequency"}}};
         for (auto const& [one, other] : pairs) {
             if (given_.has(key(one)) && given_.has(key(other)))
-                fail(other, fmt::format("{} is also given, and both say the same", one), "keep one of the two");
+                fail(other, fmt::format("{} is also given, and both say the same", one),
+                     "keep one of the two");
         }
     }
 
@@ -147,9 +148,10 @@ void complete_stages(Scenario& scenario, GivenKeys const& given) {
     }
     constexpr int most_cycles = 1'000'000;
     if (cycles_of(all) > most_cycles)
-        given.fail("stages.1.cycles",
-                   fmt::format("the stages have {} cycles together, more than {}", cycles_of(all), most_cycles),
-                   "shorten them");
+        given.fail(
+            "stages.1.cycles",
+            fmt::format("the stages have {} cycles together, more than {}", cycles_of(all), most_cycles),
+            "shorten them");
     if (!moves)
         given.fail("stages.1.standstill", "the trough stands still in all stages", "write one that moves");
     scenario.measure.max_cycles = cycles_of(all);
