@@ -67,7 +67,13 @@ std::vector<std::string> const contract{"case",
                                         "segregation",
                                         "segregation_half_width",
                                         "material_lead",
-                                        "material_lead_half_width"};
+                                        "material_lead_half_width",
+                                        "stage_speed_m_per_s",
+                                        "stage_speed_half_width_m_per_s",
+                                        "time_to_speed_s",
+                                        "time_to_speed_half_width_s",
+                                        "stopping_distance_m",
+                                        "stopping_distance_half_width_m"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

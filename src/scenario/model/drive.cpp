@@ -164,9 +164,9 @@ std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& 
     return WaveformFault{
         fmt::format("{}: {}", waveform.file.name, fmt::join(faults, "; besides, ")),
         fmt::format(
-            "write frequency = \"{:.6g} Hz\", amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} "
-            "deg\", with evenly spaced samples of one cycle whose fundamental is not small",
-            frequency, 1e3 * amplitude, in_degrees(angle))};
+            "write amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} deg\" for its frequency of "
+            "{:.6g} Hz; its samples must be evenly spaced in one cycle, and its fundamental not small",
+            1e3 * amplitude, in_degrees(angle), frequency)};
 }
 
 }  // namespace vibrotrough::scenario

@@ -34,6 +34,12 @@ void set_stroke(Scenario& s, GivenValue const& v) {
     s.stages[index].amplitude = v.number() / 2;
 }
 
+template <std::size_t index>
+std::optional<Content> stroke_of(Scenario const& s) {
+    if (s.stages.size() <= index || !s.stages[index].amplitude) return {};
+    return Content(2 * *s.stages[index].amplitude);
+}
+
 /// A key of an entry that means the same as one of [trough], with its unit, range and example.
 void add_as_in_trough(std::vector<Key>& rows, std::size_t index, std::string_view name,
                       std::string_view meaning, KeyAccess access) {
@@ -62,7 +68,7 @@ void add_drive(std::vector<Key>& rows) {
     add("amplitude", "r, as trough.amplitude, in this stage",
         entry_field<list, index, &GivenStage::amplitude>);
     add("stroke", "2 r, as trough.stroke, in this stage",
-        KeyAccess{[](Scenario const&) { return std::optional<Content>(); }, set_stroke<index>});
+        KeyAccess{stroke_of<index>, set_stroke<index>}.written_if(never));
     add("throw_number", "throw number in this stage, instead of machine number and frequency",
         entry_field<list, index, &GivenStage::throw_number>);
     add("machine_number", "machine number in this stage, instead of throw number and frequency",
