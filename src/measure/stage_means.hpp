@@ -18,8 +18,8 @@ struct StageCycles {
 /// The mean velocity of the layer along the trough in each cycle of each packing, m/s, and the durations of
 /// the cycles, s. All packings have all cycles.
 struct StagedVelocities {
-    std::vector<double> durations;
-    std::vector<std::vector<double>> packings;
+    std::vector<double> durations;              ///< s, of each cycle
+    std::vector<std::vector<double>> packings;  ///< m/s, of each packing in each cycle
 };
 
 /// A number of the ensemble of packings. Its values are those of the packings; where the number belongs to
@@ -27,7 +27,7 @@ struct StagedVelocities {
 /// number t_i of the packings without the i-th (jackknife, Efron & Stein, Annals of Statistics 9, 1981,
 /// 586-596). NaN where there is no value.
 struct EnsembleNumber {
-    std::vector<double> values;
+    std::vector<double> values;                  ///< of the packings
     double mean() const;                         ///< of the values
     double half_width(double confidence) const;  ///< Student's t over the values; NaN with fewer than two
 };

@@ -3,7 +3,6 @@
 #include "measure/stage_means.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace vibrotrough::store {
@@ -11,8 +10,6 @@ namespace {
 
 using Case = CaseRecord const&;
 using scenario::Stage;
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 bool has_stages(Case record) {
     return !record.scenario.stages.empty() && !record.packings.empty();
