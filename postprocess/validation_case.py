@@ -130,10 +130,10 @@ class ValidationCase:
             raise SystemExit(f"{self.program} {' '.join(words)}\n{answer.stderr}")
         return answer.stdout
 
-    def campaign(self, name: str, changes: Mapping[str, Any], sweep: Mapping[str, Sequence[Any]]) -> list[Row]:
-        """Runs variations of FOLDER/base.toml below --runs and returns the table's rows in the order of the sweep."""
+    def campaign(self, name: str, changes: Mapping[str, Any], sweep: Mapping[str, Sequence[Any]], options: Sequence[str] = ()) -> list[Row]:
+        """Runs variations of FOLDER/base.toml below --runs and returns the table's rows in the order of the sweep. `options`: more of `run`."""
         text = campaign_text(self.sections(), {"campaign.name": name, **changes}, sweep)
-        return run_campaign(self.program, self.runs / name, text, self.jobs)
+        return run_campaign(self.program, self.runs / name, text, self.jobs, options)
 
     # Tables: written by a long run, and read when this run or a later one is judged.
 

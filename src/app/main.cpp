@@ -165,7 +165,8 @@ int main(int argc, char** argv) {
         app::flush_output();
         return exit_code;
     } catch (core::Error const& error) {
-        app::tell("vibrotrough: {}\n", core::harmless(error.what()));
+        for (std::string const& problem : error.problems())
+            app::tell("vibrotrough: {}\n", core::harmless(problem));
         return error.kind() == core::ErrorKind::input ? app::wrong_input : app::something_missing;
     } catch (std::system_error const& error) {
         app::tell("vibrotrough: {}; check the disk and its permissions, and the limits (ulimit -a)\n",

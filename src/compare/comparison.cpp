@@ -76,7 +76,8 @@ std::optional<Value> known_value(store::CaseNumber const& value) {
 
 void add_measurement(Row& row, store::CaseRecord const& record) {
     if (!record.layer_mode.empty()) row.layer_mode = record.layer_mode;
-    bool const mean = has_mean(record.outcome);  // no mean is reported unless the case is steady
+    bool const mean = has_mean(record.outcome);          // no mean is reported unless the case is steady
+    row.measured.reserve(measured_quantities().size());  // a campaign has many rows
     for (store::Quantity const* const one : measured_quantities()) {
         bool const is_shown = mean || one->known_without_mean;
         row.measured.push_back(is_shown ? known_value(one->of_case(record)) : std::nullopt);

@@ -92,19 +92,26 @@ std::string to_json(std::vector<Row> const& rows, std::span<Column const> column
     return text;
 }
 
-std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns) {
+void write_csv(std::vector<Row> const& rows, std::span<Column const> columns, TextSink const& sink) {
     std::string text;
-    auto const add_line = [&](auto const& field_of) {
+    auto const write_line = [&](auto const& field_of) {
         char const* separator = "";
+        text.clear();
         for (Column const& column : columns) {
             if (!column.in_data) continue;
             text += separator + field_of(column);
             separator = ",";
         }
         text += "\n";
+        sink(text);
     };
-    add_line([](Column const& column) { return std::string(column.name); });
-    for (Row const& row : rows) add_line([&](Column const& column) { return csv_field(column.of(row)); });
+    write_line([](Column const& column) { return std::string(column.name); });
+    for (Row const& row : rows) write_line([&](Column const& column) { return csv_field(column.of(row)); });
+}
+
+std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns) {
+    std::string text;
+    write_csv(rows, columns, [&](std::string_view piece) { text += piece; });
     return text;
 }
 

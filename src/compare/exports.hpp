@@ -25,6 +25,9 @@ void write_json(std::vector<Row> const& rows, std::span<Column const> columns, T
 /// The rows as CSV with a header and the columns of the JSON. A value that is not known is empty.
 std::string to_csv(std::vector<Row> const& rows, std::span<Column const> columns = all_columns());
 
+/// Writes what to_csv() returns line by line.
+void write_csv(std::vector<Row> const& rows, std::span<Column const> columns, TextSink const& sink);
+
 /// One row as a JSON object with all columns, including those that to_json() leaves out.
 nlohmann::ordered_json to_object(Row const& row, std::span<Column const> columns = all_columns());
 

@@ -142,9 +142,13 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
         throw MissingError(
             fmt::format("cannot sync {} ({}); check the disk", path.string(), reason_of_errno()));
     }
+    int const error = errno;
     std::string const reason = reason_of_errno();
     if (parent.is_open()) ::unlinkat(folder, temporary.c_str(), 0);
-    refuse_to_write(path, reason, "free disk space or choose another folder");
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+        throw DiskFullError(fmt::format("cannot write {} ({}); free disk space or choose another folder",
+                                        path.string(), reason));
+    refuse_to_write(path, reason, "correct this or choose another folder");
 }
 
 [[noreturn]] void refuse_to_read(fs::path const& path, std::string const& reason) {

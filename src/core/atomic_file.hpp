@@ -48,7 +48,7 @@ TextFile read_text_file(std::filesystem::path const& path);
 /// is replaced. A file that is replaced hands on its owner and its mode. Outside of an OwnFolder, a pipe or a
 /// character device is written into, and a link to one is refused. Below an OwnFolder, temporary files of
 /// `path` that a killed process left are removed.
-/// @throws MissingError when the file cannot be written
+/// @throws MissingError when the file cannot be written, a DiskFullError when the disk is full
 void write_file_atomically(std::filesystem::path const& path, std::string_view content);
 
 /// Writes `content` in the same way but does not sync it, because for a small file the sync takes much longer

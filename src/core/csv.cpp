@@ -30,18 +30,6 @@ std::string position(std::string const& file, int line) {
     return file.empty() ? fmt::format("line {}", line) : fmt::format("{}:{}", file, line);
 }
 
-/// ';' if there is one outside quotes on the first line of the text, otherwise ','.
-char find_separator(std::string_view text) {
-    bool in_quotes = false;
-    for (char const c : text) {
-        if (c == '"') in_quotes = !in_quotes;
-        if (in_quotes) continue;
-        if (c == ';') return ';';
-        if (c == '\n') break;
-    }
-    return ',';
-}
-
 }  // namespace
 
 CsvError::CsvError(std::string const& file, int line, std::string const& problem, std::string_view cure)
@@ -54,10 +42,42 @@ CsvReader::CsvReader(std::string_view text, std::string file, CsvFormat format)
     : text_(text), file_(std::move(file)), format_(std::move(format)), columns_(format_.columns) {
     if (text_.size() > format_.most_bytes)
         fail_at(1, fmt::format("the file is larger than {} bytes", format_.most_bytes), "use a smaller file");
-    if (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))
-        fail_at(1, "the file is encoded in UTF-16", "save it as CSV in UTF-8");
+    if (is_utf16(text_)) {
+        decoded_ = std::make_shared<std::string const>(utf8_of_utf16(text_));
+        text_ = *decoded_;
+    }
     if (text_.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+    take_separator_line();
     if (columns_.empty()) read_header();
+}
+
+/// Excel writes and reads "sep=;" as the first line.
+void CsvReader::take_separator_line() {
+    std::string_view const line = text_.substr(at_, text_.find('\n', at_) - at_);
+    std::string_view const said = line.substr(0, line.find('\r'));
+    if (said.size() != 5 || !said.starts_with("sep=") || line.size() == text_.size() - at_) return;
+    if (said[4] != ',' && said[4] != ';' && said[4] != '\t')
+        fail_at(1, fmt::format("'{}' is not a separator", printable(said.substr(4), 4)),
+                "separate the cells by commas, semicolons or tabs");
+    separator_ = said[4];
+    knows_separator_ = true;
+    at_ += line.size() + 1;
+    ++line_;
+}
+
+/// ';' if there is one outside quotes on the first line of the text, else a tab, otherwise ','.
+char CsvReader::find_separator(std::string_view text) const {
+    if (knows_separator_) return separator_;
+    bool in_quotes = false, has_tab = false, has_comma = false;
+    for (char const c : text) {
+        if (c == '"') in_quotes = !in_quotes;
+        if (in_quotes) continue;
+        if (c == ';') return ';';
+        has_tab = has_tab || c == '\t';
+        has_comma = has_comma || c == ',';
+        if (c == '\n') break;
+    }
+    return has_tab && !has_comma ? '\t' : ',';
 }
 
 void CsvReader::read_header() {
@@ -156,8 +176,7 @@ bool CsvReader::read_quoted_cell(std::string_view& cell) {
 
 /// Reads a cell without quotes up to the next separator or line end.
 void CsvReader::take_plain_cell() {
-    std::size_t const end =
-        std::min(text_.find_first_of(separator_ == ';' ? ";\n" : ",\n", at_), text_.size());
+    std::size_t const end = std::min(text_.find_first_of(std::string{separator_, '\n'}, at_), text_.size());
     std::string_view cell = text_.substr(at_, end - at_);
     if ((end == text_.size() || text_[end] == '\n') && cell.ends_with('\r')) cell.remove_suffix(1);
     if (cell.find('"') != std::string_view::npos)
@@ -168,6 +187,10 @@ void CsvReader::take_plain_cell() {
     at_ = end;
 }
 
+void CsvReader::skip_spaces() {
+    while (at_ < text_.size() && text_[at_] != separator_ && is_space(text_[at_])) ++at_;
+}
+
 /// Splits the row that begins at `at_` and has quotes. Returns false when a growing text does not have all of
 /// the row yet.
 bool CsvReader::split_quoted() {
@@ -175,7 +198,7 @@ bool CsvReader::split_quoted() {
     unescaped_.clear();
     while (true) {
         std::size_t const start = at_;
-        while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+        skip_spaces();
         if (at_ < text_.size() && text_[at_] == '"') {
             int const opened = line_;
             if (!read_quoted_cell(cells_.emplace_back())) {
@@ -183,7 +206,7 @@ bool CsvReader::split_quoted() {
                 if (format_.growing) return false;
                 fail_at(opened, "an opening quote has no closing quote", "write the closing quote");
             }
-            while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+            skip_spaces();
             if (text_.substr(at_).starts_with("\r\n")) ++at_;
             if (text_.substr(at_) == "\r") ++at_;
             if (at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n')
@@ -272,7 +295,7 @@ void CsvReader::fail_at(int line, std::string const& problem, std::string_view c
 
 std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbers numbers) {
     std::string text;
-    if (separator == ';' && cell.find(',') != std::string_view::npos) {
+    if (separator != ',' && cell.find(',') != std::string_view::npos) {
         text = with_decimal_point(cell, separator);
         cell = text;
     }
@@ -288,7 +311,7 @@ std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbe
 std::string with_decimal_point(std::string_view cell, char separator) {
     std::string text(cell);
     std::size_t const comma = text.find(',');
-    bool const decimal = separator == ';' && comma != std::string::npos && comma + 1 < text.size() &&
+    bool const decimal = separator != ',' && comma != std::string::npos && comma + 1 < text.size() &&
                          is_digit(text[comma + 1]) &&
                          text.find_first_of(".,", comma + 1) == std::string::npos &&
                          text.find('.') == std::string::npos;

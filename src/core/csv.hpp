@@ -6,6 +6,7 @@
 #include <deque>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,11 +55,13 @@ struct CsvFormat {
 
 /// Reads a CSV text (RFC 4180) row by row.
 ///
-/// - The separator is ',', or ';' when the header line has a ';' outside quotes. With ';' numbers may have a
-///   decimal comma.
+/// - The separator is ';' where the header line has one outside quotes, a tab where it has a tab and no
+/// comma,
+///   and ',' otherwise. Where it is not the comma, numbers may have a decimal comma. A first line "sep=;",
+///   which Excel understands, decides.
 /// - A cell in double quotes may hold separators, line ends and doubled quotes. Spaces and tabs around a
 ///   cell do not belong to it unless they are within its quotes.
-/// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped.
+/// - Lines end with LF or CR LF. A UTF-8 byte order mark is skipped; UTF-16 with its mark is read, too.
 /// - Every row has as many cells as the header. Column names are neither empty nor given twice.
 ///
 /// The text must outlive the reader and the cells.
@@ -72,7 +75,7 @@ class CsvReader {
     std::vector<std::string> const& columns() const { return columns_; }
     /// Whether the columns are exactly these, in this order.
     bool has_columns(std::span<std::string_view const> names) const;
-    char separator() const { return separator_; }     ///< ',' or ';'
+    char separator() const { return separator_; }     ///< ',', ';' or a tab
     int header_line() const { return header_line_; }  ///< from 1; 0 when there is no header line
 
     /// Goes to the next row. Returns false after the last one.
@@ -99,21 +102,26 @@ class CsvReader {
     [[noreturn]] void fail(std::string const& problem, std::string_view cure) const;
 
   private:
+    void take_separator_line();
+    char find_separator(std::string_view text) const;
     bool find_row();
     void split_plain(std::string_view line);
     bool split_quoted();
     bool read_quoted_cell(std::string_view& cell);
     void take_plain_cell();
+    void skip_spaces();
     void read_header();
     void check_columns() const;
     bool parse_numbers(std::span<double> row) const;
     [[noreturn]] void fail_at(int line, std::string const& problem, std::string_view cure) const;
 
+    std::shared_ptr<std::string const> decoded_;  ///< the text in UTF-8 when it was given in UTF-16
     std::string_view text_;
     std::string file_;
     CsvFormat format_;
     std::vector<std::string> columns_;
     char separator_ = ',';
+    bool knows_separator_ = false;  ///< from a first line "sep=;"
     int header_line_ = 0;
     std::size_t at_ = 0;  ///< index in `text_` at which the next row begins
     int line_ = 1;        ///< the line at `at_`
@@ -127,11 +135,11 @@ class CsvReader {
 
 /// The number that a cell holds, or nullopt when it does not hold exactly one number. A leading '+' is
 /// allowed.
-/// @param separator  of the cells; if it is ';', the number may have a decimal comma
+/// @param separator  of the cells; unless it is ',', the number may have a decimal comma
 std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbers numbers);
 
-/// The cell with a decimal point instead of a decimal comma: "9,5 mm" becomes "9.5 mm" if ';' separates the
-/// cells. Other text stays as it is.
+/// The cell with a decimal point instead of a decimal comma: "9,5 mm" becomes "9.5 mm" unless ',' separates
+/// the cells. Other text stays as it is.
 std::string with_decimal_point(std::string_view cell, char separator);
 
 /// The text as a cell of a CSV file whose cells are separated by commas; in quotes where they are needed.

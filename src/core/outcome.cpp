@@ -30,7 +30,8 @@ constexpr std::array table{
                  "those that started above it: the layer has two ways to move, or forgets its start very "
                  "slowly. Both branches are reported with their intervals, but no mean.",
                  useless, "raise measure.max_cycles"},
-    OutcomeEntry{lost_grains, "lost-grains", "Grains left the simulation box.", useless,
+    OutcomeEntry{lost_grains, "lost-grains",
+                 "Grains left the simulation box, or the grains of an open trough do not add up.", useless,
                  "choose a smaller throw number or stiffer grains"},
     OutcomeEntry{mesh_left_domain, "mesh-left-domain", "The trough mesh extends outside the simulation box.",
                  useless, "this is a bug in the deck; please report it"},
@@ -39,6 +40,11 @@ constexpr std::array table{
                  "choose fewer grains or a larger box"},
     OutcomeEntry{not_settled, "not-settled", "The packing did not come to rest on the standing trough.",
                  useless, "choose a smaller inclination or more friction"},
+    OutcomeEntry{
+        overfull, "overfull",
+        "An open trough is fed more than it conveys: the layer has grown up to the feed, so that new "
+        "grains found no more room.",
+        useless, "feed less, or convey faster"},
     OutcomeEntry{diverged, "diverged",
                  "A number is NaN or infinite, or the layer is faster than 100 times the trough.", useless,
                  "choose stiffer or larger grains, or a slower trough"},

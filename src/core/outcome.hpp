@@ -17,6 +17,7 @@ enum class Outcome {
     mesh_left_domain,
     insertion_incomplete,
     not_settled,
+    overfull,
     diverged,
     wrong_weight,
     engine_error,

@@ -46,9 +46,11 @@ ut_system* unit_system() {
         std::string const bundled = bundled_units();
         std::unique_ptr<ut_system, FreeSystem> read(ut_read_xml(bundled.empty() ? nullptr : bundled.c_str()));
         if (read) {
-            // The database has "degree" and "arc_degree" but not the abbreviation that engineers write.
+            // The database has "degree" and "arc_degree" but not the abbreviations that engineers write.
             std::unique_ptr<ut_unit, FreeUnit> const degree(ut_get_unit_by_name(read.get(), "arc_degree"));
             ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+            std::unique_ptr<ut_unit, FreeUnit> const tonne(ut_get_unit_by_name(read.get(), "metric_ton"));
+            ut_map_name_to_unit("to", UT_ASCII, tonne.get());  // German plants write to/h
         }
         return read;
     }();
@@ -108,7 +110,8 @@ void check_ton(std::string_view text) {
 /// "turns / s" becomes "1 / s". In udunits2 a turn is an angle, 2 pi.
 std::string turns_as_cycles(std::string const& text) {
     static std::regex const rpm("rpm|RPM|revolutions?_per_minute");
-    static std::regex const turn("(turns?|revolutions?|rotations?|cycles?|rev|r)( ?/.*| per .*)");
+    static std::regex const turn(
+        "(turns?|revolutions?|rotations?|cycles?|rev|r|U|Umdr|Umdrehungen)( ?/.*| per .*)");
     if (std::regex_match(text, rpm)) return "1/minute";
     std::smatch parts;
     if (std::regex_match(text, parts, turn)) return "1" + parts[2].str();
@@ -122,18 +125,50 @@ bool is_angular(ut_unit const* unit) {
     return size > 0 && std::string_view(definition.data()).find("rad") != std::string_view::npos;
 }
 
-}  // namespace
+/// The number with which a text begins, and what follows it.
+struct NumberAndRest {
+    double number;
+    std::string_view rest;
+};
 
-double parse_quantity(std::string_view text, std::string const& unit) {
-    std::string_view const whole = trimmed(text);
+/// What is said of "9,7 mm". Three digits behind the comma, as in "1,000 mm", may be thousands as well.
+std::string comma_problem(std::string const& text, std::smatch const& parts) {
+    std::string const point =
+        fmt::format("write {}.{}{} with a point", parts[1].str(), parts[2].str(), parts[3].str());
+    if (parts[2].length() != 3) return fmt::format("'{}' has a decimal comma; {}", text, point);
+    return fmt::format("'{}' has a comma; {}, or {}{}{} if thousands are meant", text, point, parts[1].str(),
+                       parts[2].str(), parts[3].str());
+}
+
+/// @param problem  what is wrong with a text that does not begin with a number
+NumberAndRest split_number(std::string_view whole, char const* problem) {
+    static std::regex const decimal_comma(R"(([+-]?\d+),(\d+)([^\d,.].*)?)");
     std::string_view digits = whole;
     if (digits.starts_with('+')) digits.remove_prefix(1);
     double number = 0;
     auto const [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (failure != std::errc() || !std::isfinite(number)) {
-        throw QuantityError(fmt::format("'{}' does not begin with a finite number", whole));
-    }
-    auto const rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+    if (failure != std::errc() || !std::isfinite(number))
+        throw QuantityError(fmt::format("'{}' {}", whole, problem));
+    std::string const owned(whole.substr(0, 100));
+    std::smatch parts;
+    if (std::regex_match(owned, parts, decimal_comma)) throw QuantityError(comma_problem(owned, parts));
+    return {number, trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())))};
+}
+
+}  // namespace
+
+double parse_number(std::string_view text) {
+    constexpr char const* problem = "is not a finite number";
+    std::string_view const whole = trimmed(text);
+    auto const [number, rest] = split_number(whole, problem);
+    if (rest == "%") return number / 100;
+    if (!rest.empty()) throw QuantityError(fmt::format("'{}' {}", whole, problem));
+    return number + 0.0;  // "-0" is 0
+}
+
+double parse_quantity(std::string_view text, std::string const& unit) {
+    std::string_view const whole = trimmed(text);
+    auto const [number, rest] = split_number(whole, "does not begin with a finite number");
     if (rest.empty()) throw QuantityError(fmt::format("'{}' has no unit", whole));
     check_unit_text(rest);
     check_ton(rest);

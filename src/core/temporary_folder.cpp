@@ -169,12 +169,13 @@ void remove_left_folders_once(fs::path const& parent) {
     if (seen.insert(parent).second) remove_left_folders(parent);
 }
 
-fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::string const& boot) {
+fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::string const& boot,
+                        char const* cure) {
     std::string name =
         (parent / fmt::format("{}-{}{}XXXXXX", purpose, boot, boot.empty() ? "" : "-")).string();
     if (::mkdtemp(name.data()) == nullptr) {
-        throw MissingError(fmt::format("cannot make a temporary folder {} ({}); set TMPDIR to another folder",
-                                       name, std::strerror(errno)));
+        throw MissingError(fmt::format("cannot make a temporary folder in {} ({}){}", parent.string(),
+                                       std::strerror(errno), cure));
     }
     // The owner may use it, whatever the umask says.
     ::chmod(name.c_str(), 0700);
@@ -184,6 +185,7 @@ fs::path make_folder_in(fs::path const& parent, std::string_view purpose, std::s
 }  // namespace
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
+    char const* const cure = parent.empty() ? "; set TMPDIR to another folder" : "";
     if (parent.empty()) parent = parent_of_folders();
     remove_left_folders_once(parent);
     handle_signals();
@@ -191,7 +193,7 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
     for (int attempt = 1;; ++attempt) {
         // Where there are no locks, the name must not promise one.
         if (attempt > attempts_to_lock) boot.clear();
-        path_ = make_folder_in(parent, purpose, boot);
+        path_ = make_folder_in(parent, purpose, boot, cure);
         if (boot.empty()) break;
         lock_ = open_folder(path_);
         if (lock_ >= 0 && take_lock(lock_) && is_named(path_, lock_)) break;
@@ -204,9 +206,16 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose, fs::path parent) {
 
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    if (!path_.empty()) fs::remove_all(path_, ignored);
     forget(path_.c_str());
     if (lock_ >= 0) ::close(lock_);
+}
+
+bool TemporaryFolder::keep_as(fs::path const& name) {
+    if (::rename(path_.c_str(), name.c_str()) != 0) return false;
+    forget(path_.c_str());
+    path_.clear();
+    return true;
 }
 
 void TemporaryFolder::keep_in_child() const {

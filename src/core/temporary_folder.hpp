@@ -16,7 +16,8 @@ class TemporaryFolder {
     /// Makes the folder.
     /// @param purpose  beginning of the folder's name, such as "vibrotrough-probe"
     /// @param parent   below which it lies; empty: below TMPDIR, or below /tmp if that is not set
-    /// @throws MissingError when the folder cannot be made
+    /// @throws MissingError when the folder cannot be made: "cannot make a temporary folder in PARENT
+    /// (reason)", and what to do if it is that of TMPDIR
     explicit TemporaryFolder(std::string_view purpose = "vibrotrough", std::filesystem::path parent = {});
     ~TemporaryFolder();
     TemporaryFolder(TemporaryFolder const&) = delete;
@@ -27,6 +28,8 @@ class TemporaryFolder {
     /// To be called in a child between fork and exec: the folder counts as in use until the child, and
     /// whatever inherits its files, has ended.
     void keep_in_child() const;
+    /// Renames the folder, which then stays when this object ends. @return false when the disk refuses
+    bool keep_as(std::filesystem::path const& name);
     /// Processes of this user that work below the folder or name it in their environment, besides this one.
     std::vector<int> users() const;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include <boost/locale/encoding_utf.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::core {
@@ -76,6 +77,19 @@ std::string harmless(std::string_view text) {
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return line;
+}
+
+bool is_utf16(std::string_view text) {
+    return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
+std::string utf8_of_utf16(std::string_view text) {
+    std::size_t const low = text.starts_with("\xFF\xFE") ? 0 : 1;
+    std::u16string units;
+    for (std::size_t i = 2; i + 1 < text.size(); i += 2)
+        units += static_cast<char16_t>(static_cast<unsigned char>(text[i + low]) |
+                                       static_cast<unsigned char>(text[i + 1 - low]) << 8);
+    return boost::locale::conv::utf_to_utf<char>(units.data(), units.data() + units.size());
 }
 
 std::string utf8_of_bytes(std::string_view bytes) {

@@ -18,6 +18,12 @@ std::string printable(std::string_view text, std::size_t longest);
 /// written as "\x1b", "\u202e" and "\xff". The letters of all languages stay.
 std::string harmless(std::string_view text);
 
+/// Whether a text begins with the byte order mark of UTF-16, as Excel's "Unicode text" does.
+bool is_utf16(std::string_view text);
+
+/// Such a text in UTF-8, without its mark. Bytes that do not form a character are left out.
+std::string utf8_of_utf16(std::string_view text);
+
 /// Bytes, such as those of a path, as a text that is UTF-8 and can stand in a JSON file: a byte that is not
 /// UTF-8 becomes a NUL, which no path holds, and two hexadecimal digits.
 std::string utf8_of_bytes(std::string_view bytes);

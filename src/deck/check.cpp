@@ -139,24 +139,42 @@ void check_contact_time(std::vector<Finding>& findings, prepare::PreparedCase co
                             never, stiffen));
 }
 
+/// An open trough begins empty. What flows through it is measured when it is full, which the first packings
+/// should be for at least half of their cycles. The expected speed is rough, hence a quarter more time.
+void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const cycles = 1.25 * s.layer.length / expected_speed(s) * s.trough.frequency;
+    findings.push_back(
+        most("cycles until the open trough is full / cycles of a packing", "measure.min_cycles",
+             cycles / expected_cycles(s), 0.5, never,
+             fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
+                         "half of the cycles",
+                         std::ceil(2 * cycles))));
+}
+
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.
 void check_box(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const diameter = mean_diameter(s);
-    findings.push_back(
-        least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
-              "lengthen the box, so that grains do not interact with their own periodic images"));
-    findings.push_back(
-        least("periodic width / diameter", "layer.width", s.layer.width / diameter, 5, 4, "widen the box"));
+    bool const open = is_open(s);
+    if (!open) {
+        findings.push_back(
+            least("periodic length / diameter", "layer.length", s.layer.length / diameter, 8, 4,
+                  "lengthen the box, so that grains do not interact with their own periodic images"));
+    }
+    findings.push_back(least(open ? "width of the trough / diameter" : "periodic width / diameter",
+                             "layer.width", s.layer.width / diameter, 5, 4, "widen the box"));
     if (c.clump) {
         // With half the box a grain would lie across from its own image whichever way it turns.
         findings.push_back(most("largest extent of a clump / smaller side of the box", "grains.shape",
                                 c.largest_extent / std::min(s.layer.length, s.layer.width), 0.4, 0.5,
                                 "lengthen and widen the box, or use a more compact shape"));
     }
-    findings.push_back(least("periodic length / layer height", "layer.length",
-                             s.layer.length / c.layer_height, 1, 0,
-                             "lengthen the box, because waves and convection in the layer need space"));
+    if (open) check_filling(findings, c);
+    if (!open)
+        findings.push_back(least("periodic length / layer height", "layer.length",
+                                 s.layer.length / c.layer_height, 1, 0,
+                                 "lengthen the box, because waves and convection in the layer need space"));
     findings.push_back(least("layer height / diameter", "layer.height", c.layer_height / diameter, 1, 0,
                              "use more grains, because these do not form a layer"));
 }

@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
+#include "deck/open_trough.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
 #include "deck/rolling.hpp"
@@ -71,6 +72,7 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
         files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
+        if (domain.open) files["back.stl"] = back_wall_stl(width, prepared.wall_height, coarse);
     }
     return files;
 }
@@ -78,13 +80,14 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
 std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
-    std::array<double, 6> const shape{metres_in(scenario.trough.mesh_unit),
+    std::array<double, 7> const shape{metres_in(scenario.trough.mesh_unit),
                                       scenario.layer.length,
                                       scenario.layer.width,
                                       mean_diameter(scenario),
                                       scenario.trough.side_wall_friction ? 1.0 : 0.0,
-                                      prepared.wall_height};
-    thread_local std::array<double, 6> last_shape{};
+                                      prepared.wall_height,
+                                      prepared.domain.open ? 1.0 : 0.0};
+    thread_local std::array<double, 7> last_shape{};
     thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
     thread_local std::map<std::string, std::string> last;
     if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh) {
@@ -111,6 +114,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     }
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
+    describe_open(data, prepared, packing.number);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);

@@ -59,13 +59,15 @@ std::vector<core::TemplateData> describe_classes(prepare::PreparedCase const& n,
     int const stride = std::max(3, static_cast<int>(n.classes.size()));
     for (prepare::ClassCount const& size : n.classes) {
         core::TemplateData entry;
-        so_far += size.count;
+        so_far += is_open(n.scenario) ? 1 : size.count;  // an open trough begins with one of each
         entry.set("index", std::to_string(index + 1));
         entry.set("diameter", text(size.diameter));
         entry.set("count", std::to_string(size.count));
         entry.set("of_material",
                   n.materials.size() == 1 ? std::string() : fmt::format(" ({})", material_of(n, size).name));
         entry.set("count_so_far", std::to_string(so_far));
+        entry.set("mass_share",
+                  rounded(size.count * material_of(n, size).grains.density * std::pow(size.diameter, 3)));
         entry.set("template", template_of(n, size, index));
         entry.set("insertion_seed", std::to_string(seed_number(stride * (packing - 1) + index)));
         entry.set("distribution_seed", std::to_string(seed_number(4010 + 100 + index)));
@@ -311,8 +313,14 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("bottom", text(n.box_bottom));
     data.set("top", text(n.box_top));
     // The box is wider than the side walls, so that the walls are inside it.
-    data.set("box_left", text(walls ? -extent : 0));
-    data.set("box_right", text(s.layer.width + (walls ? extent : 0)));
+    double const beside = n.domain.open ? n.domain.open->box_side : walls ? extent : 0;
+    data.set("box_left", text(walls ? -beside : 0));
+    data.set("box_right", text(s.layer.width + beside));
+    data.set("box_start", text(n.domain.open ? n.domain.open->box_start : 0));
+    data.set("box_end", text(n.domain.open ? n.domain.open->box_end : s.layer.length));
+    data.set("fill_start", text(n.domain.open ? n.domain.open->feed_start : 0));
+    data.set("fill_end", text(n.domain.open ? n.domain.open->feed_end : s.layer.length));
+    data.set("settled_grains", std::to_string(n.settled_grains));
     data.set("fill_left", text(walls ? extent / 2 : 0));
     data.set("fill_right", text(s.layer.width - (walls ? extent / 2 : 0)));
     data.set("fill_bottom", text(n.fill_bottom));
@@ -321,8 +329,10 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("settle_chunk", std::to_string(std::max(1L, std::lround(chunk_time / step))));
     data.set("settle_chunks", std::to_string(static_cast<int>(20 * fall_time / chunk_time) + 200));
     data.set("settle_drag", rounded(mean_mass / (3 * chunk_time * spheres)));
-    data.set("settled_energy", rounded(1e-7 * n.mass * scenario::gravity * diameter));
+    double const settled_mass = n.domain.open ? n.mass * n.settled_weight / n.weight : n.mass;
+    data.set("settled_energy", rounded(1e-7 * settled_mass * scenario::gravity * diameter));
     data.set("mass", text(n.mass));
+    data.set("settled_mass", text(settled_mass));
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ int expected_packings(scenario::MeasurementPlan const& plan, double whole, Exper
 
 bool may_start_moving(scenario::Scenario const& scenario) {
     return !is_clump(scenario.grains) && scenario.layer.block == scenario::Block::none &&
-           scenario.trough.vibration_angle > 0 && scenario.stages.empty();
+           scenario.trough.vibration_angle > 0 && scenario.stages.empty() && !is_open(scenario);
 }
 
 int first_round_cycles(scenario::Scenario const& scenario) {

@@ -56,7 +56,7 @@ struct Experience {
 /// Whether the grains of a case may get a speed before the drive begins. Clumps start at rest: LIGGGHTS 3.8.0
 /// sets the velocities of their spheres, but not those of the bodies, which then begin as slowly as without
 /// the command. So do blocks, layers that are shaken along the trough, and drives with stages, whose start is
-/// measured.
+/// measured. An open trough begins empty.
 bool may_start_moving(scenario::Scenario const& scenario);
 
 /// Cycles of a packing in the first round of a case: 24, and as few as 18 when an interval is asked for that

@@ -47,4 +47,10 @@ std::string side_wall_stl(double length, double height, double y, double edge) {
     });
 }
 
+std::string back_wall_stl(double width, double height, double edge) {
+    return rectangle("wall", width, height, edge, {1, 0, 0}, [](double y, double z) {
+        return Node{0, y, z};
+    });
+}
+
 }  // namespace vibrotrough::deck

@@ -13,4 +13,7 @@ std::string flat_trough_stl(double length, double width, double edge);
 /// kind.
 std::string side_wall_stl(double length, double height, double y, double edge);
 
+/// The STL text of a back wall x = 0, 0 <= y <= width, 0 <= z <= height (m), with triangles of the same kind.
+std::string back_wall_stl(double width, double height, double edge);
+
 }  // namespace vibrotrough::deck

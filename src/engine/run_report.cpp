@@ -76,7 +76,8 @@ core::Outcome outcome_of_error(std::string const& message) {
 RunReport named_failure(std::string const& text) {
     std::string const named = text.substr(std::min(text.find_first_not_of(' '), text.size()));
     if (named.empty()) return {core::Outcome::engine_error, "the deck stopped without giving a reason"};
-    for (core::Outcome const outcome : {core::Outcome::insertion_incomplete, core::Outcome::not_settled}) {
+    for (core::Outcome const outcome :
+         {core::Outcome::insertion_incomplete, core::Outcome::not_settled, core::Outcome::overfull}) {
         std::string const prefix = std::string(name_of(outcome)) + ": ";
         if (named.starts_with(prefix)) return {outcome, named.substr(prefix.size())};
     }

@@ -1,6 +1,7 @@
 #include "evaluate/case.hpp"
 
 #include "evaluate/layer.hpp"
+#include "evaluate/open_trough.hpp"
 #include "measure/mass_flow.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
@@ -85,6 +86,7 @@ void add_estimate(store::CaseRecord& record) {
     store::add_materials(record);
     store::add_stages(record);
     record.outcome = outcome_of(record.estimate, record.scenario);
+    if (!unsteady_flow(record).empty()) record.outcome = core::Outcome::not_steady;
     if (has_mean(record.outcome)) return;
     // No mean is reported unless the case is steady; the cycles stay in the record.
     record.estimate.mean.reset();
@@ -126,6 +128,7 @@ std::string what_it_would_take(store::CaseRecord const& record) {
 }
 
 std::string remark_on_mean(store::CaseRecord const& record) {
+    if (std::string flow = unsteady_flow(record); !flow.empty()) return flow;
     if (record.outcome == core::Outcome::not_precise) return what_it_would_take(record);
     if (record.outcome == core::Outcome::bistable_or_slow) {
         return fmt::format("velocity efficiency {} when it starts below, {} when it starts above",

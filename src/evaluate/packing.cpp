@@ -5,6 +5,7 @@
 #include "core/hash.hpp"
 #include "deck/deck.hpp"
 #include "evaluate/layer.hpp"
+#include "evaluate/open_trough.hpp"
 #include "evaluate/rolling.hpp"
 
 #include <algorithm>
@@ -40,8 +41,9 @@ std::vector<double> efficiency_in_stages(prepare::PreparedCase const& prepared,
 std::vector<double> efficiency_of(prepare::PreparedCase const& prepared, measure::CycleSeries const& series) {
     scenario::Scenario const& s = prepared.scenario;
     if (!prepared.stages.empty()) return efficiency_in_stages(prepared, series);
-    // The engine does not unwrap the positions of rigid bodies.
-    if (prepared.clump) return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
+    // The engine does not unwrap the positions of rigid bodies, and the grains of an open trough come and go.
+    if (prepared.clump || prepared.domain.open)
+        return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
     return measure::velocity_efficiency(series, s.trough.amplitude * std::cos(s.trough.vibration_angle));
 }
 
@@ -50,6 +52,7 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
 }
 
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
+    if (prepared.domain.open) return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
     return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
                                  static_cast<int>(prepared.materials.size()));
 }
@@ -75,8 +78,12 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
     record.series = series;
     record.efficiency = efficiency_of(prepared, record.series);
     record.estimate = measure::estimate_packing(record.efficiency, wanted(prepared));
-    measure_layer(record, prepared, files, phases);
-    measure_rolling(record, prepared, files, phases);
+    if (prepared.domain.open) {
+        measure_open(record, prepared, files);
+    } else {
+        measure_layer(record, prepared, files, phases);
+        measure_rolling(record, prepared, files, phases);
+    }
     return record;
 }
 
@@ -96,6 +103,10 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
         return UnusableOutputs{incomplete,
                                fmt::format("cycles.csv holds {} cycles, the engine ended at step {}",
                                            cycles.cycles(), last_step)};
+    }
+    if (prepared.domain.open) {
+        auto const missing = measure::imbalance(cycles);
+        return missing ? std::optional(UnusableOutputs{core::Outcome::lost_grains, *missing}) : std::nullopt;
     }
     if (phases.cycles() != cycles.cycles()) {
         return UnusableOutputs{incomplete, fmt::format("phases.csv holds {} cycles, cycles.csv {}",

@@ -24,7 +24,10 @@ std::string digest_of_layer(PackingFiles const& files) {
     std::vector<std::string> names;
     for (core::TextFile const& file : files.snapshots) names.push_back(file.path.filename().string());
     std::vector<std::string_view> pieces{files.phases.content};
-    for (std::size_t i = 0; i < files.snapshots.size() && !files.phases.content.empty(); ++i) {
+    for (std::size_t i = 0; i < files.snapshots.size(); ++i) {
+        // An open trough has no phases.
+        bool const is_open = names[i].starts_with("along.") || names[i].starts_with("left.");
+        if (files.phases.content.empty() && !is_open) continue;
         pieces.emplace_back(names[i]);
         pieces.emplace_back(files.snapshots[i].content);
     }
@@ -45,7 +48,9 @@ PackingFiles read_packing_files(fs::path const& folder) {
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
-        if (name.starts_with("profiles.") || name.starts_with("surface."))
+        bool const is_dump = name.starts_with("left.") && name.ends_with(".dump");
+        if (is_dump || name.starts_with("profiles.") || name.starts_with("surface.") ||
+            name.starts_with("along."))
             files.snapshots.push_back(core::read_text_file(entry.path()));
     }
     std::ranges::sort(files.snapshots, {}, &core::TextFile::path);

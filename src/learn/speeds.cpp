@@ -21,7 +21,7 @@ struct Column {
     double low, high;  ///< bounds of its numbers; both excluded
 };
 
-constexpr std::array<Column, 8> known_columns{{
+constexpr std::array<Column, 10> known_columns{{
     {"stroke_mm", 0, 1e4},
     {"amplitude_mm", 0, 1e4},
     {"rpm", 0, 1e6},
@@ -29,7 +29,9 @@ constexpr std::array<Column, 8> known_columns{{
     {"vibration_angle_deg", 0, 90},
     {"inclination_deg", -90, 90},
     {"speed_m_per_s", -1e3, 1e3},
+    {"speed_m_per_min", -6e4, 6e4},
     {"uncertainty_m_per_s", 0, 1e3},
+    {"uncertainty_m_per_min", 0, 6e4},
 }};
 
 class Table {
@@ -42,7 +44,8 @@ class Table {
         }
         exactly_one("stroke_mm", "amplitude_mm");
         exactly_one("rpm", "frequency_hz");
-        if (!has("speed_m_per_s")) reader_.fail("there is no column speed_m_per_s", header_example);
+        exactly_one("speed_m_per_s", "speed_m_per_min");
+        at_most_one("uncertainty_m_per_s", "uncertainty_m_per_min");
     }
 
     bool next() { return reader_.next(); }
@@ -82,9 +85,13 @@ class Table {
         return names;
     }
 
-    void exactly_one(std::string_view one, std::string_view other) const {
+    void at_most_one(std::string_view one, std::string_view other) const {
         if (has(one) && has(other))
             reader_.fail(fmt::format("{} and {} are given both", one, other), "keep one of the two columns");
+    }
+
+    void exactly_one(std::string_view one, std::string_view other) const {
+        at_most_one(one, other);
         if (!has(one) && !has(other))
             reader_.fail(fmt::format("there is neither a column {} nor {}", one, other), header_example);
     }
@@ -94,6 +101,7 @@ class Table {
 
 double uncertainty_of(Table const& table, double speed, std::optional<double> relative) {
     if (auto const given = table.number("uncertainty_m_per_s")) return *given;
+    if (auto const given = table.number("uncertainty_m_per_min")) return *given / 60;
     if (relative && speed != 0) return *relative * std::abs(speed);
     table.fail("the speed has no uncertainty",
                "write its standard uncertainty into the column uncertainty_m_per_s, or give one for all, for "
@@ -106,7 +114,8 @@ double uncertainty_of(Table const& table, double speed, std::optional<double> re
 std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const& path,
                                        std::optional<double> relative_uncertainty) {
     Table table(text, path);
-    bool const has_stroke = table.has("stroke_mm"), has_rpm = table.has("rpm");
+    bool const has_stroke = table.has("stroke_mm"), has_rpm = table.has("rpm"),
+               has_seconds = table.has("speed_m_per_s");
     std::vector<MeasuredSpeed> speeds;
     while (table.next()) {
         MeasuredSpeed one{};
@@ -116,7 +125,7 @@ std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const&
         one.frequency = has_rpm ? table.required("rpm") / 60 : table.required("frequency_hz");
         if (auto const angle = table.number("vibration_angle_deg")) one.vibration_angle = *angle * degree;
         if (auto const angle = table.number("inclination_deg")) one.inclination = *angle * degree;
-        one.speed = table.required("speed_m_per_s");
+        one.speed = has_seconds ? table.required("speed_m_per_s") : table.required("speed_m_per_min") / 60;
         one.uncertainty = uncertainty_of(table, one.speed, relative_uncertainty);
         speeds.push_back(one);
     }

@@ -20,15 +20,16 @@ struct MeasuredSpeed {
     double uncertainty;  ///< m/s, standard uncertainty (one standard deviation) of `speed`, > 0
 };
 
-/// Reads a table of measured speeds (see core::CsvReader for the format; ';' and decimal commas are welcome).
+/// Reads a table of measured speeds (see core::CsvReader for the format; ';', tabs and decimal commas are
+/// welcome).
 ///
 /// The columns are found by their names and may stand in any order:
 /// - stroke_mm, or amplitude_mm (half the stroke)
 /// - rpm (revolutions per minute, one cycle each), or frequency_hz
 /// - vibration_angle_deg and inclination_deg; either may be missing
-/// - speed_m_per_s
-/// - uncertainty_m_per_s: the standard uncertainty (one standard deviation). The column or single cells may
-/// be
+/// - speed_m_per_s, or speed_m_per_min
+/// - uncertainty_m_per_s, or uncertainty_m_per_min: the standard uncertainty (one standard deviation). The
+/// column or single cells may be
 ///   missing when `relative_uncertainty` says what stands for them.
 ///
 /// @param path                  names the table in errors

@@ -16,6 +16,9 @@ namespace {
 constexpr std::string_view header =
     "step,grains,x_com,z_com,vz_com,mean_vx,mean_force_x,mean_force_z,flight_fraction";
 
+/// The columns of an open trough behind these.
+constexpr std::string_view open_header = ",fed,fed_mass,left,left_mass,held_mass,window_mass";
+
 /// The header of a layer of so many materials.
 std::string header_of(int materials) {
     std::string text(header);
@@ -58,6 +61,24 @@ CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int gr
     return series;
 }
 
+CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle) {
+    CycleSeries series;
+    std::string const columns = std::string(header).append(open_header);
+    parse_table(file, {"cycles of an open trough", columns, 0, steps_per_cycle},
+                [&](int, std::span<double const> row) {
+                    append(series, row.first(9));
+                    OpenSeries& open = series.open;
+                    open.held.push_back(row[1]);
+                    open.fed.push_back(row[9]);
+                    open.fed_mass.push_back(row[10]);
+                    open.left.push_back(row[11]);
+                    open.left_mass.push_back(row[12]);
+                    open.held_mass.push_back(row[13]);
+                    open.window_mass.push_back(row[14]);
+                });
+    return series;
+}
+
 CycleSeries first_cycles(CycleSeries const& series, int cycles) {
     auto const cut = [](std::vector<double>& values, int count) {
         values.resize(static_cast<std::size_t>(count));
@@ -69,6 +90,10 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles) {
         cut(one.x, cycles + 1);
         cut(one.z, cycles + 1);
     }
+    OpenSeries& open = result.open;
+    for (auto* const at_ends : {&open.fed, &open.fed_mass, &open.left, &open.left_mass, &open.held,
+                                &open.held_mass, &open.window_mass})
+        if (!at_ends->empty()) cut(*at_ends, cycles + 1);
     for (auto* const over_cycles :
          {&result.normal_force, &result.tangential_force, &result.flight_fraction, &result.mean_velocity}) {
         cut(*over_cycles, cycles);

@@ -15,6 +15,14 @@ struct MaterialSeries {
     std::vector<double> z;  ///< m, above the position of the floor at rest
 };
 
+/// What came, stayed and went in an open trough until, at or since the end of cycles 0 ... n (n + 1 values).
+struct OpenSeries {
+    std::vector<double> fed, fed_mass;    ///< grains and kg, all that were fed until then
+    std::vector<double> left, left_mass;  ///< grains and kg that left in the cycle
+    std::vector<double> held, held_mass;  ///< grains and kg in the trough
+    std::vector<double> window_mass;      ///< kg, in the window, mean over the cycle
+};
+
 /// How many materials a layer can have.
 inline constexpr int most_materials = 4;
 
@@ -34,6 +42,7 @@ struct CycleSeries {
 
     /// Of each material of a mixture, that of [grains] first; empty for the others and without a mixture.
     std::array<MaterialSeries, most_materials> materials{};
+    OpenSeries open = {};  ///< empty but of an open trough
 
     /// Number of whole cycles n.
     int cycles() const { return static_cast<int>(normal_force.size()); }
@@ -49,6 +58,10 @@ CycleSeries read_cycles(std::filesystem::path const& path, int steps_per_cycle, 
 
 /// The same for a file that has already been read. @throws InputError
 CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int grains, int materials = 1);
+
+/// The same of an open trough, in which the number of grains is not the same in all lines. Its mean velocity
+/// is that of the grains in the window. @throws InputError
+CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle);
 
 /// The first `cycles` cycles of a series that has at least that many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);

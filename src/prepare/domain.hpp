@@ -2,6 +2,7 @@
 
 #include "scenario/model/scenario.hpp"
 
+#include <optional>
 #include <vector>
 
 /// @file
@@ -9,8 +10,26 @@
 
 namespace vibrotrough::prepare {
 
+/// How often grains are fed within a cycle, evenly.
+constexpr int feeds_per_cycle = 10;
+
+/// A trough that is fed at its back wall and discharged over its edge. m and m/s; x from the back wall, z
+/// from the floor at rest.
+struct OpenTrough {
+    double feed_start, feed_end;      ///< ends of the zone that the feed falls into, along the trough
+    double feed_bottom, feed_top;     ///< heights between which grains appear
+    double feed_speed;                ///< with which they fall
+    double window_start, window_end;  ///< ends of the piece of trough whose speed is measured
+    double out_x;                     ///< behind it grains have left the trough
+    double out_near_x, out_z;         ///< so have grains that are behind out_near_x and below out_z
+    double bin;                       ///< length of a bin along the trough
+    double box_start, box_end;        ///< ends of the box along the trough
+    double box_side;                  ///< of the box beyond each side wall
+    double box_bottom;                ///< lower end of the box
+};
+
 /// The space of a layer. The box is periodic along the trough, so that all grains are conserved and the
-/// displacement of their centre of mass is the conveying speed.
+/// displacement of their centre of mass is the conveying speed; or the trough is open.
 struct Domain {
     /// Whether there are walls at both sides; periodic across otherwise.
     bool is_closed = false;
@@ -19,6 +38,7 @@ struct Domain {
     std::vector<scenario::Triangle> surface = {};
     double floor_top = 0;  ///< m, its highest point but for upright walls, above which grains are poured
     double top = 0;        ///< m, its highest point
+    std::optional<OpenTrough> open = {};  ///< only of an open trough
 
     /// Whether the trough has another surface than the flat floor.
     bool has_mesh() const { return !surface.empty(); }

@@ -139,7 +139,8 @@ std::vector<VariedSetting> vary_numerics(PreparedCase const& c) {
     };
     bool const is_mesh = s.trough.mesh != nullptr;
     return {vary_modulus(s), vary_time_step(c),
-            side(NumericalSetting::length, &scenario::Layer::length, is_mesh, "the mesh has one length"),
+            side(NumericalSetting::length, &scenario::Layer::length, is_mesh || is_open(s),
+                 is_mesh ? "the mesh has one length" : "the length of an open trough is part of the problem"),
             side(NumericalSetting::width, &scenario::Layer::width, is_mesh || s.trough.side_wall_friction,
                  is_mesh ? "the mesh has one width" : "between side walls the width is part of the problem")};
 }

@@ -1,5 +1,6 @@
 #include "prepare/prepared_case.hpp"
 
+#include "prepare/open_trough.hpp"
 #include "prepare/softness.hpp"
 
 #include <algorithm>
@@ -110,12 +111,16 @@ void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
     if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
+    double one_of_each = 0;
     for (ClassCount const& size : c.classes) {
         double const sphere = std::numbers::pi / 6 * std::pow(size.diameter, 3);
-        c.mass += size.count * c.materials[static_cast<std::size_t>(size.material)].grains.density *
-                  (c.clump ? c.clump->volume : sphere);
+        double const density = c.materials[static_cast<std::size_t>(size.material)].grains.density;
+        c.mass += size.count * density * (c.clump ? c.clump->volume : sphere);
+        one_of_each += density * sphere;
     }
     c.weight = c.mass * scenario::gravity * std::cos(s.trough.inclination);
+    c.settled_grains = is_open(s) ? static_cast<int>(c.classes.size()) : s.layer.grains;
+    c.settled_weight = is_open(s) ? c.weight * one_of_each / c.mass : c.weight;
     c.layer_height = layer_height(s);
 }
 
@@ -176,6 +181,11 @@ void prepare_box(PreparedCase& c) {
                                   c.fill_top + 10 * flight + 5 * c.largest_extent);
     c.box_bottom = -in_powers_of_four(4 * c.largest_extent, 2 * (excursion + c.largest_extent));
     c.wall_height = c.box_top - (excursion - c.box_bottom);
+    if (!is_open(c.scenario)) return;
+    c.domain.open = open_trough(c);
+    c.box_top = std::max(c.box_top, 2 * c.domain.open->feed_top);
+    c.box_bottom = c.domain.open->box_bottom;
+    c.wall_height = c.box_top - 2 * (excursion + c.largest_extent);
 }
 
 }  // namespace

@@ -44,6 +44,10 @@ struct PreparedCase {
     double weight;                       ///< N, normal force of the layer at rest: m g cos(alpha)
     double layer_height;                 ///< m, at rest, as given or from the number of grains
     double largest_extent;               ///< m, largest diameter of the spheres that enclose the grains
+    /// How many grains there are before the drive begins, and their weight, N. In an open trough it is one of
+    /// each class, because the engine cannot start with none.
+    int settled_grains;
+    double settled_weight;  ///< see settled_grains
 
     // Stiffness. Where the campaign file gives no modulus, the scenario above holds the one that was chosen.
     bool modulus_chosen;       ///< whether Young's modulus was chosen here

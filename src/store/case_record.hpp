@@ -6,6 +6,7 @@
 #include "measure/estimate.hpp"
 #include "measure/layer_motion.hpp"
 #include "measure/layer_profiles.hpp"
+#include "measure/open_flow.hpp"
 #include "measure/rolling_motion.hpp"
 #include "scenario/model/scenario.hpp"
 
@@ -33,6 +34,7 @@ struct PackingRecord {
     measure::Profiles profiles;           ///< of the same cycles
     measure::Surface surface;             ///< of the layer in the same cycles
     measure::RollingCurves rolling;       ///< of the same cycles, when measure.rolling asks for it
+    measure::OpenFlow open;               ///< of an open trough
     std::optional<double> segregation;    ///< of the first of [[materials]], see measure/segregation.hpp
     std::optional<double> material_lead;  ///< its velocity efficiency less that of the grains
     std::optional<double> stage_speed;    ///< m/s, see store/stage_quantities.hpp

@@ -2,6 +2,7 @@
 #include "prepare/softness.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
+#include "store/open_quantities.hpp"
 #include "store/quantity.hpp"
 #include "store/stage_quantities.hpp"
 
@@ -46,7 +47,9 @@ std::optional<double> speed(Case record, std::optional<double> const& efficiency
 std::optional<double> mass_flow(Case record, std::optional<double> const& efficiency) {
     auto const known = speed(record, efficiency);
     if (!known) return {};
-    return *known * mass_per_area(record.scenario);
+    auto const mass = measured_mass_per_area(record);
+    if (!mass) return {};
+    return *known * *mass;
 }
 
 /// On the whole width of the trough, where it is known.
@@ -158,8 +161,9 @@ std::vector<Quantity> flow_quantities() {
          real([](Case c) { return speed(c, whole_half_width(c)); }),
          nothing,
          {{.place = 150, .format = "{:.3f}", .position = 161}}},
-        {"mass_per_area", "kg/m2", "Mass of the layer per area of trough",
-         real([](Case c) { return mass_per_area(c.scenario); })},
+        {"mass_per_area", "kg/m2",
+         "Mass of the layer per area of trough; of an open trough that in the window",
+         real([](Case c) { return measured_mass_per_area(c); })},
         {"trough_width", "m",
          "Width of the real trough, as given or between the side walls; NaN when it is not known",
          real([](Case c) { return trough_width(c.scenario); })},
@@ -359,7 +363,7 @@ std::vector<Quantity> const& quantities() {
         for (auto const& part :
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
               start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
-              material_quantities(), stage_quantities()})
+              material_quantities(), open_quantities(), stage_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

@@ -1,6 +1,7 @@
 #include "store/reference.hpp"
 
 #include "store/material_quantities.hpp"
+#include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/stage_quantities.hpp"
 
@@ -71,6 +72,13 @@ void add_packings(std::vector<NameInFile>& names) {
     }
     for (PackingTable const& table : material_tables(measure::most_materials))
         add(names, std::string(table.group) + "/<packing>/", real_type, "cycles + 1", table.entry);
+    for (PackingTable const& table : open_tables()) {
+        add(names, std::string(table.group) + "/<packing>/", real_type,
+            table.group == "flow"    ? "cycles + 1"
+            : table.group == "along" ? "bins"
+                                     : "101",
+            table.entry);
+    }
     for (Entry const& entry : materials_entries())
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
     for (Entry const& entry : segregation_entries())

@@ -7,6 +7,7 @@
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
 #include "store/material_quantities.hpp"
+#include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/stage_quantities.hpp"
 
@@ -203,6 +204,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         read_tables(file, i, record.packings[i], rolling_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
+    for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], open_tables());
     for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
         if (!packing.motion.added_mass)
             measure::add_reaction(packing.motion, record.scenario.trough.frequency);
@@ -269,6 +272,7 @@ std::string result_bytes(CaseRecord const& record) {
         add_tables(file, i, record.packings[i], packing_tables());
         if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
+        if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
     }
     return file.bytes();
 }

@@ -90,7 +90,7 @@ TEST_F(BatchTest, TheScriptRunsSeveralEnginesAndWaitsForAll) {
 }
 
 // A task that is warned tells the program, and is queued again without a marker that it ended; when it is not
-// taken again, it has ended.
+// taken again, it has ended. The scheduler may end the task before the command that queues it has ended.
 TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     fs::path const program = folder / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\ntrap 'echo told >> said; exit 130' TERM\n"
@@ -99,7 +99,8 @@ TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 1, true});
     std::ofstream(batch.folder / "task-2.ended") << "130\n";
     for (int const code : {0, 1}) {
-        std::ofstream(folder / "scontrol") << "#!/bin/sh\necho \"$@\" >> asked\nexit " << code << "\n";
+        std::ofstream(folder / "scontrol")
+            << "#!/bin/sh\nkill -TERM $$\necho \"$@\" >> asked\nexit " << code << "\n";
         fs::permissions(folder / "scontrol", fs::perms::owner_all);
         std::string const command = fmt::format(
             "cd '{0}' && PATH='{0}':$PATH SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=77 sh slurm/0001/job.sh",

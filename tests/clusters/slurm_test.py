@@ -186,6 +186,16 @@ class Slurm(EndToEndTest):
         self.assertRegex(text, r"core-hours by the engines of all packings\n[0-9.e-]+ core-hours counted by Slurm\n")
         self.assertNotIn("core_time_s", self.status(), "nobody asked")
 
+        # A job that the accounting has forgotten, or never heard of, is named.
+        (batch,) = (self.output / "slurm").iterdir()
+        other = shutil.copytree(batch, batch.with_name("999"))
+        note = json.loads((other / "batch.json").read_text())
+        (other / "batch.json").write_text(json.dumps(note | {"job": 777777, "name": note["name"] + "-other"}))
+        told = json.loads(self.call("status", self.output, "--accounting", "--json").stdout)
+        self.assertEqual((told["core_time_counted_s"], told["jobs_not_counted"]), ({"slurm": counted}, {"slurm": [777777]}))
+        self.assertIn("Slurm does not know job 777777 any more, which is not counted\n", self.call("status", self.output, "--accounting").stdout)
+        shutil.rmtree(other)
+
         # Not in what is not asked for, nor where nothing is counted.
         slurm.stop("slurmdbd")
         told = json.loads(self.call("status", self.output, "--accounting", "--json").stdout)

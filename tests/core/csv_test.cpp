@@ -67,11 +67,31 @@ TEST(Csv, AByteOrderMarkIsSkipped) {
                    "\"a\",b\n1,2\n"),
               (Rows{{"a", "b"}, {"1", "2"}}));
     EXPECT_EQ(error_of("\xEF\xBB\xBF"), "t.csv:1: the file is empty; begin it with a line of column names");
-    EXPECT_NE(error_of(std::string_view("\xFF\xFE"
-                                        "a\0\n\0",
-                                        6))
-                  .find("UTF-16"),
-              std::string::npos);
+}
+
+// "a;b\n1,5;2\n" as Excel writes it: two bytes for each letter, the low or the high one first, after a mark.
+TEST(Csv, Utf16IsRead) {
+    std::string low = "\xFF\xFE", high = "\xFE\xFF";
+    for (char const c : std::string("a;\xB5\n1,5;2\n")) {
+        low += {c, '\0'};
+        high += {'\0', c};
+    }
+    Rows const expected{{"a", "\xC2\xB5"}, {"1,5", "2"}};  // a micro sign is two bytes in UTF-8
+    EXPECT_EQ(read(low), expected);
+    EXPECT_EQ(read(high), expected);
+    EXPECT_EQ(read(low + "x"), expected) << "a half letter at the end is left out";
+    EXPECT_NE(error_of("\xFF\xFE").find("the file is empty"), std::string::npos);
+}
+
+TEST(Csv, TabsAndTheSeparatorLineOfExcel) {
+    EXPECT_EQ(read("a\tb\n1,5\t2\n"), (Rows{{"a", "b"}, {"1,5", "2"}}));
+    EXPECT_EQ(read("a\tb\n\t2\n"), (Rows{{"a", "b"}, {"", "2"}})) << "an empty cell";
+    EXPECT_EQ(read("a\tb\n\"x\ty\"\t2\n"), (Rows{{"a", "b"}, {"x\ty", "2"}})) << "a tab in quotes";
+    EXPECT_EQ(read("a,\tb\n1,2\n"), (Rows{{"a", "b"}, {"1", "2"}})) << "tabs beside commas are blanks";
+    EXPECT_EQ(read("sep=;\r\na;b\r\n1,5;2\r\n"), (Rows{{"a", "b"}, {"1,5", "2"}}));
+    EXPECT_EQ(read("sep=,\na,b;c\n1,2\n"), (Rows{{"a", "b;c"}, {"1", "2"}}));
+    EXPECT_NE(error_of("sep=|\na|b\n").find("is not a separator"), std::string::npos);
+    EXPECT_EQ(core::csv_number("1,5", '\t', core::CsvNumbers::finite), 1.5);
 }
 
 TEST(Csv, QuotesHoldAnything) {

@@ -44,6 +44,42 @@ TEST(Quantity, TurnsAreCycles) {
     EXPECT_NEAR(core::parse_quantity("0.25 turn", "radian"), std::acos(-1.0) / 2, rounding) << "of an angle";
 }
 
+TEST(Quantity, WhatGermanPlantsWrite) {
+    EXPECT_NEAR(core::parse_quantity("960 U/min", "Hz"), 16, 16 * rounding);
+    EXPECT_NEAR(core::parse_quantity("960 Umdrehungen / min", "Hz"), 16, 16 * rounding);
+    EXPECT_NEAR(core::parse_quantity("12 to/h", "kg/s"), 12 / 3.6, 4 * rounding);
+    EXPECT_NEAR(core::parse_quantity("2 m/min", "m/s"), 2.0 / 60, rounding);
+    EXPECT_NEAR(core::parse_quantity("20 m3/h", "m3/s"), 20.0 / 3600, rounding);
+}
+
+TEST(Quantity, ADecimalCommaIsNamed) {
+    auto const message = [](auto const& read) -> std::string {
+        try {
+            read();
+        } catch (core::QuantityError const& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(message([] { core::parse_quantity("9,7 mm", "m"); }),
+              "'9,7 mm' has a decimal comma; write 9.7 mm with a point");
+    EXPECT_EQ(message([] { core::parse_number("0,3"); }),
+              "'0,3' has a decimal comma; write 0.3 with a point");
+    EXPECT_EQ(message([] { core::parse_quantity("1,000 mm", "m"); }),
+              "'1,000 mm' has a comma; write 1.000 mm with a point, or 1000 mm if thousands are meant");
+    EXPECT_NE(message([] { core::parse_number("1,2,3"); }).find("is not a finite number"), std::string::npos);
+}
+
+TEST(Quantity, NumbersAndPercentages) {
+    EXPECT_EQ(core::parse_number("0.3"), 0.3);
+    EXPECT_EQ(core::parse_number("+2e-1 "), 0.2);
+    EXPECT_EQ(core::parse_number("10 %"), 0.1);
+    EXPECT_EQ(core::parse_number("10%"), 0.1);
+    EXPECT_THROW(core::parse_number("10 mm"), core::QuantityError);
+    EXPECT_THROW(core::parse_number(""), core::QuantityError);
+    EXPECT_THROW(core::parse_number("nan"), core::QuantityError);
+}
+
 // m' [kg/s] = 1000 m' [t/h] / 3600.
 TEST(Quantity, MassFlowsInTonnesPerHour) {
     EXPECT_NEAR(core::parse_quantity("12 t/h", "kg/s"), 12 / 3.6, 4 * rounding);

@@ -35,6 +35,48 @@ double number_after(std::string const& deck, std::string const& before) {
     return std::stod(deck.substr(at + before.size()));
 }
 
+// An open trough has a back wall, a feed and an edge, and no phases; other troughs have none of it, so that
+// their ids stay what they were.
+TEST(Deck, AnOpenTroughIsFedAndDischarged) {
+    std::string const text =
+        with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
+    scenario::Scenario const s =
+        scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text));
+    prepare::PreparedCase const prepared = prepare::prepare_case(s);
+    Deck const deck = make_deck(prepared, {1});
+    std::string const drive = deck.files.at("in.liggghts");
+    EXPECT_TRUE(deck.files.contains("back.stl"));
+    for (char const* part : {"boundary        f f f", "insert/rate/region", "meshes trough left right back",
+                             "delete_atoms    region outlet"})
+        EXPECT_NE(drive.find(part), std::string::npos) << part;
+    EXPECT_EQ(drive.find("phases.csv"), std::string::npos);
+    EXPECT_EQ(number_after(drive, "massrate "), *s.feed.mass_flow);
+    // One grain of each of the three sizes is there at first.
+    EXPECT_EQ(prepared.settled_grains, 3);
+    EXPECT_NEAR(prepared.settled_weight / prepared.weight * s.layer.grains, 3, 0.05);
+    std::string const periodic = decks(scenario());
+    for (char const* part : {"feed", "back.stl", "outlet", "along."})
+        EXPECT_EQ(periodic.find(part), std::string::npos) << part;
+}
+
+// A grain that has just not left the trough at the end of a cycle falls, and flies on with the trough's
+// largest speed, for a whole cycle before it is taken out.
+TEST(Deck, GrainsAreTakenOutBeforeTheyLeaveTheBox) {
+    std::string const text =
+        with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
+    prepare::PreparedCase const c = prepare::prepare_case(
+        scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+    prepare::OpenTrough const& open = *c.domain.open;
+    double const period = 1 / c.scenario.trough.frequency, way = c.largest_speed * period;
+    EXPECT_LT(c.box_bottom, open.out_z - way - 9.81 / 2 * period * period);
+    EXPECT_GT(open.box_end, open.out_x + way);
+    EXPECT_GT(c.box_top, open.feed_top);
+    EXPECT_LT(open.out_near_x + 0.0033,
+              0.2);  // behind it nothing lies below the floor but what has fallen over the edge
+    EXPECT_LT(open.feed_end, open.window_start);
+    EXPECT_LT(open.window_end, 0.2);
+}
+
 // m = rho pi / 6 sum d^3 over three classes of equal number.
 TEST(Deck, MassAndWeightOfThreeClasses) {
     scenario::Scenario const s =

@@ -50,7 +50,7 @@ class WrongInput(EndToEndTest):
         self.refuse(campaign_text().replace("[trough]", "[through]"), "through", "unknown section", "trough, grains")
         # What is missing has no place of its own: its section's heading.
         self.refuse(campaign_text({"trough.friction": None}), "trough]", "trough.friction: is missing")
-        self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, grains, block is needed")
+        self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, grains, block, feed.mass_flow is needed")
         both = campaign_text({"trough.frequency": "13 Hz"})
         self.refuse(both, "frequency", "trough.throw_number is also given, on line 7", "keep one of the two")
         self.refuse("[campaign\n", "\n", "TOML")
@@ -62,9 +62,17 @@ class WrongInput(EndToEndTest):
         self.refuse(campaign_text(sweep={"trough.fiction": [0.1]}), '"trough.fiction"', "did you mean trough.friction?")
         self.refuse(campaign_text(sweep={"campaign.name": ["a"]}), '"campaign.name"', "a name cannot be swept")
 
-    def test_several_mistakes_are_told_one_at_a_time(self):
+    def test_several_mistakes_are_told_at_once(self):
         changes = {"grains.frictoin": 0.3, "trough.friction": -0.25, "layer.grains": 60.5}
-        self.refuse(campaign_text(changes), "-0.25", "trough.friction")
+        campaign = self.folder / "wrong.toml"
+        campaign.write_text(campaign_text(changes))
+        done = self.call("check", campaign)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        told = done.stderr.splitlines()
+        self.assertEqual(len(told), 3, told)
+        for line, part in zip(told, ("trough.friction: -0.25 is out of range", "did you mean grains.friction?", "60.5 is not a whole number")):
+            self.assertTrue(line.startswith(f"vibrotrough: {campaign}:"), line)
+            self.assertIn(part, line)
 
     def test_wrong_command_lines(self):
         campaign = self.write_campaign()

@@ -1,15 +1,18 @@
 """Engines that work in a scratch folder of the machine: what comes back, what is left, and what a machine that dies costs."""
 
+import contextlib
 import json
 import os
+import re
 import shutil
 import signal
 import stat
 import subprocess
+import time
 import unittest
 from pathlib import Path
 
-from trough_program import EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time
+from trough_program import PROGRAM, EndToEndTest, campaign_text, engines_in, pause, wait_until, without_wall_time
 
 # Nobody would stop this for an hour; a checkpoint comes soon.
 ENDLESS = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 1000000, "output.checkpoint_cycles": 5}
@@ -25,9 +28,16 @@ class Scratch(EndToEndTest):
         os.environ["VIBROTROUGH_TEST_SCRATCH"] = str(self.folder)
         self.addCleanup(os.environ.pop, "VIBROTROUGH_TEST_SCRATCH", None)
 
-    def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml"):
+    def mount_small(self, place, size):
+        """A small file system of its own."""
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", place], capture_output=True, text=True)
+        if mounted.returncode != 0:
+            self.skipTest(f"may not mount: {mounted.stderr}")
+        self.addCleanup(subprocess.run, ["umount", "-l", place], check=True)
+
+    def write(self, changes, scratch="$VIBROTROUGH_TEST_SCRATCH/node", name="campaign.toml", sweep=None):
         path = self.folder / name
-        path.write_text(campaign_text(changes) + (f'[run]\nscratch = "{scratch}"\n' if scratch else ""))
+        path.write_text(campaign_text(changes, sweep) + (f'[run]\nscratch = "{scratch}"\n' if scratch else ""))
         return path
 
     def packing(self, number=1):
@@ -148,6 +158,78 @@ class Scratch(EndToEndTest):
         self.run_campaign(campaign, output=self.folder / "plain", wanted=None)
         self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
 
+    def start_tasks(self, campaign):
+        """One process for each task of the campaign, as on the nodes of a cluster."""
+        tasks = self.folder / "tasks"
+        prepared = self.call("prepare", campaign, "--output", self.output, "--task-list", tasks, "--liggghts", self.engine, "--accept-findings")
+        self.assertEqual(prepared.returncode, 0, prepared.stderr)
+        started = []
+        for index in range(len(tasks.read_text().splitlines())):
+            words = [PROGRAM, "work", self.output, "--task-list", tasks, "--index", index]
+            started.append(subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True))
+            self.addCleanup(self.end, started[-1])
+        return started
+
+    def files_of_packing(self):
+        return {path.name: path.read_bytes() for path in self.packing().iterdir() if path.is_file()}
+
+    def test_a_packing_that_a_task_has_is_left_alone(self):
+        """Whether its engine works in a scratch folder or not, before the first checkpoint as after it."""
+        for scratch in ("$VIBROTROUGH_TEST_SCRATCH/node", None):
+            for cycles in (1000, 5):  # between two checkpoints
+                with self.subTest(scratch=scratch, cycles=cycles):
+                    self.output = self.folder / f"runs {scratch is None} {cycles}"
+                    campaign = self.write(ENDLESS | {"output.checkpoint_cycles": cycles}, scratch)
+                    (task,) = self.start_tasks(campaign)
+                    place = self.scratch if scratch else self.output
+                    wait_until(lambda: engines_in(place) and (self.checkpoint() or cycles > 5) and list(place.rglob("cycles.csv")), "the task simulated", task)  # noqa: B023
+                    self.assertTrue(pause(engines_in(place)[0]))
+                    self.assertTrue(pause(task.pid))
+                    before, engines = self.files_of_packing(), engines_in(place)
+                    done = self.run_campaign(campaign, wanted=3)
+                    self.assertIn("another process runs packing 1 of case ", done.stderr)
+                    self.assertEqual(self.files_of_packing(), before)
+                    self.assertEqual(engines_in(place), engines)
+                    # A lock ends with its process, whatever the engine is still about to do.
+                    os.kill(task.pid, signal.SIGKILL)
+                    self.finish(task)
+                    begin = time.monotonic()
+                    driver = self.start_campaign(campaign)
+                    wait_until(lambda: set(engines_in(place)) - set(engines), "the packing went on", driver)  # noqa: B023
+                    self.assertLess(time.monotonic() - begin, 8, "nobody waits for a lock")
+                    self.assertEqual(set(engines_in(place)) & set(engines), set())
+                    driver.send_signal(signal.SIGINT)
+                    self.assertEqual(self.finish(driver)[0], 130)
+
+    def test_two_tasks_settle_one_packing(self):
+        """Each in a folder of its own, which a third driver does not take for that of a killed one."""
+        campaign = self.write({"measure.packings": 1, "measure.max_packings": 1}, sweep={"trough.throw_number": [1.8, 2.0]})
+        self.run_campaign(campaign, output=self.folder / "alone")
+        self.settles_file.unlink()
+        tasks = self.start_tasks(campaign)
+        engines = set()
+
+        def both_settle():
+            for process in engines_in(self.scratch):
+                if b"settle.liggghts" in Path(f"/proc/{process}/cmdline").read_bytes() and pause(process):
+                    engines.add(process)
+            return len(engines) == 2
+
+        wait_until(both_settle, "both settled", tasks[0])
+        settling = lambda: sorted(path.name for path in (self.output / "packings").iterdir())  # noqa: E731
+        before = settling()
+        self.assertEqual(len(before), 4, before)  # two folders with their locks
+        done = self.run_campaign(campaign, wanted=3)
+        self.assertIn("another process runs packing 1 of case ", done.stderr)
+        self.assertEqual(settling(), before)
+        for engine in engines:
+            os.kill(engine, signal.SIGCONT)
+        for task in tasks:
+            self.assertEqual(self.finish(task)[0], 0)
+        self.assertEqual(len(self.settles_file.read_text().splitlines()), 2)
+        self.assertEqual(len(settling()), 1, "one of them is used, and nothing is left of the other")
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "alone")))
+
     def test_no_link_is_followed_on_the_way_back(self):
         precious = self.folder / "precious"
         precious.mkdir()
@@ -177,13 +259,52 @@ class Scratch(EndToEndTest):
         self.assertEqual(list(self.output.glob("cases/*/failure.json")), [])
 
     def test_a_full_scratch_folder_is_named(self):
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400k", "none", self.scratch], capture_output=True, text=True)
-        if mounted.returncode != 0:
-            self.skipTest(f"may not mount: {mounted.stderr}")
-        self.addCleanup(subprocess.run, ["umount", "-l", self.scratch], check=True)
+        self.mount_small(self.scratch, "400k")
         done = self.run_campaign(self.write(ENDLESS), wanted=None)
         self.assertNotEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"(disk-full|cannot write).*(scratch|node)")
+
+    def fill_the_disk_of_the_campaign(self, campaign, is_time, wanted):
+        """Until the driver has ended, from a moment in which its engine works. @return what the driver said"""
+        ballast = self.output.parent / "ballast"
+        driver = self.start_campaign(campaign)
+        engine = wait_until(lambda: next((one for one in engines_in(self.scratch) if is_time(Path(f"/proc/{one}/cmdline").read_bytes())), None), "the engine worked", driver)
+        self.assertTrue(pause(engine), "the engine ended too soon")
+        self.assertTrue(pause(driver.pid))
+        with contextlib.suppress(OSError), open(ballast, "wb", buffering=0) as file:
+            while file.write(bytes(4096)):
+                pass
+        os.kill(engine, signal.SIGCONT)
+        driver.send_signal(signal.SIGCONT)
+        code, _, errors = self.finish(driver)
+        self.assertIn(code, wanted, errors)
+        said = re.search(r"case \w+: disk-full: .*No space left.*is kept in (\S*/vibrotrough-kept-\w+) on \S+: call the same command again", errors.replace(str(self.folder), "/folder"))
+        self.assertTrue(said, errors)
+        kept = self.folder / said[1].removeprefix("/folder/")
+        self.assertEqual(list(self.scratch.iterdir()), [kept])
+        self.assertEqual(stat.S_IMODE(kept.stat().st_mode), 0o700)
+        refused = self.run_campaign(campaign, wanted=None)
+        self.assertNotEqual(refused.returncode, 0, "the disk is still full")
+        self.assertEqual(list(self.scratch.iterdir()), [kept])
+        ballast.unlink()
+        return errors
+
+    def test_what_a_full_disk_does_not_take_back_is_not_lost(self):
+        """Of a packing, and of a settling: the next run takes it, and no engine repeats it."""
+        campaign = self.write({"measure.packings": 1, "measure.max_cycles": 24, "measure.half_width": 0.00001, "output.checkpoint_cycles": 5})
+        self.run_campaign(campaign, output=self.folder / "plain", wanted=None)
+        for deck, file in ((b"in.liggghts", self.starts_file), (b"settle.liggghts", self.settles_file)):
+            with self.subTest(deck=deck):
+                self.output = self.folder / deck.decode() / "runs"
+                self.output.parent.mkdir()
+                self.mount_small(self.output.parent, "4m")
+                file.unlink()
+                self.fill_the_disk_of_the_campaign(campaign, lambda words: deck in words, (1, 3))  # noqa: B023
+                self.run_campaign(campaign, wanted=None)
+                self.assertEqual(len(file.read_text().splitlines()), 1, "the work was done once")
+                self.assertEqual(list(self.scratch.iterdir()), [])
+                self.assertEqual(list(self.output.glob("cases/*/failure.json")), [])
+                self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(self.folder / "plain")))
 
     def test_where_there_is_no_such_folder_it_is_said_in_one_line(self):
         for scratch, said in (("$VIBROTROUGH_NO_SUCH", "VIBROTROUGH_NO_SUCH is not set on "), ("$VIBROTROUGH_TEST_SCRATCH/nowhere", "there is no folder "),

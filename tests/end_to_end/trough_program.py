@@ -52,7 +52,7 @@ def campaign_text(changes=None, sweep=None):
     sections = {name: dict(keys) for name, keys in SMALL.items()}
     for path, value in (changes or {}).items():
         section, key = path.split(".")
-        sections[section][key] = value
+        sections.setdefault(section, {})[key] = value
     # Most tests count packings: only those that say so have more than the least number.
     sections["measure"].setdefault("max_packings", sections["measure"].get("packings"))
     lines = []

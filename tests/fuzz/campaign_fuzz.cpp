@@ -1,4 +1,4 @@
-// Whatever a campaign file holds: it is read, or refused with an InputError of one line.
+// Whatever a campaign file holds: it is read, or refused with an InputError of a line for each mistake.
 
 #include "core/error.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -20,7 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
             frozen)
             std::abort();
     } catch (core::Error const& error) {
-        if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
+        for (std::string const& problem : error.problems())
+            if (problem.find('\n') != std::string::npos) std::abort();
     }
     return 0;
 }

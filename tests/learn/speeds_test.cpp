@@ -42,6 +42,14 @@ TEST(Speeds, SemicolonsAndDecimalCommas) {
     EXPECT_FALSE(speeds[0].inclination);
 }
 
+TEST(Speeds, MetresPerMinute) {
+    auto const speeds =
+        read_speeds("stroke_mm\trpm\tspeed_m_per_min\tuncertainty_m_per_min\n9\t960\t12\t0,6\n", "t.csv");
+    ASSERT_EQ(speeds.size(), 1u);
+    EXPECT_DOUBLE_EQ(speeds[0].speed, 0.2);
+    EXPECT_DOUBLE_EQ(speeds[0].uncertainty, 0.01);
+}
+
 TEST(Speeds, RelativeUncertaintyFillsEmptyCells) {
     auto const speeds = read_speeds(
         "amplitude_mm,rpm,speed_m_per_s,uncertainty_m_per_s\n3,600,-0.2,\n3,600,0.2,0.04\n", "", 0.1);
@@ -66,7 +74,8 @@ TEST(Speeds, WrongTablesAreRefused) {
     expect_refused("amplitude_mm,stroke_mm,rpm,speed_m_per_s\n1,2,3,4\n", "given both");
     expect_refused("amplitude_mm,speed_m_per_s\n1,2\n", "neither a column rpm nor frequency_hz");
     expect_refused("amplitude_mm,rpm,speed\n1,2,3\n", "'speed' is not a column");
-    expect_refused("amplitude_mm,rpm\n1,2\n", "no column speed_m_per_s");
+    expect_refused("stroke_mm,rpm,speed_m_per_min,speed_m_per_s\n1,2,3,4\n", "given both");
+    expect_refused("amplitude_mm,rpm\n1,2\n", "neither a column speed_m_per_s nor speed_m_per_min");
     expect_refused(good + "1,600,0.2,\n", "has no uncertainty");
     expect_refused(good + "1,600,0.2,0\n", "uncertainty_m_per_s: 0 is out of range");
     expect_refused(good + "-1,600,0.2,0.1\n", "amplitude_mm: -1 is out of range");

@@ -2,10 +2,12 @@
 
 #include "core/error.hpp"
 #include "example_campaign.hpp"
+#include "scenario/reader/keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -215,11 +217,55 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
           sweep("throw_number = [1]"),
           sweep("\"layer.height\" = [\"12 mm\"]\n\"layer.grains\" = [3]"),
           std::string("campaign = 1\n")}) {
-        std::string const error = error_of(text);
-        EXPECT_EQ(error.find("c.toml:"), 0u) << error << "\n in: " << text;
-        EXPECT_EQ(error.find_first_of("\n\r"), std::string::npos) << error;
-        EXPECT_LT(error.size(), 400u) << error;
+        try {
+            scenario::parse_campaign(text, "c.toml");
+            ADD_FAILURE() << "accepted: " << text;
+        } catch (core::InputError const& error) {
+            for (std::string const& problem : error.problems()) {
+                EXPECT_EQ(problem.find("c.toml:"), 0u) << problem << "\n in: " << text;
+                EXPECT_EQ(problem.find_first_of("\n\r"), std::string::npos) << problem;
+                EXPECT_LT(problem.size(), 400u) << problem;
+            }
+        }
     }
+}
+
+// All mistakes of a file are told in one call; a key that is refused, or the one that was meant, is not
+// missing, too.
+TEST(CampaignFile, SeveralMistakesAreToldAtOnce) {
+    std::string text = with("throw_number = 2.0", "K = 2.0");
+    text = std::regex_replace(text, std::regex("height = \"12 mm\""), "height = \"12,5 mm\"");
+    text += "[engin]\ncontact = \"hooke\"\n";
+    try {
+        scenario::parse_campaign(text, "c.toml");
+        FAIL() << "accepted";
+    } catch (core::InputError const& error) {
+        ASSERT_EQ(error.problems().size(), 3u) << error.what();
+        EXPECT_NE(error.problems()[0].find("trough.K: unknown key; did you mean trough.machine_number?"),
+                  std::string::npos)
+            << error.what();
+        EXPECT_NE(error.problems()[1].find("'12,5 mm' has a decimal comma; write 12.5 mm"), std::string::npos)
+            << error.what();
+        EXPECT_NE(error.problems()[2].find("engin: unknown section"), std::string::npos) << error.what();
+    }
+}
+
+// What people write who know a quantity by another word.
+TEST(CampaignFile, KeysAreFoundByTheirMeaning) {
+    std::pair<char const*, char const*> const words[] = {
+        {"grains.polydispersity", "grains.diameter_spread"},
+        {"grains.size_distribution", "grains.size_law"},
+        {"grains.mu", "grains.friction"},
+        {"trough.mu", "trough.friction"},
+        {"trough.K", "trough.machine_number"},
+        {"trough.speed", "trough.frequency"},
+        {"drive.rpm", "trough.frequency"},
+        {"layer.depth", "layer.height"},
+        {"grains.inclination", "trough.inclination"},
+        {"measure.seeds", "measure.packings"},
+    };
+    for (auto const& [word, key] : words) EXPECT_EQ(scenario::nearest_key(word), key) << word;
+    EXPECT_NE(error_of(with("[trough]", "[drive]")).find("did you mean [trough]?"), std::string::npos);
 }
 
 // toml++ and the destructor of its tables go down into dotted keys by recursion.

@@ -108,7 +108,7 @@ TEST(Design, PointsFromASpreadsheet) {
     // A comma within quotes does not separate cells: the whole value is refused with its line.
     std::string const quoted = refusal("layer.height,trough.throw_number\n9 mm,2\n\"15,5 mm\",2.5\n");
     EXPECT_NE(quoted.find("points.csv:3: layer.height: "), std::string::npos) << quoted;
-    EXPECT_NE(quoted.find("',5 mm' is not a known unit"), std::string::npos) << quoted;
+    EXPECT_NE(quoted.find("'15,5 mm' has a decimal comma; write 15.5 mm"), std::string::npos) << quoted;
     std::string const ragged = refusal("layer.height,trough.throw_number\n9 mm\n");
     EXPECT_NE(ragged.find("points.csv:2: expected 2 values, one per column, but found 1"), std::string::npos)
         << ragged;

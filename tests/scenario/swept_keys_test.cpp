@@ -29,6 +29,7 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     scenario.trough.mesh = std::make_shared<TroughMesh>();
     scenario.measure.max_core_time = 1;
     scenario.measure.min_cycles = 1;
+    scenario.feed = {0.1, 0.02, 0.04};
     for (Key const& key : all_keys()) {
         if (can_vary(key) && !is_list_section(key.path.substr(0, key.path.find('.')))) {
             EXPECT_TRUE(key_value(scenario, key.path)) << key.path;

@@ -171,8 +171,10 @@ Answer ask(CampaignOnDisk const& campaign, Depth depth, fs::path const& scratch)
         compare::write_report_data(plan, activity, scratch / "data");
         archive::write_bundle(plan, activity, scratch / "bundle.zip", {{}, {}, true});
     } catch (core::Error const& error) {
-        std::string const said = error.what();
-        if (said.empty() || said.find('\n') != said.npos) return {"an error that is not one line: " + said};
+        // Several mistakes of a file are a line each.
+        for (std::string const& said : error.problems())
+            if (said.empty() || said.find('\n') != said.npos)
+                return {"an error that is not one line: " + said};
     } catch (std::system_error const& error) {
         // main() adds what to do. Its text may not be several lines either.
         if (std::string(error.what()).find('\n') != std::string::npos) return {error.what()};

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "materials": (4,), "stages": (1,), "cycles": (1,), "cycles + 1": (2,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "materials": (4,), "stages": (1,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -61,7 +61,7 @@ def check_file(path, heading, reference):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"

@@ -11,12 +11,31 @@
 
 namespace {
 
-/// The sample with four materials and a stage, so that it has every table.
+/// As if the trough were open, with the same mass on it.
+void open(vibrotrough::store::CaseRecord& record) {
+    using namespace vibrotrough::scenario;
+    double const depth =
+        mass_per_area(record.scenario) / (settled_solid_fraction * mean_density(record.scenario));
+    record.scenario.feed.mass_flow = 0.05;
+    for (vibrotrough::store::PackingRecord& packing : record.packings) {
+        auto& series = packing.series.open;
+        for (auto* const values : {&series.fed, &series.fed_mass, &series.left, &series.left_mass,
+                                   &series.held, &series.held_mass, &series.window_mass})
+            values->assign(packing.series.x.size(), 7);
+        packing.open.inflow = packing.open.outflow = 0.05;
+        packing.open.window_depth = depth;
+        packing.open.along = {{0.01, 0.02, 0.03, 0.04}, {0.012, 0.012, 0.011, 0.01}, {0.3, 0.3, 0.31, 0.32}};
+        packing.open.residence.assign(101, 1.5);
+    }
+}
+
+/// The sample with four materials and a stage in an open trough, so that it has every table.
 vibrotrough::store::CaseRecord sample_mixture() {
     using namespace vibrotrough::store;
     CaseRecord record = sample_record();
     for (char const* const name : {"a", "b", "c"})
         record.scenario.materials.push_back({.name = name, .number_fraction = 0.1});
+    open(record);
     record.scenario.stages = {{.cycles = 1}};  // as many cycles as the shorter packing has
     record.scenario_toml = to_toml(record.scenario);
     for (PackingRecord& packing : record.packings) {

@@ -14,13 +14,14 @@ ROOT is the folder of the project. Ends with 77 when the tool is missing or has 
 answer would differ.
 """
 
-import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
+
+from tidy import violations_of_room
 
 MOST_LINES = 400
 SKIPPED = 77
@@ -58,27 +59,10 @@ def check_format(root: pathlib.Path) -> list[str]:
     return run([program, "--dry-run", "--Werror", *map(str, files(root, ("src", "tests"), (".hpp", ".cpp")))], root)
 
 
-def translation_units(build: pathlib.Path) -> dict[str, list[str]]:
-    """What the compiler is called for, according to compile_commands.json: the name of the file, and the sources in it. CMake
-    compiles the files of a room in batches (UNITY_BUILD), each a file that includes its sources."""
-    units = {}
-    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
-        file = pathlib.Path(entry["file"])
-        is_batch = file.parent.name == "Unity"
-        content = re.findall(r'^#include "(.*)"', file.read_text(encoding="utf-8"), flags=re.MULTILINE) if is_batch else [str(file)]
-        units[str(file)] = [str(pathlib.Path(path).resolve()) for path in content]
-    return units
-
-
 def check_tidy(root: pathlib.Path, build: str, room: str) -> list[str]:
-    """Batch by batch, as they are compiled: most of the time goes into the headers, which the files of a batch share."""
     program = tool("clang-tidy-14", "clang-tidy", version=CLANG_VERSION)
-    sources = {str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))}
-    if not sources:
-        return [f"src/{room} has no sources"]
-    units = {unit: content for unit, content in translation_units(pathlib.Path(build)).items() if sources & set(content)}
-    left_out = sorted(sources.difference(*units.values()))
-    return [f"{path} is not compiled" for path in left_out] + run([program, "-quiet", "-p", build, *units], root)
+    sources = [str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))]
+    return violations_of_room(program, root, pathlib.Path(build), sources) if sources else [f"src/{room} has no sources"]
 
 
 def check_spelling(root: pathlib.Path) -> list[str]:

@@ -35,6 +35,41 @@ TEST(TheoryPoint, PrintsTheContract) {
     EXPECT_NEAR(displacement / (2 * std::acos(-1.0)), answer.at("velocity_efficiency"), 1e-12);
 }
 
+// What people write: a motor's turns, a percentage, German units. Tolerance: none, the input is the same.
+TEST(TheoryPoint, TakesWhatPeopleWrite) {
+    std::string const rest = " --amplitude \"4 mm\" --vibration-angle \"25 deg\" ";
+    auto const expected = point("--frequency \"16 Hz\" --friction 0.3" + rest);
+    for (char const* const same : {"--rpm 960 --friction 0.3", "--rpm \"960 rpm\" --friction \"30 %\"",
+                                   "--frequency \"960 U/min\" --friction 0.3"})
+        EXPECT_EQ(point(same + rest), expected) << same;
+    Answer const both = run_program("theory point --rpm 960 --frequency \"16 Hz\" --friction 0.3" + rest);
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_NE(both.text.find("both given"), std::string::npos) << both.text;
+    Answer const comma = run_program("theory point --rpm 960 --friction 0,3" + rest);
+    EXPECT_EQ(comma.exit_code, 2);
+    EXPECT_NE(comma.text.find("has a decimal comma; write 0.3"), std::string::npos) << comma.text;
+}
+
+// A range may have its unit once, and a dash between plain numbers; a minus before one value is its sign.
+TEST(Design, TakesRangesAsPeopleWriteThem) {
+    auto const design = [](std::string const& limits) {
+        return run_program(
+            "design --mass-flow \"12 t/h\" --bulk-density \"600 kg/m3\" --width \"300 mm\" "
+            "--friction 0.3 --inclination \"-2 deg\" " +
+            limits);
+    };
+    Answer const expected =
+        design("--vibration-angle \"25 deg to 35 deg\" --rpm \"900 to 1000\" --stroke \"4 mm to 8 mm\"");
+    ASSERT_EQ(expected.exit_code, 0) << expected.text;
+    for (char const* const same :
+         {"--vibration-angle \"25-35 deg\" --rpm 900-1000 --stroke \"4-8 mm\"",
+          "--vibration-angle \"25 to 35 deg\" --rpm \"900 to 1000 rpm\" --stroke \"4 to 8 mm\""})
+        EXPECT_EQ(design(same).text, expected.text) << same;
+    Answer const turned = design("--vibration-angle \"35-25 deg\"");
+    EXPECT_EQ(turned.exit_code, 2);
+    EXPECT_NE(turned.text.find("the first value is above the second"), std::string::npos) << turned.text;
+}
+
 // tan(30 deg) and the angle itself are one input. Tolerance: rounding of the tangent.
 TEST(TheoryPoint, TakesAnglesWithUnits) {
     auto const angle =

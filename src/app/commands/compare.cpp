@@ -88,12 +88,13 @@ int run_compare(CompareArguments const& options) {
     tell_left_aside(plan, cases);
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
+    auto const print = [](std::string_view piece) { fmt::print("{}", piece); };
     if (options.json) {
-        compare::write_json(rows, columns, [](std::string_view piece) { fmt::print("{}", piece); });
+        compare::write_json(rows, columns, print);
     } else if (options.curves) {
         fmt::print("{}", compare::theory_curves_csv(rows));
     } else if (options.csv) {
-        fmt::print("{}", compare::to_csv(rows, columns));
+        compare::write_csv(rows, columns, print);
     } else if (options.budget) {
         print_budget(rows, columns, options);
     } else {

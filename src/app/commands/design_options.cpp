@@ -42,9 +42,8 @@ theory::DriveSpace read_space(DesignOptions const& o) {
     refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
     refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
     if (o.rpm) {
-        space.frequency = read_range("--rpm", *o.rpm, "300 to 1500", [](std::string const& text) {
-            return read_number_within("--rpm", text, "300 to 1500", 1, 1e5) / 60;
-        });
+        space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
+                                     [](std::string const& text) { return read_turns("--rpm", text); });
     }
     if (o.frequency) {
         char const* const example = "5 Hz to 25 Hz";

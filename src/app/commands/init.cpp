@@ -83,6 +83,7 @@ void add_init(CLI::App& program, int& exit_code) {
   paper     the experiment of Sloot and Kruyt (1996): layer and theory over the throw number
   rotation  the same layer with grains that rotate freely, against rolling friction, and not at all
   chute     a trough of your own from an STL file: a V with a step
+  open      a trough with feed and discharge: flows, depth, how long grains stay
   mixture   two materials of different size and density: do they separate?
   stages    a trough that starts, stops and starts again: how fast, and how far does the layer slide on?
   design    three machines with the same largest acceleration: which one carries most?

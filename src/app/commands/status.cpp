@@ -20,6 +20,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
@@ -133,6 +134,8 @@ void print_json(StatusView const& view) {
         for (campaign::CountedTime const& one : view.spent->counted)
             head["core_time_counted_s"][std::string(one.name)] =
                 one.core_time ? Json(*one.core_time) : Json();
+        for (campaign::CountedTime const& one : view.spent->counted)
+            if (!one.missing.empty()) head["jobs_not_counted"][std::string(one.name)] = one.missing;
     }
     head["cases"] = Json::array();
     print_with_list(head, view.cases.size(), describe_case);
@@ -157,6 +160,9 @@ void print_spent(SpentTime const& spent) {
         fmt::print("{}\n", one.core_time ? fmt::format("{:.3g} core-hours counted by {}",
                                                        *one.core_time / 3600, one.title)
                                          : fmt::format("{} does not say what it has counted", one.title));
+        if (!one.missing.empty())
+            fmt::print("{} does not know job {} any more, which is not counted\n", one.title,
+                       fmt::join(one.missing, ", "));
     }
 }
 

@@ -68,14 +68,20 @@ std::string work_lines(Scheduler const& scheduler, std::string const& work, JobS
         "set --\n"
         "trap 'warned=yes; kill -TERM \"$@\" 2>/dev/null' USR1\n"
         "while [ $# -lt {} ]; do {} & set -- \"$@\" $!; done\n"
+        "[ -z \"$warned\" ] || kill -TERM \"$@\" 2>/dev/null\n"  // warned before it knew whom to tell
         "for process; do\n"
         "    while wait \"$process\"; one=$?; kill -0 \"$process\" 2>/dev/null; do :; done\n"
         "    [ \"$one\" -le \"$code\" ] || code=$one\n"
         "done\n",
         job.engines, work);
     if (job.is_warned) {
-        lines += fmt::format("if [ -n \"$warned\" ] && [ \"$code\" = 130 ] && {}; then exit 0; fi\n",
-                             scheduler.requeueing.command);
+        // The scheduler ends the task that it queues again, and with it the command that asked for this,
+        // which then would count as refused: the command inherits that the signal is ignored.
+        lines += fmt::format(
+            "trap '' TERM\n"
+            "if [ -n \"$warned\" ] && [ \"$code\" = 130 ] && {}; then exit 0; fi\n"
+            "trap : TERM\n",
+            scheduler.requeueing.command);
     }
     return lines;
 }

@@ -240,12 +240,15 @@ std::optional<CountedTime> batch_core_time(Scheduler const& scheduler,
     std::vector<SubmittedArray> arrays;
     for (Batch const& batch : read_batches(scheduler, campaign_folder)) arrays.push_back(submitted(batch));
     if (arrays.empty()) return {};
-    CountedTime counted{scheduler.name, scheduler.title, {}};
+    CountedTime counted{scheduler.name, scheduler.title, {}, {}};
     try {
         if (scheduler.count_core_time != nullptr) counted.core_time = scheduler.count_core_time(arrays);
     } catch (core::MissingError const&) {
         // There is no such scheduler here, or it does not answer.
     }
+    if (!counted.core_time) return counted;
+    for (SubmittedArray const& array : arrays)
+        if (array.job && !array.is_counted) counted.missing.push_back(*array.job);
     return counted;
 }
 

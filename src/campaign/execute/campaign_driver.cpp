@@ -192,15 +192,20 @@ class Driver {
             ++summary_.in_queue;
             return;
         }
+        fs::path const folder = planned.packing_folder(packing);
+        std::error_code missing;
+        bool const runs_here = !executor_.outlives_driver();
+        std::optional<FileLock> lock;  // a task may be at work in the folder
+        if (runs_here && fs::exists(fs::symlink_status(folder, missing)))
+            lock.emplace(require_packing(planned, packing));
         // A packing that is continued is no longer finished; its checkpoint keeps what is known of it.
-        if (one.known.packings.contains(packing)) evaluate::remove_marker(planned.packing_folder(packing));
+        if (one.known.packings.contains(packing)) evaluate::remove_marker(folder);
         // Remains of an interrupted run would look like a run of today, unless it continues from a
         // checkpoint.
-        fs::path const remains = planned.packing_folder(packing);
-        if (!executor_.outlives_driver() && !one.known.failure && !has_checkpoint(remains)) {
-            engine::make_sole_writer(remains);
-            remove_run_files(remains);
-            core::remove_if_empty(remains);
+        if (lock && !one.known.failure && !has_checkpoint(folder)) {
+            engine::make_sole_writer(folder);
+            remove_run_files(folder);
+            core::remove_if_empty(folder);
         }
         one.in_hand.insert(packing);
         orders_.push_back({&planned, wanted});

@@ -61,14 +61,27 @@ store::CaseRecord finish_case(PlannedCase const& planned, std::string const& eng
 
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
                     std::string const& message, int attempts_before) {
-    FileLock const lock = lock_case(planned);
-    auto const before = read_failure(planned);
-    int const attempts = std::max(attempts_before, before ? before->attempts : 0);
-    write_failure(planned, {outcome, message, packing, attempts + 1});
+    try {
+        FileLock const lock = lock_case(planned);
+        auto const before = read_failure(planned);
+        int const attempts = std::max(attempts_before, before ? before->attempts : 0);
+        write_failure(planned, {outcome, message, packing, attempts + 1});
+    } catch (core::DiskFullError const&) {
+        // Whoever reports the failure says so. Without the file the case is one that was interrupted.
+        if (outcome != core::Outcome::disk_full) throw;
+    }
 }
 
 std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing) {
     return FileLock::take(planned.folder / fmt::format(".packing-{}.lock", packing));
+}
+
+FileLock require_packing(PlannedCase const& planned, int packing) {
+    if (auto lock = lock_packing(planned, packing)) return std::move(*lock);
+    throw core::MissingError(fmt::format(
+        "another process runs packing {} of case {} (a task of a cluster, or 'vibrotrough work'); "
+        "wait for it, or end it",
+        packing, planned.id));
 }
 
 }  // namespace vibrotrough::campaign

@@ -28,14 +28,21 @@ struct ResultParts {
 store::CaseRecord finish_case(PlannedCase const& planned, std::string const& engine_version,
                               ResultParts const& parts, evaluate::EvaluatedPackings evaluated = {});
 
-/// Writes failure.json for a packing that failed, and counts the attempts.
+/// Writes failure.json for a packing that failed, and counts the attempts. A disk that is full for the
+/// packing may be so for this file; then there is none.
 /// @param attempts_before  that are known to have failed, when failure.json may have been removed since
 /// @throws core::MissingError when the disk refuses
 void record_failure(PlannedCase const& planned, int packing, core::Outcome outcome,
                     std::string const& message, int attempts_before = 0);
 
-/// The lock of whoever runs a packing: a driver or a task of a cluster. None when another process has it.
+/// The lock of whoever runs a packing, or removes files from its folder: a driver or a task of a cluster. It
+/// holds wherever the engine works (run.scratch), and the engine does not inherit it. None when another
+/// process has it.
 /// @throws core::MissingError when the file cannot be made
 std::optional<FileLock> lock_packing(PlannedCase const& planned, int packing);
+
+/// The same lock for a process that cannot do without it.
+/// @throws core::MissingError when another process has it, and as lock_packing()
+FileLock require_packing(PlannedCase const& planned, int packing);
 
 }  // namespace vibrotrough::campaign

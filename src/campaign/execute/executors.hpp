@@ -32,6 +32,7 @@ struct ExecutorInputs {
 struct CountedTime {
     std::string_view name, title;     ///< of the scheduler: its word, and in messages
     std::optional<double> core_time;  ///< s, Scheduler::count_core_time(); none where nothing is counted
+    std::vector<long> missing = {};   ///< jobs that were submitted and that the accounting does not know
 };
 
 /// One kind of executor. The table of all kinds is the only place that knows them.

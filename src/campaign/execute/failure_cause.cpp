@@ -70,7 +70,8 @@ long count_memory_kills() {
 
 PackingEnd find_cause(PlannedCase const& planned, int packing, PackingEnd end, long memory_kills,
                       std::string const& scratch) {
-    if (!end.failure || end.failure == core::Outcome::interrupted) return end;
+    if (!end.failure || end.failure == core::Outcome::interrupted || end.failure == core::Outcome::disk_full)
+        return end;  // it is known already
     fs::path const folder = planned.packing_folder(packing);
     evaluate::RunExtent const extent = evaluate::extent_of_run(*planned.prepared, folder);
     if (end.signal == SIGKILL && count_memory_kills() > memory_kills) {

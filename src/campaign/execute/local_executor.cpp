@@ -135,14 +135,7 @@ class LocalExecutor : public Executor {
         running_.push_back({order, ranks, count_memory_kills()});
         auto const place = std::prev(running_.end());
         try {
-            auto lock = lock_packing(planned, order.packing.number);
-            if (!lock) {
-                throw core::MissingError(fmt::format(
-                    "another process runs packing {} of case {} (a task of a cluster, or 'vibrotrough "
-                    "work'); wait for it, or end it",
-                    order.packing.number, planned.id));
-            }
-            place->lock.emplace(std::move(*lock));
+            place->lock.emplace(require_packing(planned, order.packing.number));
             place->run =
                 std::make_unique<PackingRun>(context_, engine_with(ranks), settled_, planned, order.packing,
                                              [this, place](PackingEnd const& end) { ended(place, end); });

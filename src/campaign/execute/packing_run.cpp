@@ -57,6 +57,7 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
                               ? core::read_file(planned.certificate_file(), core::largest_note)
                               : std::string()) {
     engine::make_sole_writer(folder_);
+    bring_back_kept(folder_, engine_.scratch, folder_);
     auto const checkpoint = read_checkpoint(folder_, deck_, planned_.prepared->time.steps_per_cycle);
     if (checkpoint && checkpoint->cycle <= packing_.cycles) {
         cut_outputs(folder_, *checkpoint, planned_.prepared->time.steps_per_cycle);
@@ -69,7 +70,7 @@ PackingRun::PackingRun(boost::asio::io_context& context, engine::Engine const& e
 void PackingRun::begin() {
     // From now on the packing is seen as under way.
     core::make_folder(folder_);
-    settled_.obtain(deck_, planned_.prepared->weight,
+    settled_.obtain(deck_, planned_.prepared->settled_weight,
                     [this, alive = std::weak_ptr<bool>(alive_)](Settled const& made) {
                         if (!alive.expired()) start_on(made);
                     });
@@ -121,7 +122,7 @@ void PackingRun::start_on(Settled const& settled) {
 }
 
 void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
-    if (!place_) place_ = std::make_unique<RunPlace>(folder_, engine_.scratch);
+    if (!place_) place_ = std::make_unique<RunPlace>(folder_, engine_.scratch, folder_);
     engine::Launch launch{deck::drive_file, {}};
     if (checkpoint) {
         launch.arguments = {"-var", "start", checkpoint->file,
@@ -156,13 +157,23 @@ void PackingRun::seal() {
                     {*cycle, deck::checkpoint_file(*cycle), started_, wall_time(),
                      earlier_core_time_ + (core_time_ > 0 ? core_time_ : process_->core_time())});
     sealed_cycle_ = *cycle;
-    if (place_) place_->bring_back();
+}
+
+void PackingRun::seal_and_bring_back() {
+    int const before = sealed_cycle_;
+    seal();
+    if (sealed_cycle_ == before) return;
+    try {
+        place_->bring_back();
+    } catch (core::DiskFullError const&) {
+        // The next checkpoint, or the end of the run, brings all of it.
+    }
 }
 
 void PackingRun::inspect() {
     if (!process_) return;  // the packing is still settling
     watch_->check();
-    seal();
+    seal_and_bring_back();
     std::error_code missing;
     auto const size = std::filesystem::file_size(engine_folder() / "cycles.csv", missing);
     if (missing || size == seen_size_) return;
@@ -196,7 +207,7 @@ double PackingRun::silent_for() const {
 
 /// Continues a run that has paused at its checkpoint; why it cannot, if so.
 std::optional<PackingEnd> PackingRun::go_on() {
-    seal();
+    seal_and_bring_back();
     engine::make_sole_writer(engine_folder());
     auto const checkpoint = read_checkpoint(engine_folder(), deck_, planned_.prepared->time.steps_per_cycle);
     if (!checkpoint || checkpoint->cycle != stop_) {
@@ -212,10 +223,15 @@ std::optional<PackingEnd> PackingRun::judge(engine::ExitStatus status) {
     core_time_ = status.core_time;
     if (engine_.watch) engine_.watch->check();
     watch_->check();
-    if (interrupted_) seal();
     engine::RunReport const report = engine::examine_run(engine_folder(), status, engine::Stage::driving);
     bool const is_over = interrupted_ || report.failure || stop_ >= packing_.cycles;
-    if (is_over) place_->bring_back();
+    // The policy may want more cycles of this packing, which then continue from its end.
+    if (interrupted_ || (is_over && !report.failure)) seal();
+    try {
+        if (is_over) place_->bring_back();
+    } catch (core::DiskFullError const& error) {
+        return PackingEnd{core::Outcome::disk_full, error.what()};
+    }
     if (interrupted_) return interrupted_end();
     if (report.failure) return PackingEnd{report.failure, report.message, report.signal};
     return is_over ? conclude(report.last_step) : go_on();
@@ -243,8 +259,6 @@ PackingEnd PackingRun::conclude(long last_step) {
     evaluated_ = {marker, std::get<store::PackingRecord>(std::move(evaluation))};
     evaluate::add_run(evaluated_->record, marker);
     evaluated_->record.deck = deck;
-    // The policy may want more cycles of this packing, which then continue from its end.
-    seal();
     evaluate::write_marker(files, marker);
     return {};
 }

@@ -73,6 +73,7 @@ class PackingRun {
     PackingEnd conclude(long last_step);
     void start_engine(std::optional<Checkpoint> const& checkpoint);
     void seal();
+    void seal_and_bring_back();
     std::filesystem::path const& engine_folder() const { return place_ ? place_->folder() : folder_; }
     double wall_time() const;
     std::optional<PackingEnd> judge(engine::ExitStatus status);

@@ -36,6 +36,7 @@ struct SubmittedArray {
     std::string name;         ///< of the job
     std::optional<long> job;  ///< the scheduler's id; none when the driver died before it wrote the id down
     int tasks;                ///< number of its tasks
+    bool is_counted = false;  ///< whether the accounting knows of it, as count_core_time() found
 };
 
 /// What a scheduler knows of one task.
@@ -86,7 +87,7 @@ struct Scheduler {
 
     /// What the site has counted for the arrays in its accounting: s, cores of each task times the time that
     /// it had them, also of tasks that were run again. Nothing where there is no accounting, or where this
-    /// scheduler is not asked for it.
+    /// scheduler is not asked for it. Notes which arrays the accounting knows.
     std::optional<double> (*count_core_time)(std::vector<SubmittedArray>& arrays) = nullptr;
 };
 

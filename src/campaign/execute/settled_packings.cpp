@@ -1,6 +1,7 @@
 #include "campaign/execute/settled_packings.hpp"
 
 #include "campaign/execute/run_place.hpp"
+#include "campaign/state/file_lock.hpp"
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <optional>
 #include <regex>
+#include <set>
 
 #include <boost/asio/post.hpp>
 #include <fmt/format.h>
@@ -69,18 +71,24 @@ Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) 
     return {{}, {}, 0, folder / deck::settled_file};
 }
 
-/// Puts the finished folder in its place, unless another driver was faster.
+/// Puts the finished folder in its place, unless another driver was faster. What lies there and is whole is
+/// never taken away, because another process may use it already.
 void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck) {
-    if (is_whole(place, deck)) {
-        core::remove_tree(made);
-        return;
+    try {
+        return core::rename_entry(made, place);  // fails unless the place is free
+    } catch (core::MissingError const&) {
     }
     try {
-        replace_run(made, place, seal_file);
+        if (!is_whole(place, deck)) replace_run(made, place, seal_file);
     } catch (core::MissingError const&) {
         if (!is_whole(place, deck)) throw;
     }
     core::remove_tree(made);
+}
+
+/// The file that whoever settles a packing in this folder holds locked, wherever the engine works.
+fs::path lock_of(fs::path const& folder) {
+    return folder.native() + ".lock";
 }
 
 }  // namespace
@@ -88,13 +96,14 @@ void publish(fs::path const& made, fs::path const& place, deck::Deck const& deck
 /// A packing that the engine is settling, and what waits for it.
 struct SettledPackings::Settling {
     fs::path folder;
-    deck::Deck deck;
-    double weight;
-    std::vector<Ready> waiting;
+    FileLock lock;
+    deck::Deck deck = {};
+    double weight = 0;
+    std::vector<Ready> waiting = {};
     bool interrupted = false;
     std::optional<engine::FolderWatch> watch = {};
     std::unique_ptr<RunPlace> place = {};
-    std::unique_ptr<engine::EngineProcess> process;
+    std::unique_ptr<engine::EngineProcess> process = {};
 };
 
 std::string packing_key(deck::Deck const& deck, std::string const& engine_version) {
@@ -120,15 +129,19 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
         });
         return;
     }
-    auto settling = std::make_unique<Settling>();
-    settling->folder = folder_ / fmt::format("{}.settling-{}-{}", key, core::host_name(), ::getpid());
+    auto settling = begin(key);
     settling->deck = deck;
     settling->weight = weight;
     settling->waiting.push_back(std::move(ready));
     core::remove_tree(settling->folder);
     deck::write_files(deck::for_ranks(deck.settle_files, engine_.ranks), settling->folder);
     settling->watch.emplace(settling->folder);
-    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch);
+    if (bring_back_kept(settling->folder, engine_.scratch, folder_ / key)) {
+        settling_.emplace(key, std::move(settling));
+        boost::asio::post(context_, [this, key] { ended(key, {}); });
+        return;
+    }
+    settling->place = std::make_unique<RunPlace>(settling->folder, engine_.scratch, folder_ / key);
     settling->process = std::make_unique<engine::EngineProcess>(
         context_, engine_, settling->place->folder(),
         [this, key](engine::ExitStatus status) { ended(key, status); },
@@ -136,24 +149,40 @@ void SettledPackings::obtain(deck::Deck const& deck, double weight, Ready ready)
     settling_.emplace(key, std::move(settling));
 }
 
+/// A folder of this process alone. On a cluster, machines may have the same name.
+std::unique_ptr<SettledPackings::Settling> SettledPackings::begin(std::string const& key) const {
+    core::make_folder(folder_);
+    for (int i = 1;; ++i) {
+        fs::path const folder =
+            folder_ / fmt::format("{}.settling-{}-{}-{}", key, core::host_name(), ::getpid(), i);
+        if (auto lock = FileLock::take(lock_of(folder)))
+            return std::make_unique<Settling>(Settling{folder, std::move(*lock)});
+    }
+}
+
 void SettledPackings::remove_leftovers() {
-    std::vector<fs::path> leftovers;
+    std::set<fs::path> leftovers;
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder_, missing)) {
-        // 12 hexadecimal digits, machine and process number.
-        static std::regex const name("[0-9a-f]{12}\\.settling-.+-[0-9]+");
-        if (std::regex_match(entry.path().filename().string(), name)) leftovers.push_back(entry.path());
+        // 12 hexadecimal digits, machine and numbers; the folder or its lock.
+        static std::regex const form("([0-9a-f]{12}\\.settling-.+-[0-9]+)(\\.lock)?");
+        std::string const name = entry.path().filename().string();
+        if (std::smatch found; std::regex_match(name, found, form))
+            leftovers.insert(folder_ / found[1].str());
     }
     for (fs::path const& leftover : leftovers) {
-        // A task of a cluster may be settling there now.
-        if (!engine::has_writer(leftover)) core::remove_tree(leftover);
+        // A task of a cluster may be settling there now, or what the engine of a killed one had started.
+        auto const lock = FileLock::take(lock_of(leftover));
+        if (!lock || engine::has_writer(leftover)) continue;
+        core::remove_tree(leftover);
+        core::remove_file(lock_of(leftover));
     }
 }
 
 void SettledPackings::interrupt() {
     for (auto& [key, settling] : settling_) {
         settling->interrupted = true;
-        settling->process->terminate();
+        if (settling->process) settling->process->terminate();
     }
 }
 
@@ -165,12 +194,16 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
     Settled settled{core::Outcome::interrupted, "the settling was interrupted"};
     if (engine_.watch && !settling->interrupted) engine_.watch->check();
     settling->watch->check();
-    if (!settling->interrupted) settling->place->bring_back();
-    if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+    try {
+        if (settling->place && !settling->interrupted) settling->place->bring_back();
+        if (!settling->interrupted) settled = judge(settling->folder, status, settling->weight);
+    } catch (core::DiskFullError const& error) {
+        settled = {core::Outcome::disk_full, error.what()};
+    }
     if (!settled.failure) {
         publish(settling->folder, folder_ / key, settling->deck);
         settled.restart = folder_ / key / deck::settled_file;
-    } else if (settling->interrupted) {
+    } else if (settling->interrupted || settled.failure == core::Outcome::disk_full) {
         core::remove_tree(settling->folder);
     } else {
         // Kept for whoever wants to see why, in place of an earlier failure.
@@ -178,6 +211,7 @@ void SettledPackings::ended(std::string const& key, engine::ExitStatus status) {
         replace_run(settling->folder, kept, engine::output_file);
         settled.message += fmt::format(" (see {})", (kept / engine::output_file).string());
     }
+    core::remove_file(lock_of(settling->folder));
     for (Ready const& ready : settling->waiting) ready(settled);
 }
 

@@ -49,6 +49,7 @@ class SettledPackings {
 
   private:
     struct Settling;
+    std::unique_ptr<Settling> begin(std::string const& key) const;
     void ended(std::string const& key, engine::ExitStatus status);
 
     boost::asio::io_context& context_;

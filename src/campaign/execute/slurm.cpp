@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -150,6 +152,7 @@ std::optional<double> count_core_time(std::vector<SubmittedArray>& arrays) {
         call({"sacct", "-n", "-P", "-X", "-a", "-D", "-j", ids_of(names), "-o", "JobID,JobName,CPUTimeRAW"});
     if (answer.code != 0) return {};
     std::optional<double> sum;
+    std::set<std::string> known;
     for (auto const& row : rows_of(answer.output, '|')) {
         if (row.size() != 3) continue;
         // Numbers of jobs may begin anew, so that a job of somebody else may have had the same one.
@@ -157,7 +160,9 @@ std::optional<double> count_core_time(std::vector<SubmittedArray>& arrays) {
         auto const name = job ? names.find(*job) : names.end();
         if (name == names.end() || name->second != row[1]) continue;
         sum = sum.value_or(0) + static_cast<double>(number_in<long>(row[2]).value_or(0));
+        known.insert(row[1]);
     }
+    for (SubmittedArray& array : arrays) array.is_counted = known.contains(array.name);
     return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include "scenario/model/drive.hpp"
 #include "scenario/model/engine_plan.hpp"
+#include "scenario/model/feed.hpp"
 #include "scenario/model/grains.hpp"
 #include "scenario/model/materials.hpp"
 #include "scenario/model/stages.hpp"
@@ -81,9 +82,10 @@ enum class Block {
 std::string_view name_of(Block block);
 
 /// A piece of an endless layer: periodic along the trough, and across unless there are side walls. One of
-/// `height`, `grains` and `block` was given; `grains` is always set.
+/// `height`, `grains` and `block` was given; `grains` is always set. Of an open trough it is what the feed
+/// will probably keep in it.
 struct Layer {
-    double length;                 ///< m, along x
+    double length;                 ///< m, along x; of an open trough from the back wall to the edge
     double width;                  ///< m, along y
     std::optional<double> height;  ///< m, at rest, as asked for
     int grains;                    ///< number of grains; 1 for a block
@@ -134,6 +136,7 @@ struct Scenario {
     EnginePlan engine = {};   ///< what is asked of the engine beyond what its probes test
     std::vector<AddedMaterial> materials = {};  ///< that are mixed with the grains; see materials()
     std::vector<MaterialPair> pairs = {};       ///< contacts of two materials
+    Feed feed = {};                             ///< of an open trough
     std::vector<GivenStage> stages = {};        ///< of the drive; none: the drive of the trough without end
 };
 

@@ -1,7 +1,9 @@
 #include "scenario/reader/file_reader.hpp"
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
+#include "scenario/reader/other_words.hpp"
 #include "scenario/reader/run_section.hpp"
 #include "scenario/reader/value_reader.hpp"
 
@@ -93,9 +95,11 @@ class CampaignFileReader {
     }
 
     CampaignText read() {
-        for (auto const& [name, node] : in_file_order(root_)) read_section(*name, *node);
-        check_design(result_, file_);
-        for (Key const& key : all_keys()) check_present(key);
+        for (auto const& [name, node] : in_file_order(root_))
+            attempt([&, &name = name, &node = node] { read_section(*name, *node); });
+        attempt([&] { check_design(result_, file_); });
+        if (problems_.empty()) check_all_present();
+        if (!problems_.empty()) throw core::InputError(all_problems());
         return std::move(result_);
     }
 
@@ -103,6 +107,29 @@ class CampaignFileReader {
     [[noreturn]] void fail(Position where, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
         throw_at({file_, where}, key, wrong, instead);
+    }
+
+    /// Does `step`, and keeps what it finds wrong until the whole file is read, so that a person sees all
+    /// mistakes at once.
+    template <typename Step>
+    void attempt(Step const& step) {
+        try {
+            step();
+        } catch (core::InputError const& error) {
+            problems_.emplace_back(error.what());
+        }
+    }
+
+    /// A line for each problem, ten at most.
+    std::vector<std::string> all_problems() const {
+        constexpr std::size_t most = 10;
+        std::vector<std::string> lines = problems_;
+        if (lines.size() > most) {
+            lines.resize(most);
+            lines.push_back(
+                fmt::format("{}: {} more mistakes follow; mend these first", file_, problems_.size() - most));
+        }
+        return lines;
     }
 
     static bool is_section(std::string_view name) {
@@ -137,6 +164,10 @@ class CampaignFileReader {
                  "move it below its section's heading");
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
+            std::string_view const meant = section_in_other_words(name.str());
+            if (!meant.empty())
+                fail(where, core::printable(name.str(), 60), "unknown section",
+                     fmt::format("did you mean [{}]?", meant));
             fail(where, core::printable(name.str(), 60), "unknown section",
                  fmt::format("the sections are {}, sweep, zip, points, points_from, sample, domain, exclude "
                              "and run",
@@ -148,11 +179,14 @@ class CampaignFileReader {
         }
         sections_[std::string(name.str())] = where;
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            if (name.str() == "sweep") {
-                read_sweep_entry(*key, *value);
-            } else {
-                read_key(fmt::format("{}.{}", name.str(), key->str()), position_of(key->source()), *value);
-            }
+            std::string const path = fmt::format("{}.{}", name.str(), key->str());
+            attempt([&, &key = key, &value = value] {
+                if (name.str() == "sweep") {
+                    read_sweep_entry(*key, *value);
+                } else {
+                    read_key(path, position_of(key->source()), *value);
+                }
+            });
         }
     }
 
@@ -170,9 +204,11 @@ class CampaignFileReader {
             if ((*list)[i].as_table()->empty())
                 fail(position_of((*list)[i].source()), section, fmt::format("number {} is empty", i + 1),
                      "remove it");
-            for (auto const& [key, value] : in_file_order(*(*list)[i].as_table()))
-                read_key(fmt::format("{}.{}.{}", section, i + 1, key->str()), position_of(key->source()),
-                         *value);
+            for (auto const& [key, value] : in_file_order(*(*list)[i].as_table())) {
+                std::string const path = fmt::format("{}.{}.{}", section, i + 1, key->str());
+                attempt(
+                    [&, &key = key, &value = value] { read_key(path, position_of(key->source()), *value); });
+            }
         }
     }
 
@@ -220,7 +256,7 @@ class CampaignFileReader {
             return;
         }
         for (auto const& [key, value] : in_file_order(*node.as_table())) {
-            read_sweep_entry(*key, *value, path + ".");
+            attempt([&, &key = key, &value = value] { read_sweep_entry(*key, *value, path + "."); });
         }
     }
 
@@ -307,13 +343,26 @@ class CampaignFileReader {
                });
     }
 
+    /// Tells all keys that are missing, or the first section that is missing as a whole.
+    void check_all_present() {
+        std::set<std::string_view> told;  // groups, of which each key would say the same
+        for (Key const& key : all_keys()) {
+            if (!key.group.empty() && told.contains(key.group)) continue;
+            std::size_t const before = problems_.size();
+            attempt([&] { check_present(key); });
+            if (problems_.size() == before) continue;
+            told.insert(key.group);
+            if (!sections_.contains(std::string(section_of(key)))) return;
+        }
+    }
+
     void check_present(Key const& key) const {
         if (is_optional(key) || given(key.path)) return;
         std::vector<std::string_view> names{last_name(key.path)};
         for (Key const& other : all_keys()) {
             if (key.group.empty() || other.group != key.group || other.path == key.path) continue;
             if (given(other.path)) return;
-            names.push_back(last_name(other.path));
+            names.push_back(section_of(other) == section_of(key) ? last_name(other.path) : other.path);
         }
         std::string const section(section_of(key));
         auto const found = sections_.find(section);
@@ -328,6 +377,7 @@ class CampaignFileReader {
     toml::table root_;
     CampaignText result_;
     std::map<std::string, Position> sections_;
+    std::vector<std::string> problems_;
 };
 
 }  // namespace

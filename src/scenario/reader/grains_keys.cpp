@@ -81,7 +81,10 @@ constexpr std::array rows_of_grains{
             .unless_default()},
 
     Key{"layer.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", required,
-        "\"36 mm\"", "length of the periodic box along the trough", field<&Scenario::layer, &Layer::length>},
+        "\"36 mm\"",
+        "length of the periodic box along the trough; with a feed, of the trough from its back wall to its "
+        "edge",
+        field<&Scenario::layer, &Layer::length>},
     Key{"layer.width", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", required,
         "\"18 mm\"", "width of the layer across the trough: of the periodic box, or between the side walls",
         field<&Scenario::layer, &Layer::width>},
@@ -92,13 +95,29 @@ constexpr std::array rows_of_grains{
             .written_if([](Scenario const& s) { return s.layer.block == Block::none && s.layer.height; })},
     Key{"layer.grains", integer, "", 1, 1e7, "1 to 10000000", "height of the layer", required, "600",
         "number of grains", field<&Scenario::layer, &Layer::grains>.written_if([](Scenario const& s) {
-            return s.layer.block == Block::none && !s.layer.height;
+            return s.layer.block == Block::none && !s.layer.height && !is_open(s);
         })},
     Key{"layer.block", choice, "", 0, 0, "point or plate", "height of the layer", required, "\"point\"",
         "replaces the layer by one rigid block with plastic contact: a sphere that cannot rotate (point) or "
         "a plate of nine spheres",
         field<&Scenario::layer, &Layer::block>.written_if(
             [](Scenario const& s) { return s.layer.block != Block::none; })},
+
+    Key{"feed.mass_flow", quantity, "kg/s", 1e-9, 1e5, "above 0", "height of the layer", required,
+        "\"0.2 t/h\"",
+        "makes the trough an open one: it is empty at first, grains fall in at its back wall with this mass "
+        "flow "
+        "and leave it over its edge; needs trough.side_wall_friction",
+        field<&Scenario::feed, &Feed::mass_flow>},
+    Key{"feed.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", optional,
+        "\"15 mm\"",
+        "length of the zone behind the back wall that the feed falls into; a tenth of the trough if it is "
+        "not given",
+        field<&Scenario::feed, &Feed::length>},
+    Key{"feed.height", quantity, "m", 1e-6, 10, "above the layer", "", optional, "\"40 mm\"",
+        "height above the floor from which the feed falls; when the layer reaches it, the case ends as "
+        "overfull",
+        field<&Scenario::feed, &Feed::height>},
 };
 
 }  // namespace

@@ -113,6 +113,70 @@ int grains_for(double height, Scenario const& scenario, GivenKeys const& given) 
     return std::max(1, static_cast<int>(std::lround(count)));
 }
 
+/// The number of grains that the feed will probably keep in the trough.
+int grains_of_feed(Scenario const& s, GivenKeys const& given) {
+    double const mass = *s.feed.mass_flow * s.layer.length / expected_speed(s);
+    double const count = mass / (mean_density(s) * mean_grain_volume(s));
+    Key const& key = *find_key("layer.grains");
+    if (count > key.most)
+        given.fail(
+            "feed.mass_flow",
+            fmt::format("about {:.3g} grains would be in the trough, more than {:.0f}", count, key.most),
+            "shorten the trough, feed less, or take larger grains");
+    return std::max(1, static_cast<int>(std::lround(count)));
+}
+
+/// What an open trough cannot have yet.
+void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
+    auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
+        if (is_given) given.fail(key, wrong, "remove it, or the section [feed]");
+    };
+    refuse(s.trough.mesh != nullptr, "trough.mesh", "an open trough has a flat floor");
+    refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
+    refuse(!s.materials.empty(), "materials.1.name", "an open trough is fed with one material");
+    refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
+    if (!s.stages.empty())
+        given.fail(given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
+                   "the drive of an open trough has no stages", "remove [[stages]], or the section [feed]");
+    if (s.trough.side_wall_friction) return;
+    given.fail("feed.mass_flow",
+               "an open trough needs side walls, and there are none: it is not periodic across",
+               "write side_wall_friction below [trough], 0 for smooth walls");
+}
+
+/// A trough that is fed at one end and discharged at the other.
+void complete_feed(Scenario& s, GivenKeys const& given) {
+    for (char const* key : {"feed.length", "feed.height"}) {
+        if (!is_open(s) && given.has(key))
+            given.fail(key, "nothing is fed, because feed.mass_flow is not given",
+                       "write mass_flow, or remove it");
+    }
+    if (!is_open(s)) return;
+    check_parts_of_open(s, given);
+    s.layer.grains = grains_of_feed(s, given);
+    constexpr double fastest = 1.5;  // m/s
+    double const largest = largest_diameter(s), length = feed_length(s);
+    if (length < 4 * largest || length > 0.5 * s.layer.length)
+        given.fail(
+            given.has("feed.length") ? "feed.length" : "layer.length",
+            fmt::format("the feed falls into the first {:.6g} m of {:.6g} m, which must be from 4 of the "
+                        "largest diameters ({:.6g} m each) to half of the trough",
+                        length, s.layer.length, largest),
+            fmt::format("write feed.length = \"{:.6g} mm\", or lengthen the trough", 4e3 * largest));
+    if (feed_height(s) < layer_height(s) + 2 * largest)
+        given.fail("feed.height",
+                   fmt::format("{:.6g} m is too low: the layer will be about {:.3g} m high", feed_height(s),
+                               layer_height(s)),
+                   fmt::format("write at least \"{:.6g} mm\"", 1e3 * (layer_height(s) + 2 * largest)));
+    if (feed_speed(s) > fastest)
+        given.fail(
+            "feed.mass_flow",
+            fmt::format("it does not fit through a zone of {:.6g} m by {:.6g} m: the stream would have to "
+                        "fall into the trough with {:.3g} m/s, faster than {} m/s",
+                        length, s.layer.width, feed_speed(s), fastest),
+            "lengthen feed.length, widen the trough, or feed less");
+}
+
 /// Every material has at least one grain.
 void check_counts(Scenario const& scenario, GivenKeys const& given) {
     for (Material const& material : materials(scenario)) {
@@ -135,6 +199,7 @@ void complete_layer(Scenario& scenario, GivenKeys const& given) {
     if (scenario.trough.mesh) check_mesh(scenario, given);
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
+    complete_feed(scenario, given);
     check_counts(scenario, given);
     std::size_t const spheres =
         static_cast<std::size_t>(layer.grains) * shape_spheres(scenario.grains).size();

@@ -2,8 +2,8 @@
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 
-#include <charconv>
 #include <cmath>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -30,14 +30,12 @@ std::string required(std::string const& option, Text const& text, std::string co
 }
 
 double read_number(std::string const& option, std::string const& text, std::string const& example) {
-    double value = 0;
-    char const* const end = text.data() + text.size();
-    auto const [stop, failure] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(value)) {
-        throw core::InputError(fmt::format("{} {}: '{}' is not a finite number; write for example {} {}",
-                                           option, text, text, option, example));
+    try {
+        return core::parse_number(text);
+    } catch (core::QuantityError const& error) {
+        throw core::InputError(
+            fmt::format("{} {}: {}; write for example {} {}", option, text, error.what(), option, example));
     }
-    return value;
 }
 
 double read_number_within(std::string const& option, std::string const& text, std::string const& example,
@@ -65,14 +63,33 @@ double read_positive_quantity(std::string const& option, std::string const& text
         fmt::format("{} {}: must be above zero; write for example {} \"{}\"", option, text, option, example));
 }
 
+double read_turns(std::string const& option, std::string const& text) {
+    bool const plain = text.find_first_not_of("0123456789.+eE- \t,") == std::string::npos;
+    double const frequency =
+        plain ? read_number(option, text, "960") / 60 : read_quantity(option, text, "Hz", "960 rpm");
+    if (frequency * 60 >= 1 && frequency * 60 <= 1e5) return frequency;
+    throw core::InputError(
+        fmt::format("{} {}: must be at least 1 and at most 100000 turns per minute; write for example {} 960",
+                    option, text, option));
+}
+
 theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
                          std::function<double(std::string const&)> const& read_one) {
-    auto const middle = text.find(" to ");
-    if (middle == std::string::npos) {
+    // "25 deg to 35 deg", "25 to 35 deg" and "25-35 deg". A minus is a separator between plain numbers only:
+    // "-5 deg" and "25 s^-1" are single values.
+    static std::regex const with_word(R"((.+?) (?:to|bis) (.+))");
+    static std::regex const with_dash(R"(\s*(\d[\d.,]*)\s*(?:-|\xE2\x80\x93)\s*(\d.*))");
+    static std::regex const number_and_unit(R"(\s*[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*(.*))");
+    std::smatch ends, first, second;
+    if (!std::regex_match(text, ends, with_word) && !std::regex_match(text, ends, with_dash)) {
         double const value = read_one(text);
         return {value, value};
     }
-    theory::Range const range{read_one(text.substr(0, middle)), read_one(text.substr(middle + 4))};
+    std::string low = ends[1].str();
+    std::string const high = ends[2].str();
+    bool const has_no_unit = std::regex_match(low, first, number_and_unit) && first[1].length() == 0;
+    if (has_no_unit && std::regex_match(high, second, number_and_unit)) low += " " + second[1].str();
+    theory::Range const range{read_one(low), read_one(high)};
     if (range.low <= range.high) return range;
     throw core::InputError(
         fmt::format("{} {}: the first value is above the second; write for example {} \"{}\"", option, text,

@@ -72,6 +72,7 @@ void TheoryOptions::add_machine(CLI::App& command) {
     add("--frequency", frequency_,
         "Cycles per time, for example \"25 Hz\" or \"1500 rpm\"; with the amplitude it replaces "
         "--throw-number, and beside --throw-number it replaces the amplitude");
+    add("--rpm", rpm_, "Turns of the drive per minute, instead of --frequency, for example 960");
     add("--amplitude", amplitude_, "r in the direction of vibration, half the stroke, for example \"6 mm\"");
     add("--stroke", stroke_, "2 r, instead of --amplitude, for example \"12 mm\"");
     add("--gravity", gravity_, "Default: \"9.81 m/s2\"");
@@ -123,6 +124,13 @@ std::optional<double> TheoryOptions::amplitude() const {
     return {};
 }
 
+std::optional<double> TheoryOptions::frequency() const {
+    refuse_both("--frequency", frequency_, "--rpm", rpm_);
+    if (rpm_) return read_turns("--rpm", *rpm_);
+    if (frequency_) return read_positive_quantity("--frequency", *frequency_, "Hz", "25 Hz");
+    return {};
+}
+
 double TheoryOptions::gravity() const {
     return gravity_ ? read_positive_quantity("--gravity", *gravity_, "m/s2", "9.81 m/s2")
                     : theory::Machine{}.gravity;
@@ -135,20 +143,21 @@ void TheoryOptions::set_drive(theory::Inputs& inputs) const {
     if (machine_number_) inputs.set(Input::machine_number, read_throw("--machine-number", *machine_number_));
     bool const has_number = throw_number_ || machine_number_;
     if (r) inputs.set(Input::amplitude_m, *r);
-    if (!frequency_) return;
-    double const frequency = read_positive_quantity("--frequency", *frequency_, "Hz", "25 Hz");
+    auto const f = frequency();
+    if (!f) return;
     if (has_number && r) {
         throw core::InputError(
-            fmt::format("--frequency {}: follows from {} and the amplitude, which are also given; leave one "
+            fmt::format("{} {}: follows from {} and the amplitude, which are also given; leave one "
                         "of the three out",
-                        *frequency_, throw_number_ ? "--throw-number" : "--machine-number"));
+                        rpm_ ? "--rpm" : "--frequency", rpm_ ? *rpm_ : *frequency_,
+                        throw_number_ ? "--throw-number" : "--machine-number"));
     }
     if (has_number) return;
     if (r && gravity_) {
-        double const omega = 2 * std::numbers::pi * frequency;
+        double const omega = 2 * std::numbers::pi * *f;
         inputs.set(Input::machine_number, omega * omega * *r / gravity());
     } else {
-        inputs.set(Input::frequency_hz, frequency);
+        inputs.set(Input::frequency_hz, *f);
     }
 }
 
@@ -159,9 +168,9 @@ std::optional<theory::Machine> TheoryOptions::machine() const {
         machine.amplitude = *r;
         return machine;
     }
-    if (!frequency_) return {};
-    double const omega =
-        2 * std::numbers::pi * read_positive_quantity("--frequency", *frequency_, "Hz", "25 Hz");
+    auto const f = frequency();
+    if (!f) return {};
+    double const omega = 2 * std::numbers::pi * *f;
     machine.amplitude = theory::machine_number(conveyor().point) * machine.gravity / (omega * omega);
     return machine;
 }
@@ -172,7 +181,7 @@ theory::Inputs TheoryOptions::given() const {
     refuse_both("--inclination", inclination_, "--tan-inclination", tan_inclination_);
     theory::Inputs inputs;
     set_drive(inputs);
-    bool const may_be_level = machine_number_ || (frequency_ && !throw_number_);
+    bool const may_be_level = machine_number_ || ((frequency_ || rpm_) && !throw_number_);
     if (vibration_angle_) {
         double const beta =
             read_angle("--vibration-angle", *vibration_angle_, "30 deg", may_be_level ? -1e-12 : 0, 90);

@@ -41,7 +41,12 @@ int read_count(std::string const& option, std::string const& text, std::string c
 double read_positive_quantity(std::string const& option, std::string const& text, std::string const& unit,
                               std::string const& example);
 
-/// Reads "LOW to HIGH", or one value for both. @param read_one  reads one value
+/// Reads the speed of a motor's shaft in turns per minute, "960" or "960 rpm", as cycles per second (Hz).
+/// @throws core::InputError as read_number
+double read_turns(std::string const& option, std::string const& text);
+
+/// Reads "LOW to HIGH" or "LOW-HIGH", where the unit may stand once, or one value for both.
+/// @param read_one  reads one value
 /// @throws core::InputError as read_one does, and when the first value is above the second
 theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
                          std::function<double(std::string const&)> const& read_one);
@@ -78,13 +83,14 @@ class TheoryOptions {
     void add_machine(CLI::App& command);
     void set_drive(theory::Inputs& inputs) const;
     std::optional<double> amplitude() const;
+    std::optional<double> frequency() const;
     double gravity() const;
 
     Text throw_number_, machine_number_;
     Text vibration_angle_, tan_vibration_angle_;
     Text inclination_, tan_inclination_;
     Text friction_;
-    Text frequency_, amplitude_, stroke_, gravity_;
+    Text frequency_, rpm_, amplitude_, stroke_, gravity_;
     Text static_friction_, landing_friction_, restitution_, slowest_rebound_, air_drag_;
     Text along_ratio_, along_phase_;
     Text wall_friction_, wall_pressure_ratio_, height_over_width_;

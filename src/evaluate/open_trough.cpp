@@ -1,0 +1,53 @@
+#include "evaluate/open_trough.hpp"
+
+#include "measure/mass_flow.hpp"
+#include "measure/open_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::evaluate {
+
+void measure_open(store::PackingRecord& record, prepare::PreparedCase const& prepared,
+                  PackingFiles const& files) {
+    scenario::Scenario const& s = prepared.scenario;
+    prepare::OpenTrough const& open = *prepared.domain.open;
+    measure::OpenFacts const facts{
+        1 / s.trough.frequency,
+        s.layer.length,
+        record.steps_per_cycle,
+        std::max(record.estimate.discarded, measure::cycles_to_fill(record.series)),
+        record.series.cycles(),
+        scenario::settled_solid_fraction * mean_density(s),
+        s.layer.width,
+        open.window_end - open.window_start,
+        (s.layer.width + 2 * open.box_side) * (prepared.box_top - prepared.box_bottom)};
+    record.open =
+        measure::open_flow(record.series, measure::parse_left(files.snapshots, record.steps_per_cycle),
+                           files.snapshots, files.folder, facts);
+}
+
+std::string unsteady_flow(store::CaseRecord const& record) {
+    constexpr double tolerance = 0.02;
+    std::vector<double> differences;
+    for (store::PackingRecord const& packing : record.packings) {
+        if (packing.open.inflow && *packing.open.inflow > 0)
+            differences.push_back(*packing.open.outflow / *packing.open.inflow - 1);
+    }
+    if (differences.empty()) return {};
+    double mean = 0;
+    for (double const one : differences) mean += one / static_cast<double>(differences.size());
+    std::vector<double> const& fed = record.packings.front().series.open.fed;
+    // One packing has no interval: the numbers of grains fluctuate by their roots at most.
+    double const by_counting = 2 / std::sqrt(fed.empty() ? 1 : std::max(1.0, fed.back()));
+    double const half_width =
+        measure::student_half_width(differences, record.scenario.measure.confidence).value_or(by_counting);
+    if (std::abs(mean) <= tolerance + half_width) return {};
+    return fmt::format(
+        "the outflow is {:.3g} % {} than the inflow: the trough is not full yet, or is overfed",
+        100 * std::abs(mean), mean < 0 ? "less" : "more");
+}
+
+}  // namespace vibrotrough::evaluate

@@ -1,0 +1,227 @@
+#include "measure/open_flow.hpp"
+
+#include "core/error.hpp"
+#include "measure/estimate.hpp"
+#include "measure/layer_profiles.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include <boost/math/tools/roots.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::measure {
+namespace {
+
+using Snapshots = std::map<long, std::vector<LeftGrain>>;
+
+/// The step at which the run that wrote left.STEP.dump started.
+std::optional<long> start_of(std::string const& name) {
+    constexpr std::string_view begin = "left.", end = ".dump";
+    if (!name.starts_with(begin) || !name.ends_with(end)) return {};
+    long step = 0;
+    char const* const last = name.data() + name.size() - end.size();
+    auto const [rest, failure] = std::from_chars(name.data() + begin.size(), last, step);
+    return failure == std::errc() && rest == last ? std::optional(step) : std::nullopt;
+}
+
+/// Reads the snapshots of one file. The first one, of the step at which the run started, belongs to the run
+/// before it, which took its grains out.
+void read_snapshots(core::TextFile const& file, int steps_per_cycle, long start, Snapshots& all) {
+    std::istringstream text(file.content);
+    auto const damaged = [&] {
+        throw core::InputError(fmt::format("{} is damaged; run its case again", file.path.string()));
+    };
+    // Whether there is a whole line; the engine may be writing the last one.
+    auto const next = [&](std::string& line) { return std::getline(text, line) && !text.eof(); };
+    std::string line;
+    while (next(line)) {
+        if (line != "ITEM: TIMESTEP") damaged();
+        long step = -1, count = -1;
+        std::vector<std::string> head(9);  // step, number of grains, box, columns
+        for (std::size_t i = 1; i < head.size(); ++i)
+            if (!next(head[i])) return;
+        std::istringstream(head[1]) >> step;
+        std::istringstream(head[3]) >> count;
+        if (step < 0 || count < 0 || count > 100'000'000 || step % steps_per_cycle != 0 ||
+            !head[8].starts_with("ITEM: ATOMS id x vx"))
+            damaged();
+        std::vector<LeftGrain> grains;
+        for (long i = 0; i < count; ++i) {
+            if (!next(line)) return;
+            LeftGrain grain{static_cast<int>(step / steps_per_cycle), 0, 0, 0};
+            if (!(std::istringstream(line) >> grain.id >> grain.x >> grain.vx)) damaged();
+            grains.push_back(grain);
+        }
+        if (step > start) all[step] = std::move(grains);
+    }
+}
+
+double mean_of(std::vector<double> const& values, int from, int to) {
+    return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / (to - from);
+}
+
+/// s, when each grain was fed and when it passed the edge. The numbers of the grains follow the order in
+/// which they were fed, evenly within a cycle; behind the edge they fly with a steady speed.
+std::vector<double> residence_times(CycleSeries const& series, std::vector<LeftGrain> const& left,
+                                    OpenFacts const& facts) {
+    std::vector<double> const& fed = series.open.fed;
+    double const first = series.open.held.front();  // grains that were there before the drive
+    std::vector<double> times;
+    for (LeftGrain const& grain : left) {
+        if (grain.cycle <= facts.discarded || grain.cycle > facts.used) continue;
+        double const number = static_cast<double>(grain.id) - first;
+        if (number < 1) continue;
+        auto const after = std::ranges::lower_bound(fed, number);
+        if (after == fed.begin() || after - fed.begin() > grain.cycle)
+            throw core::InputError(
+                fmt::format("grain {} left in cycle {}, before it was fed", grain.id, grain.cycle));
+        auto const cycle = static_cast<double>(after - fed.begin());
+        double const before = *(after - 1), share = (number - 0.5 - before) / (*after - before);
+        double const flown =
+            grain.vx > 0 ? std::clamp((grain.x - facts.edge) / grain.vx, 0.0, facts.period) : 0;
+        times.push_back((grain.cycle - cycle + 1 - share) * facts.period - flown);
+    }
+    std::ranges::sort(times);
+    return times;
+}
+
+void add_residence(OpenFlow& flow, std::vector<double> const& times) {
+    constexpr std::size_t fewest = 20, parts = 100;
+    if (times.size() < fewest) return;
+    auto const count = static_cast<double>(times.size());
+    double const mean = std::accumulate(times.begin(), times.end(), 0.0) / count;
+    double squares = 0;
+    for (double const time : times) squares += (time - mean) * (time - mean);
+    flow.residence_time = mean;
+    flow.residence_spread = std::sqrt(squares / (count - 1));
+    flow.peclet = peclet_number(squares / (count - 1) / (mean * mean));
+    for (std::size_t i = 0; i <= parts; ++i) flow.residence.push_back(times[i * (times.size() - 1) / parts]);
+}
+
+AlongTrough along_trough(std::vector<Snapshot> const& snapshots, OpenFacts const& facts) {
+    AlongTrough along;
+    int count = 0;
+    std::vector<double> grains;
+    for (Snapshot const& one : snapshots) {
+        if (one.step <= static_cast<long>(facts.discarded) * facts.steps_per_cycle ||
+            one.step > static_cast<long>(facts.used) * facts.steps_per_cycle)
+            continue;
+        std::size_t place = 0;
+        for (Bin const& bin : one.bins) {
+            if (bin.position < 0 || bin.position > facts.edge || bin.means.empty()) continue;
+            if (place == along.x.size()) {
+                along.x.push_back(bin.position);
+                for (auto* const list : {&along.depth, &along.speed, &grains}) list->push_back(0);
+            }
+            along.depth[place] += bin.density * facts.box_section / (facts.bulk_density * facts.width);
+            along.speed[place] += bin.grains * bin.means[0];
+            grains[place++] += bin.grains;
+        }
+        ++count;
+    }
+    for (std::size_t i = 0; i < along.x.size(); ++i) {
+        along.depth[i] /= count;
+        along.speed[i] =
+            grains[i] > 0 ? along.speed[i] / grains[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+    return along;
+}
+
+/// s, until the trough first holds 95 % of its later mass, between the ends of two cycles.
+std::optional<double> fill_time(std::vector<double> const& held, double hold_up, double period) {
+    double const wanted = 0.95 * hold_up;
+    for (std::size_t k = 1; k < held.size(); ++k) {
+        if (held[k] < wanted) continue;
+        double const gain = held[k] - held[k - 1];
+        double const share = gain > 0 ? (wanted - held[k - 1]) / gain : 1;
+        return (static_cast<double>(k) - 1 + std::clamp(share, 0.0, 1.0)) * period;
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle) {
+    std::map<long, core::TextFile const*> by_start;
+    for (core::TextFile const& file : files)
+        if (auto const start = start_of(file.path.filename().string())) by_start[*start] = &file;
+    Snapshots all;
+    for (auto const& [start, file] : by_start) {
+        all.erase(all.upper_bound(start), all.end());
+        read_snapshots(*file, steps_per_cycle, start, all);
+    }
+    std::vector<LeftGrain> left;
+    for (auto const& [step, grains] : all) left.insert(left.end(), grains.begin(), grains.end());
+    return left;
+}
+
+std::optional<std::string> imbalance(CycleSeries const& series) {
+    constexpr double rounding = 1e-9;  // of the mass; the engine's sums agree to 1e-15
+    OpenSeries const& open = series.open;
+    double left = 0, left_mass = 0;
+    for (std::size_t k = 1; k < open.held.size(); ++k) {
+        left += open.left[k];
+        left_mass += open.left_mass[k];
+        double const lost = open.held[0] + open.fed[k] - open.held[k] - left;
+        double const lost_mass = open.held_mass[0] + open.fed_mass[k] - open.held_mass[k] - left_mass;
+        bool const is_whole =
+            lost == 0 && std::abs(lost_mass) <= rounding * (open.held_mass[0] + open.fed_mass[k]);
+        if (is_whole) continue;
+        return fmt::format(
+            "{:g} grains of {:.3g} kg are missing at the end of cycle {}: {:g} were there at first, {:g} "
+            "were fed, {:g} "
+            "are in the trough and {:g} have left it",
+            lost, lost_mass, k, open.held[0], open.fed[k], open.held[k], left);
+    }
+    return {};
+}
+
+int cycles_to_fill(CycleSeries const& series) {
+    std::vector<double> const& held = series.open.held_mass;
+    return startup_length(std::span(held).subspan(1));
+}
+
+std::optional<double> peclet_number(double relative_variance) {
+    if (!(relative_variance > 0 && relative_variance < 1)) return {};
+    auto const excess = [&](double log_peclet) {
+        double const pe = std::exp(log_peclet);
+        // The difference cancels for small numbers, where s = 1 - Pe/3.
+        double const variance = pe < 1e-3 ? 1 - pe / 3 : 2 / pe + 2 / (pe * pe) * std::expm1(-pe);
+        return variance - relative_variance;
+    };
+    double low = -14, high = 30;
+    if (excess(low) < 0 || excess(high) > 0) return {};
+    auto const [a, b] =
+        boost::math::tools::bisect(excess, low, high, boost::math::tools::eps_tolerance<double>(40));
+    return std::exp((a + b) / 2);
+}
+
+OpenFlow open_flow(CycleSeries const& series, std::vector<LeftGrain> const& left,
+                   std::vector<core::TextFile> const& files, std::filesystem::path const& folder,
+                   OpenFacts const& facts) {
+    OpenFlow flow;
+    int const from = facts.discarded, to = facts.used;
+    if (to <= from) return flow;
+    OpenSeries const& open = series.open;
+    double const time = (to - from) * facts.period;
+    auto const at = [](std::vector<double> const& values, int k) {
+        return values[static_cast<std::size_t>(k)];
+    };
+    flow.inflow = (at(open.fed_mass, to) - at(open.fed_mass, from)) / time;
+    flow.outflow = mean_of(open.left_mass, from + 1, to + 1) / facts.period;
+    flow.hold_up = mean_of(open.held_mass, from + 1, to + 1);
+    flow.window_depth =
+        mean_of(open.window_mass, from + 1, to + 1) / (facts.bulk_density * facts.window * facts.width);
+    flow.fill_time = fill_time(open.held_mass, *flow.hold_up, facts.period);
+    add_residence(flow, residence_times(series, left, facts));
+    flow.along = along_trough(parse_snapshots(files, folder, "along"), facts);
+    return flow;
+}
+
+}  // namespace vibrotrough::measure

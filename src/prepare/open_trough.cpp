@@ -1,0 +1,34 @@
+#include "prepare/open_trough.hpp"
+
+#include <cmath>
+
+namespace vibrotrough::prepare {
+
+OpenTrough open_trough(PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const grain = c.largest_extent, excursion = largest_excursion(c.motion);
+    double const period = 1 / s.trough.frequency, length = s.layer.length;
+    OpenTrough open{};
+    open.feed_start = excursion + 0.1 * grain;  // the back wall moves
+    open.feed_end = open.feed_start + feed_length(s);
+    open.feed_bottom = feed_height(s);
+    open.feed_speed = feed_speed(s);
+    open.feed_top = open.feed_bottom + open.feed_speed * period / feeds_per_cycle + grain;
+    double const way = length - open.feed_end;
+    open.window_start = open.feed_end + way / 3;
+    open.window_end = length - way / 6;
+    // Grains that have left are taken out once per cycle, until when they fly and fall on.
+    open.out_x = length + excursion + grain;
+    open.out_near_x = length - excursion - grain;
+    open.out_z = -(excursion + grain);
+    double const flight = 2 * c.largest_speed * period + 2 * grain;
+    double const fall = scenario::gravity * period * period / 2;
+    open.bin = length / std::round(length / (2 * mean_diameter(s)));
+    open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);
+    open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
+    open.box_side = flight / 2;
+    open.box_bottom = open.out_z - flight - fall;
+    return open;
+}
+
+}  // namespace vibrotrough::prepare

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+/// @file
+/// What is fed into an open trough, which has a back wall, side walls and an edge where grains leave it.
+
+namespace vibrotrough::scenario {
+
+struct Scenario;
+
+/// The stream of grains that falls into the trough at its back wall. A trough without one is periodic.
+struct Feed {
+    std::optional<double> mass_flow = {};  ///< kg/s
+    std::optional<double> length = {};     ///< m, along the trough, of the zone that the stream falls into
+    std::optional<double> height = {};     ///< m, above the floor, from which the grains fall
+};
+
+/// Whether the trough is open: fed at one end and discharged at the other.
+bool is_open(Scenario const& scenario);
+
+/// The layer that a feed will probably make, for what must be known before a run: stiffness, box and cost. It
+/// assumes a velocity efficiency of 0.9 (Gamma - 0.9), at least 0.1 and at most 0.95, which is within a
+/// factor of two of the layers of validation/demo and tests/measure/reference.
+double expected_speed(Scenario const& scenario);  ///< m/s
+
+/// Length of the zone that the stream falls into, m: as given, or a tenth of the trough and at least four of
+/// the largest diameters.
+double feed_length(Scenario const& scenario);
+
+/// Height above the floor from which the grains fall, m: as given, or twice the expected height of the layer
+/// and six of the largest diameters.
+double feed_height(Scenario const& scenario);
+
+/// Speed at which the stream enters the trough, m/s, so that its grains fill 0.15 of its volume. Loose enough
+/// for random insertion, which finds hardly any room above 0.3.
+double feed_speed(Scenario const& scenario);
+
+}  // namespace vibrotrough::scenario

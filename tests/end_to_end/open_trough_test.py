@@ -1,0 +1,112 @@
+"""An open trough with the real engine: every grain that is fed is held or has left, and a killed run, a deck that loses grains and an
+overfed trough end as they should."""
+
+import json
+import signal
+import unittest
+
+import h5py
+import numpy as np
+
+from trough_program import EndToEndTest, processes_in, wait_until, without_wall_time
+
+OPEN = {
+    "layer.grains": None,
+    "layer.length": "75 mm",
+    "feed.mass_flow": "0.05 t/h",
+    "feed.length": "15 mm",
+    "trough.side_wall_friction": 0,
+    "measure.min_cycles": 32,
+    "measure.max_cycles": 32,
+    "output.checkpoint_cycles": 8,
+}
+LOSING = """[before-first-cycle]
+region hole block 0.04 0.05 INF INF INF INF units box
+[at-cycle-end]
+if "${done} == 12" then "delete_atoms region hole compress no"
+"""
+
+
+class OpenTrough(EndToEndTest):
+    def packing(self, number=1):
+        return next(iter(self.output.glob(f"cases/*/packing-{number}")))
+
+    def left_dumps(self, packing):
+        """The numbers of the grains that the engine wrote when they left, by the end of the cycle; of files that overlap the later one."""
+        found = {}
+        for path in sorted(packing.glob("left.*.dump"), key=lambda path: int(path.name.split(".")[1])):
+            start = int(path.name.split(".")[1])
+            found = {step: ids for step, ids in found.items() if step <= start}
+            for snapshot in path.read_text().split("ITEM: TIMESTEP\n")[1:]:
+                lines = snapshot.splitlines()
+                if int(lines[0]) > start:
+                    found[int(lines[0])] = [int(line.split()[0]) for line in lines[8:]]
+        return found
+
+    def test_all_grains_add_up(self):
+        self.run_campaign(self.write_campaign(OPEN))
+        row = self.table()[0]
+        self.assertEqual(row["outcome"], "finished", row)
+        with h5py.File(self.results()[0]) as file:
+            flow, packings = file["flow/1"][()], file["packings"][()]
+            residence, along = file["residence/1"]["time"], file["along/1"][()]
+        self.assertTrue(np.all(flow["held"][0] + flow["fed"] == flow["held"] + np.cumsum(flow["left"])))
+        lost = flow["held_mass"][0] + flow["fed_mass"] - flow["held_mass"] - np.cumsum(flow["left_mass"])
+        self.assertLess(np.abs(lost).max(), 1e-12 * flow["fed_mass"][-1])
+        dumped = self.left_dumps(self.packing())
+        numbers = [number for ids in dumped.values() for number in ids]
+        self.assertEqual(len(numbers), flow["left"].sum())
+        self.assertEqual(len(numbers), len(set(numbers)))
+        asked = 0.05 / 3.6
+        for one in packings:
+            self.assertAlmostEqual(one["inflow"] / asked, 1, delta=0.03)
+            self.assertAlmostEqual(one["outflow"] / asked, 1, delta=0.03)
+        self.assertAlmostEqual(residence[50] / packings["residence_time"][0], 1, delta=0.1)
+        # Little's law: the mass from the back wall to the edge is what flows times how long it stays.
+        held = np.sum(along["depth"]) * (along["x"][1] - along["x"][0]) * 0.015 * 0.58 * 1400
+        self.assertAlmostEqual(held / (packings["outflow"][0] * packings["residence_time"][0]), 1, delta=0.05)
+        # Besides, the trough holds grains that have passed the edge and are not a diameter away yet.
+        self.assertTrue(0.9 < held / packings["hold_up"][0] <= 1, held)
+        # The mass flow of the table is speed times depth in the window, which nobody has counted at the edge.
+        self.assertAlmostEqual(row["mass_flow_kg_per_s"] / asked, 1, delta=0.05)
+
+    def test_a_killed_run_gives_the_same_numbers(self):
+        campaign = self.write_campaign({**OPEN, "measure.packings": 1})
+        undisturbed = self.folder / "undisturbed"
+        self.run_campaign(campaign, undisturbed, wanted=None)
+
+        def sealed_cycle():
+            seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
+            return json.loads(seals[0].read_text())["cycle"] if seals else 0
+
+        driver = self.start_campaign(campaign)
+        wait_until(lambda: sealed_cycle() >= 8 or driver.poll() is not None, "a checkpoint was sealed")
+        driver.send_signal(signal.SIGKILL)
+        self.finish(driver)
+        wait_until(lambda: not processes_in(self.output), "the engine was gone")
+        self.run_campaign(campaign, wanted=None)
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
+        one, other = (next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed))
+        with h5py.File(one) as file, h5py.File(other) as same:
+            for table in ("flow/1", "along/1", "residence/1"):
+                np.testing.assert_array_equal(file[table][()], same[table][()], table)
+
+    def test_lost_grains_are_noticed(self):
+        """The negative control: a deck that takes grains out of the middle without telling."""
+        (self.folder / "losing.liggghts").write_text(LOSING)
+        campaign = self.write_campaign({**OPEN, "measure.packings": 1, "engine.extra": "losing.liggghts"})
+        done = self.call(*self.run_arguments(campaign), "--allow-extra")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(self.table()[0]["outcome"], "lost-grains")
+        status = self.ask_json("status")
+        self.assertIn("are missing at the end of cycle 13", json.dumps(status))
+
+    def test_an_overfed_trough_ends_as_overfull(self):
+        changes = {**OPEN, "measure.packings": 1, "trough.throw_number": 1.5, "trough.inclination": "20 deg", "feed.height": "15 mm"}
+        self.run_campaign(self.write_campaign(changes), wanted=1)
+        self.assertEqual(self.table()[0]["outcome"], "overfull")
+        self.assertRegex(json.dumps(self.ask_json("status")), r"the layer has reached the feed after [0-9.]+ s")
+
+
+if __name__ == "__main__":
+    unittest.main()

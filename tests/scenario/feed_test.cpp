@@ -1,0 +1,77 @@
+#include "scenario/model/feed.hpp"
+
+#include "core/error.hpp"
+#include "example_campaign.hpp"
+#include "scenario/reader/written_campaign.hpp"
+#include "single_case.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vibrotrough {
+namespace {
+
+using scenario::Scenario;
+using testing::HasSubstr;
+
+/// The example as a trough of 200 mm with smooth walls and a feed.
+std::string fed(std::string const& feed = "mass_flow = \"0.1 t/h\"\n",
+                std::string const& trough = "side_wall_friction = 0\n") {
+    std::string text = with("height = \"12 mm\"\n", "", with("36 mm", "200 mm"));
+    return with("[grains]\n", trough + "[grains]\n", text) + "[feed]\n" + feed;
+}
+
+std::string error(std::string const& text) {
+    try {
+        single_case(text);
+    } catch (core::InputError const& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Feed, MakesTheTroughOpen) {
+    EXPECT_FALSE(is_open(single_case(example_campaign)));
+    Scenario const s = single_case(fed());
+    EXPECT_TRUE(is_open(s));
+    EXPECT_NEAR(*s.feed.mass_flow, 0.1 / 3.6, 1e-15);
+    EXPECT_NEAR(feed_length(s), 0.02, 1e-15);
+    // What the feed keeps in the trough: its mass over its speed.
+    double const mass = s.layer.grains * mean_density(s) * mean_grain_volume(s);
+    EXPECT_NEAR(mass * expected_speed(s) / (0.2 * *s.feed.mass_flow), 1, 0.01);
+    EXPECT_NEAR(feed_height(s), 2 * layer_height(s) + 6 * largest_diameter(s), 1e-15);
+    EXPECT_NEAR(feed_speed(s) * 0.15 * 1400 * 0.02 * 0.018, *s.feed.mass_flow, 1e-15);
+}
+
+TEST(Feed, IsWrittenAndReadBack) {
+    Scenario const s = single_case(fed("mass_flow = \"0.1 t/h\"\nlength = \"25 mm\"\nheight = \"50 mm\"\n"));
+    Scenario const again = single_case(to_toml(s));
+    EXPECT_EQ(again.feed.mass_flow, s.feed.mass_flow);
+    EXPECT_EQ(again.feed.length, s.feed.length);
+    EXPECT_EQ(again.feed.height, s.feed.height);
+    EXPECT_EQ(again.layer.grains, s.layer.grains);
+    EXPECT_THAT(to_toml(single_case(example_campaign)), testing::Not(HasSubstr("feed")));
+}
+
+TEST(Feed, WrongInputIsToldInOneLine) {
+    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\n", "")), HasSubstr("needs side walls"));
+    EXPECT_THAT(error(fed("length = \"25 mm\"\n")),
+                HasSubstr("exactly one of height, grains, block, feed.mass_flow is needed"));
+    EXPECT_THAT(error(example_campaign + "[feed]\nlength = \"25 mm\"\n"), HasSubstr("nothing is fed"));
+    EXPECT_THAT(error(example_campaign + "[feed]\nmass_flow = \"0.1 t/h\"\n"), HasSubstr("feed.mass_flow"));
+    EXPECT_THAT(error(fed("mass_flow = \"3 t/h\"\n")),
+                HasSubstr("does not fit through a zone of 0.02 m by 0.018 m"));
+    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"8 mm\"\n")), HasSubstr("feed.length"));
+    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"150 mm\"\n")),
+                HasSubstr("half of the trough"));
+    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nheight = \"5 mm\"\n")), HasSubstr("too low"));
+    EXPECT_THAT(error(with("diameter_spread = 0.1", "shape = \"cube\"", fed())),
+                HasSubstr("fed with spheres"));
+    EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 0.1\n"),
+                HasSubstr("one material"));
+    EXPECT_THAT(error(with("max_cycles = 200\n", "", fed()) + "[[stages]]\ntime = \"1 s\"\n"),
+                HasSubstr("stages.1.time: the drive of an open trough has no stages"));
+}
+
+}  // namespace
+}  // namespace vibrotrough
