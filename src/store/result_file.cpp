@@ -9,6 +9,7 @@
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <map>
 #include <span>
@@ -264,6 +265,8 @@ std::string result_bytes(CaseRecord const& record) {
     file.table("mass_flow", columns, Rank::array);
     add_case_table(file, "materials", materials_entries(), materials_table(record));
     add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
+    add_case_table(file, "stages", stages_entries(), stages_table(record));
+    add_case_table(file, "stage_cycles", stage_cycles_entries(), stage_cycles_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
