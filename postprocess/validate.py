@@ -1,4 +1,4 @@
-"""What `vibrotrough validate` does: runs the cases of validation/ and their negative controls, and writes the page of verdicts."""
+"""What `vibrotrough validate` does: runs the cases of validation/ and their negative controls, and writes the pages of verdicts."""
 
 import argparse
 import json
@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import tomllib
+from collections.abc import Callable
 from typing import Any
 
 import claims
@@ -16,13 +17,19 @@ from validation_case import FAILS, HOLDS, ROOT
 WRONG_INPUT, MISSING, INTERRUPTED = 2, 3, 130
 PAGE_HEAD = """# validation
 
-Each folder tests one claim. It holds the question, the source, the formula, the deviation to expect and why, the inputs, the reference, and criteria
-with their reasons. Each case also has a negative control: a run with a deliberate mistake that the criteria must detect, which shows that they can fail.
-`vibrotrough validate --store` writes this page; [`postprocess/README.md`](../postprocess/README.md) explains how to make a case.
+Each folder tests one claim: its page has the question, the source, the formula, the expected deviation and its reason, and the result. A *criterion* is ours
+and must hold; a *finding* is what somebody else states or what we predicted, and is borne out or not (undecided ones are not counted below). Each case also has
+a negative control, a run with a deliberate mistake that the criteria must detect. The [findings](findings.md) with their numbers, and the program and machine
+of each verdict, are on their own page. `vibrotrough validate --store` writes both pages; [how to make a case](../postprocess/README.md#how-to-add-a-validation-case).
 
     vibrotrough validate               # all cases and their negative controls; cases with long simulations are judged from their stored tables
     vibrotrough validate NAME --long   # run the simulations of one case again, which takes minutes to an hour
 
+"""
+FINDINGS_HEAD = """# Findings
+
+Written by `vibrotrough validate --store`. What each [case](README.md) found about the statements of others and our own predictions, how its verdict was
+made, and the criteria that fail, if any.
 """
 
 
@@ -108,31 +115,45 @@ def verdict_text(verdict: dict[str, Any] | None) -> str:
     return f"holds ({count} criteria)" if verdict["holds"] else f"**fails** ({failed} of {count} criteria)"
 
 
+def findings_count(findings: list[dict[str, Any]]) -> str:
+    """How many findings are borne out, of those that are decided."""
+    decided = [one["borne_out"] for one in findings if one["borne_out"] is not None]
+    return f"{sum(decided)} of {len(decided)}" if findings else ""
+
+
 def findings_text(findings: list[dict[str, Any]]) -> str:
     words = {True: "borne out", False: "**not borne out**", None: "undecided"}
     return "".join(f"- {words[one['borne_out']]}: {one['claim']}. {one['measured']}\n" for one in findings)
 
 
-def page(cases: list[Case]) -> str:
+def overview(cases: list[Case]) -> str:
     """The text of validation/README.md, from the stored verdicts."""
-    lines = [PAGE_HEAD, "| case | claim | verdict | date | figure |\n|---|---|---|---|---|\n"]
+    lines = [PAGE_HEAD, "| case | claim | verdict | findings borne out | date |\n|---|---|---|---|---|\n"]
     for case in cases:
         verdict = case.stored_verdict()
-        figures = ", ".join(f"[{name}]({case.name}/{name})" for name in case.figures)
+        borne_out = findings_count(verdict["findings"]) if verdict else ""
+        borne_out = f"[{borne_out}](findings.md#{case.name})" if borne_out else ""
         lines.append(f"| [`{case.name}`]({case.name}/README.md){' (long)' if case.long else ''} | {case.title} | {verdict_text(verdict)} | "
-                     f"{verdict['date'] if verdict else ''} | {figures} |\n")
+                     f"{borne_out} | {verdict['date'] if verdict else ''} |\n")
+    return "".join(lines)
+
+
+def findings_page(cases: list[Case]) -> str:
+    """The text of validation/findings.md, from the stored verdicts."""
+    lines = [FINDINGS_HEAD]
     for case in cases:
         verdict = case.stored_verdict()
         if not verdict:
             continue
-        lines.append(f"\n## {case.name}\n\n{case.question}\n\n`{verdict['command']}`, judged in {verdict['seconds']:.0f} s. {verdict['made_by']}.\n\n")
+        lines.append(f"\n## {case.name}\n\n`{verdict['command']}`, judged in {verdict['seconds']:.0f} s. {verdict['made_by']}.\n")
         broken = [criterion for criterion in verdict["criteria"] if not criterion["holds"]]
-        lines += [f"- **fails**: {one['what']}: {one['value']:.4g}, wanted {one['least']:.4g} to {one['most']:.4g}\n" for one in broken]
-        lines.append(findings_text(verdict["findings"]))
-        lines.append(f"\nNegative control, which fails as it must: {case.control}\n")
-        if case.figures:
-            lines.append(f"\n![{case.title}]({case.name}/{case.figures[0]})\n")
+        found = [f"- **fails**: {one['what']}: {one['value']:.4g}, wanted {one['least']:.4g} to {one['most']:.4g}\n" for one in broken]
+        found.append(findings_text(verdict["findings"]))
+        lines += ["\n", *found] if any(found) else []
     return "".join(lines)
+
+
+WRITTEN: dict[str, Callable[[list[Case]], str]] = {"README.md": overview, "findings.md": findings_page}
 
 
 def show_list(cases: list[Case]) -> None:
@@ -174,13 +195,14 @@ def main() -> None:
         show_list(chosen(cases, options.names))
         return
     if options.page:
-        print(page(cases), end="")
+        print("".join(write(cases) for write in WRITTEN.values()), end="")
         return
     if options.claims:
         sys.exit(0 if judge_claims(options) else 1)
     good = [judge(case, options) for case in chosen(cases, options.names)]
     if options.store:
-        (options.cases / "README.md").write_text(page(cases), encoding="utf-8")
+        for name, write in WRITTEN.items():
+            (options.cases / name).write_text(write(cases), encoding="utf-8")
         print(f"stored in {options.cases}")
         claims.write(options.cases.resolve().parent)
     print(f"{sum(good)} of {len(good)} cases hold and have a negative control that fails")

@@ -80,7 +80,8 @@ class Validate(unittest.TestCase):
     def test_findings_are_told_and_do_not_decide(self):
         self.case("good", GOOD)
         self.assertEqual(self.validate("--store").returncode, 0)
-        self.assertIn("**not borne out**: it is said", (self.cases / "README.md").read_text())
+        self.assertIn("**not borne out**: it is said", (self.cases / "findings.md").read_text())
+        self.assertIn("[0 of 1](findings.md#good)", (self.cases / "README.md").read_text())
 
     def test_unknown_names_and_unreadable_cases_are_named(self):
         self.case("good", GOOD)
