@@ -239,13 +239,16 @@ class Security(EndToEndTest):
         shutil.rmtree(case / "packing-1")
         batch = self.output / "slurm" / "0001"
         batch.mkdir(parents=True)
-        (batch / "batch.json").write_text('{"name": "x", "job": 1}')
+        (batch / "batch.json").write_text('{"name": "vibrotrough-0123456789ab", "job": 1}')
         (batch / "tasks.txt").write_text(f"{case.name} 1\n")
         for marker in ('{"outcome": "finished", "message": "well\\u001b[31m"}', '{"outcome": 3}', '{"outcome": "finished", "message": []}'):
             (batch / "task-0.lost").write_text(marker)
             (row,) = self.ask_json("status")["cases"]
             self.assertEqual(row["outcome"], "interrupted", marker)
-            self.assertNotIn("\x1b", row["message"])
+            self.assertIn("task-0.lost is damaged", row["message"])
+        (batch / "task-0.lost").write_text('{"outcome": "interrupted", "message": "well\\u001b[31m"}')
+        (row,) = self.ask_json("status")["cases"]
+        self.assertIn(r"well\x1b[31m", row["message"])
 
     def test_a_settled_packing_belongs_to_its_deck(self):
         campaign = self.write_campaign(ONE | {"campaign.name": "small", "layer.grains": 40})

@@ -60,7 +60,7 @@ BatchNote parse_batch(std::string_view text) {
     Json const json = note::parse(text);
     BatchNote batch{note::text(json, "name"), {}};
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789-";
-    if (batch.name.empty() || batch.name.find_first_not_of(letters) != std::string::npos)
+    if (!batch.name.starts_with("vibrotrough-") || batch.name.find_first_not_of(letters) != std::string::npos)
         throw note::Fault("'name' is not the name of a job of this program");
     if (json.contains("job")) batch.job = note::whole_number(json, "job", 1);
     return batch;
