@@ -11,14 +11,17 @@
     theory = vibrotrough.open_theory("map.h5")                  # of 'theory map', or of 'theory batch'
     table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
 
+    vibrotrough.theory.solve(rpm=960, stroke_mm=9.7, vibration_angle_deg=30, friction=0.3)      # see help(vibrotrough.theory)
+
 Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. `vibrotrough quantities` prints
 all names. A file of version 0.2.0 is read under today's names, and the names of that version are still understood.
-Needs h5py and numpy, and to_dataframe() pandas.
+Needs h5py and numpy, and to_dataframe() pandas; the theory needs its compiled part (pip install --no-build-isolation ./postprocess).
 """
 
 from __future__ import annotations
 
 import hashlib
+import importlib
 import io
 import os
 import pathlib
@@ -29,6 +32,13 @@ from typing import Any
 import h5py
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+
+def __getattr__(name: str) -> Any:
+    """The theory is loaded where it is first asked for, because results can be read without its compiled part."""
+    if name != "theory":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return importlib.import_module("vibrotrough_theory")
 
 
 class Array(np.ndarray[Any, np.dtype[Any]]):

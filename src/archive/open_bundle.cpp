@@ -1,6 +1,7 @@
 #include "archive/open_bundle.hpp"
 
 #include "archive/bundle.hpp"
+#include "archive/bundle_facts.hpp"
 #include "archive/zip_file.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -15,7 +16,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace vibrotrough::archive {
@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Json = nlohmann::json;
 using Digests = std::map<std::string, std::string>;  ///< SHA-256 by name
 
 constexpr std::size_t longest_list = std::size_t{1} << 30;  ///< bytes of SHA256SUMS
@@ -192,23 +191,16 @@ void check_unpacked(fs::path const& folder) {
 }
 
 void read_facts(OpenBundle& bundle, fs::path const& path) {
-    Json const facts =
-        Json::parse(core::read_file(bundle.folder / facts_file, core::largest_note), nullptr, false);
+    BundleFacts facts;
     try {
-        if (facts.at("format") != "vibrotrough archive" || facts.at("schema_version") != 1)
-            refuse(path, fmt::format("{} does not describe a bundle that this version knows", facts_file));
-        bundle.results = facts.at("results").get<std::size_t>();
-        bundle.program_version =
-            core::harmless(facts.at("archived_with").at("program_version").get<std::string>());
-        for (Json const& one : facts.at("ended_without_result")) {
-            auto const outcome = core::outcome_named(one.at("outcome").get<std::string>());
-            if (!outcome || core::has_result(*outcome)) continue;
-            bundle.activity.packings.push_back(
-                {{one.at("case").get<std::string>(), 1}, campaign::PackingActivity::ended, outcome});
-        }
-    } catch (Json::exception const&) {
-        refuse(path, fmt::format("{} is damaged", facts_file));
+        facts = parse_facts(core::read_file(bundle.folder / facts_file, core::largest_note));
+    } catch (core::note::Fault const& fault) {
+        refuse(path, fmt::format("{} is damaged: {}", facts_file, fault.what()));
     }
+    bundle.results = facts.results;
+    bundle.program_version = facts.program_version;
+    for (auto const& [id, outcome] : facts.failures)
+        bundle.activity.packings.push_back({{id, 1}, campaign::PackingActivity::ended, outcome});
 }
 
 }  // namespace

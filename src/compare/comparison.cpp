@@ -200,9 +200,10 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<MeasuredFriction> const& friction) {
     Row row = drive_row(id, prepared);
     row.outcome = record ? std::string(name_of(record->outcome)) : outcome;
-    add_theory(row, prepared.point_mass);
-    add_rolling_layer(row, prepared);
-    if (friction) add_layer_theory(row, prepared.point_mass, *friction);
+    bool const is_steady = prepared.stages.empty();  // the theories are for one drive without end
+    if (is_steady) add_theory(row, prepared.point_mass);
+    if (is_steady) add_rolling_layer(row, prepared);
+    if (friction && is_steady) add_layer_theory(row, prepared.point_mass, *friction);
     if (record) add_measurement(row, *record);
     return row;
 }

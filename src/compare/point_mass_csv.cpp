@@ -14,6 +14,7 @@ std::optional<PointMassMotion> point_mass_motion(prepare::PreparedCase const& pr
     scenario::Trough const& trough = prepared.scenario.trough;
     theory::Conveyor const& conveyor = prepared.point_mass.conveyor;
     theory::ConveyorMotion motion = theory::solve(conveyor);
+    if (!prepared.stages.empty()) return {};
     if (motion.motion.outcome != theory::Outcome::periodic) return {};
     double const length_x = trough.amplitude * std::cos(trough.vibration_angle);
     return PointMassMotion{.motion = std::move(motion),

@@ -159,9 +159,10 @@ void write_and_rename(fs::path const& path, std::string_view content, Sync sync)
     refuse_to_read(path, "it is a pipe, a socket or a device, and not a file");
 }
 
-/// Reads to the end. The reported size is only a hint: the file may grow meanwhile, and files in /proc report
-/// a size of 0.
-void read_to_end(Descriptor const& file, fs::path const& path, std::size_t limit, std::string& content) {
+/// Reads what the file had when it was opened: to the end without another question after it. Where the size
+/// is 0 it is only a hint, as for pipes and files in /proc.
+void read_to_end(Descriptor const& file, fs::path const& path, std::size_t size, std::size_t limit,
+                 std::string& content) {
     std::size_t length = 0;
     while (true) {
         ssize_t const count = ::read(file.number(), content.data() + length, content.size() - length);
@@ -170,6 +171,7 @@ void read_to_end(Descriptor const& file, fs::path const& path, std::size_t limit
         if (count == 0) break;
         length += static_cast<std::size_t>(count);
         if (length > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
+        if (length == size) break;
         if (length == content.size()) content.resize(2 * length);
     }
     content.resize(length);
@@ -189,8 +191,8 @@ void read_descriptor(int opened, fs::path const& path, Kinds kinds, std::size_t 
     if (kinds == Kinds::regular && !S_ISREG(status.st_mode)) refuse_kind(path);
     auto const size = static_cast<std::size_t>(status.st_size);
     if (size > limit) refuse_to_read(path, fmt::format("it is larger than {} MB", limit >> 20));
-    content.resize(std::max({size + 1, content.capacity(), std::size_t{4096}}));
-    read_to_end(file, path, limit, content);
+    content.resize(size > 0 ? size : std::max(content.capacity(), std::size_t{4096}));
+    read_to_end(file, path, size, limit, content);
 }
 
 std::string read_opened(fs::path const& path, Kinds kinds, std::size_t limit) {

@@ -127,10 +127,11 @@ int open_folder(fs::path const& path, int flags) {
 
 /// The names in an open folder, without "." and "..".
 std::optional<std::vector<std::string>> entries_of(int folder) {
-    Handle copy(::openat(folder, ".", folder_flags));
+    Handle copy(::fcntl(folder, F_DUPFD_CLOEXEC, 0));
     DIR* const stream = copy.is_open() ? ::fdopendir(copy.number()) : nullptr;
     if (stream == nullptr) return {};
     copy.release();  // the stream closes it
+    ::rewinddir(stream);
     std::vector<std::string> names;
     while (dirent const* const entry = ::readdir(stream)) {
         std::string name = entry->d_name;
@@ -163,6 +164,8 @@ bool remove_below(int folder, char const* name) {
 }
 
 void make_folder_below(Place const& place, fs::path const& path) {
+    // Mostly it is there.
+    if (Handle(open_beneath(place.root->descriptor, place.relative, folder_flags)).is_open()) return;
     Handle folder(::openat(place.root->descriptor, ".", folder_flags));
     for (fs::path const& name : place.relative) {
         if (name == "." || name.empty()) continue;

@@ -40,12 +40,13 @@ std::string temporary_name(std::string const& name) {
 }
 
 void remove_remains(ParentFolder const& parent) {
-    int const copy = ::openat(parent.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int const copy = ::fcntl(parent.descriptor(), F_DUPFD_CLOEXEC, 0);
     DIR* const stream = copy < 0 ? nullptr : ::fdopendir(copy);
     if (stream == nullptr) {
         if (copy >= 0) ::close(copy);
         return;
     }
+    ::rewinddir(stream);
     std::string const begin = std::string(parent.name()) + temporary_mark;
     while (dirent const* const entry = ::readdir(stream)) {
         std::string_view const name = entry->d_name;

@@ -3,6 +3,7 @@
 #include "deck/atom_types.hpp"
 #include "deck/drive_formula.hpp"
 #include "deck/estimates.hpp"
+#include "deck/stage_data.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -217,9 +218,12 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
             harmonic.order, harmonic.ratio, harmonic.phase * degrees);
     }
     data.set("drive_remark", remark);
+    describe_stages(data, n);
+    // With stages the velocity is set before each cycle.
+    scenario::DriveMotion const motion = n.stages.empty() ? n.motion : scenario::DriveMotion{};
     std::vector<core::TemplateData> lines;
     for (auto const& [axis, terms] :
-         {std::pair{std::string("x"), &n.motion.along}, std::pair{std::string("z"), &n.motion.normal}}) {
+         {std::pair{std::string("x"), &motion.along}, std::pair{std::string("z"), &motion.normal}}) {
         DriveFormula const& formula = drive_formula(*terms, axis);
         for (Formula const& term : formula.terms) {
             core::TemplateData entry;

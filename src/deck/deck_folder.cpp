@@ -3,17 +3,15 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-
-#include <algorithm>
+#include "core/note.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::deck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using core::note::Json;
 
 constexpr char const* format_name = "vibrotrough deck";
 
@@ -23,42 +21,47 @@ constexpr char const* format_name = "vibrotrough deck";
                     path.string(), what));
 }
 
-/// The digests of each file that were written here, {"path": ["...", ...]}; empty when nothing was.
-Json read_written(fs::path const& folder) {
+/// The digests of the files that were written here; empty when nothing was.
+core::note::Digests read_written(fs::path const& folder) {
     fs::path const path = folder / written_file;
-    if (!fs::exists(fs::symlink_status(path))) return Json::object();
-    if (!core::is_link(path)) {
-        Json const json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
-        if (json.is_object() && json.value("format", Json()) == format_name &&
-            json.value("files", Json()).is_object())
-            return json["files"];
+    if (!fs::exists(fs::symlink_status(path))) return {};
+    try {
+        if (!core::is_link(path)) return parse_written(core::read_file(path, core::largest_note));
+    } catch (core::note::Fault const&) {
+        // The message below says it.
     }
     refuse(path, "is not a file of this program");
 }
 
 /// The digest of a file that may be replaced; empty when there is none, or when it has this content already.
-std::string replaceable(fs::path const& path, std::string const& content, Json const& known) {
+std::string replaceable(fs::path const& path, std::string const& name, std::string const& content,
+                        core::note::Digests const& written) {
     if (!fs::exists(fs::symlink_status(path))) return {};
     if (core::is_link(path)) refuse(path, "is a symbolic link");
     std::string const before = core::read_file(path, core::largest_note);
     if (before == content) return {};
-    std::string const digest = core::sha256_hex(before);
-    if (known.is_array() && std::ranges::find(known, Json(digest)) != known.end()) return digest;
+    if (core::note::knows(written, name, before)) return core::sha256_hex(before);
     refuse(path, "is not what 'vibrotrough deck' wrote there");
 }
 
 }  // namespace
 
+core::note::Digests parse_written(std::string_view text) {
+    Json const json = core::note::parse(text);
+    if (core::note::text(json, "format") != format_name) throw core::note::Fault("it is of another format");
+    return core::note::digests(json, "files");
+}
+
 void write_case(fs::path const& folder, std::map<std::string, std::string> const& files) {
-    Json const written = read_written(folder);
-    Json both = Json::object(), last = Json::object();
+    core::note::Digests const written = read_written(folder);
+    core::note::Digests both, last;
     for (auto const& [name, content] : files) {
-        last[name] = both[name] = Json::array({core::sha256_hex(content)});
-        std::string const before = replaceable(folder / name, content, written.value(name, Json::array()));
+        last[name] = both[name] = {core::sha256_hex(content)};
+        std::string const before = replaceable(folder / name, name, content, written);
         if (!before.empty()) both[name].push_back(before);
     }
     core::make_folder(folder);
-    auto const write_digests = [&](Json const& digests) {
+    auto const write_digests = [&](core::note::Digests const& digests) {
         core::replace_file(folder / written_file,
                            Json{{"format", format_name}, {"files", digests}}.dump(2) + "\n");
     };
@@ -76,10 +79,12 @@ bool is_as_written(fs::path const& folder, std::string const& name, std::string 
     std::error_code missing;
     fs::path const path = folder / written_file;
     if (!fs::is_regular_file(path, missing)) return false;
-    Json const json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
-    if (!json.is_object() || !json.value("files", Json()).is_object()) return false;
-    Json const known = json["files"].value(name, Json());
-    return known.is_array() && std::ranges::find(known, Json(core::sha256_hex(content))) != known.end();
+    try {
+        auto const written = parse_written(core::read_file(path, core::largest_note));
+        return core::note::knows(written, name, content);
+    } catch (core::note::Fault const&) {
+        return false;
+    }
 }
 
 void make_frame_folder(Deck const& deck, fs::path const& folder) {

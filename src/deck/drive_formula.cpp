@@ -1,7 +1,9 @@
 #include "deck/drive_formula.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@ namespace {
 
 constexpr std::size_t harmonics_per_line = 5;
 
-std::string sine(scenario::DriveTerm const& term, char const* angle) {
+std::string sine(scenario::DriveTerm const& term, std::string_view angle) {
     std::string argument =
         term.order == 1 ? fmt::format("v_{}", angle) : fmt::format("{}*v_{}", term.order, angle);
     // The engine does not accept a minus sign after a plus sign.
@@ -19,17 +21,28 @@ std::string sine(scenario::DriveTerm const& term, char const* angle) {
     return fmt::format("sin({})", argument);
 }
 
-DriveFormula write_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
+/// The sum of a series in lines of a few harmonics.
+/// @param factor  what the amplitude of a term is multiplied with
+template <typename Factor>
+DriveFormula write_sum(std::vector<scenario::DriveTerm> const& terms, std::string const& name,
+                       Factor const& factor) {
     DriveFormula formula;
     for (std::size_t first = 0; first < terms.size(); first += harmonics_per_line) {
-        Formula line{fmt::format("step_{}{}", axis, first / harmonics_per_line + 1), {}};
+        Formula line{fmt::format("{}{}", name, first / harmonics_per_line + 1), {}};
         for (std::size_t i = first; i < std::min(terms.size(), first + harmonics_per_line); ++i) {
-            line.expression += fmt::format("{}({})*({}-{})", i == first ? "" : "+", terms[i].amplitude,
-                                           sine(terms[i], "angle"), sine(terms[i], "angle_before"));
+            line.expression +=
+                fmt::format("{}({})*({})", i == first ? "" : "+", terms[i].amplitude, factor(terms[i]));
         }
         formula.speed += (first == 0 ? "v_" : "+v_") + line.name;
         formula.terms.push_back(std::move(line));
     }
+    return formula;
+}
+
+DriveFormula write_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis) {
+    DriveFormula formula = write_sum(terms, "step_" + axis, [](scenario::DriveTerm const& term) {
+        return sine(term, "angle") + "-" + sine(term, "angle_before");
+    });
     formula.speed = formula.terms.empty() ? "0" : fmt::format("({})/dt", formula.speed);
     return formula;
 }
@@ -46,6 +59,15 @@ DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms,
     auto const found = last.find(axis);
     if (found != last.end() && found->second.terms == terms) return found->second.formula;
     return last.insert_or_assign(axis, Last{terms, write_formula(terms, axis)}).first->second.formula;
+}
+
+DriveFormula displacement_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& name,
+                                  std::string const& angle) {
+    DriveFormula formula = write_sum(terms, name, [&](scenario::DriveTerm const& term) {
+        return fmt::format("{}-({})", sine(term, angle), std::sin(term.phase));
+    });
+    if (formula.terms.empty()) formula.speed = "0";
+    return formula;
 }
 
 }  // namespace vibrotrough::deck

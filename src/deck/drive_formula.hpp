@@ -26,4 +26,10 @@ struct DriveFormula {
 /// @return valid until this thread asks for another formula of the axis
 DriveFormula const& drive_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& axis);
 
+/// The displacement D = X - X(0) that belongs to a Fourier series X, in the member `speed` of the result, m.
+/// @param name   with which the names of the variables begin
+/// @param angle  name of the variable with the angle, without the prefix v_
+DriveFormula displacement_formula(std::vector<scenario::DriveTerm> const& terms, std::string const& name,
+                                  std::string const& angle);
+
 }  // namespace vibrotrough::deck

@@ -55,7 +55,8 @@ struct Experience {
 
 /// Whether the grains of a case may get a speed before the drive begins. Clumps start at rest: LIGGGHTS 3.8.0
 /// sets the velocities of their spheres, but not those of the bodies, which then begin as slowly as without
-/// the command. So do blocks, and layers that are shaken along the trough. An open trough begins empty.
+/// the command. So do blocks, layers that are shaken along the trough, and drives with stages, whose start is
+/// measured. An open trough begins empty.
 bool may_start_moving(scenario::Scenario const& scenario);
 
 /// Cycles of a packing in the first round of a case: 24, and as few as 18 when an interval is asked for that
@@ -66,7 +67,7 @@ bool may_start_moving(scenario::Scenario const& scenario);
 /// tests/measure/reference c is 0.43 at throw number 1.2 (8 to 24 cycles) and at most 0.22 at the five others
 /// (16 to 24 cycles), so that n = 1.35 / half_width leaves an error of at most a third of the half-width.
 /// Packings that start at rest need longer, and the interval of a single packing needs 20 cycles: both
-/// have 24.
+/// have 24. A drive with stages has all cycles of its stages.
 int first_round_cycles(scenario::Scenario const& scenario);
 
 /// The number of packings that a case will probably have: as many as make Student's interval as narrow as

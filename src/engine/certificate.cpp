@@ -1,6 +1,7 @@
 #include "engine/certificate.hpp"
 
 #include "core/hash.hpp"
+#include "core/note.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
@@ -12,15 +13,17 @@
 namespace vibrotrough::engine {
 namespace {
 
-using Json = nlohmann::ordered_json;
+namespace note = core::note;
+using note::Json;
 constexpr char const* format_name = "vibrotrough engine certificate";
 
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-double number(Json const& value) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+double known_or_nan(Json const& json, std::string const& key,
+                    double least = std::numeric_limits<double>::lowest()) {
+    return note::known_number(json, key, least).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 Json describe(ProbeResult const& probe) {
@@ -38,16 +41,16 @@ Json describe(ProbeResult const& probe) {
 }
 
 ProbeResult read_probe(Json const& json) {
-    return {json.at("name"),
-            json.at("question"),
-            json.at("source"),
-            json.at("unit"),
-            json.at("comparison") == "near" ? Comparison::near : Comparison::at_most,
-            number(json.at("expected")),
-            number(json.at("measured")),
-            number(json.at("tolerance")),
-            json.at("tolerance_reason"),
-            json.at("problem")};
+    return {note::line(json, "name"),
+            note::line(json, "question"),
+            note::line(json, "source"),
+            note::line(json, "unit"),
+            note::text(json, "comparison") == "near" ? Comparison::near : Comparison::at_most,
+            known_or_nan(json, "expected"),
+            known_or_nan(json, "measured"),
+            known_or_nan(json, "tolerance"),
+            note::line(json, "tolerance_reason"),
+            note::line(json, "problem")};
 }
 
 Json describe(EngineIdentity const& engine) {
@@ -100,27 +103,26 @@ std::string to_json(Certificate const& certificate) {
 }
 
 std::optional<Certificate> parse_certificate(std::string_view text) {
-    Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) return {};
     try {
-        std::string const digest = json.at("content_sha256");
+        Json json = note::parse(text);
+        std::string const digest = note::text(json, "content_sha256");
         json.erase("content_sha256");
-        if (json.at("format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
-        Json const& engine = json.at("engine");
+        if (note::text(json, "format") != format_name || core::sha256_hex(json.dump()) != digest) return {};
+        Json const& engine = note::object(json, "engine");
         Certificate certificate{
-            {core::bytes_of_utf8(engine.at("program").get<std::string>()), engine.at("program_sha256"),
-             core::bytes_of_utf8(engine.at("library").get<std::string>()), engine.at("library_sha256"),
-             engine.at("version"), engine.at("probes_sha256")},
-            json.at("program_version"),
-            json.at("git_commit"),
-            json.at("host"),
-            json.at("probed"),
-            number(json.at("grain_steps_per_cpu_second")),
-            json.at("speed_grains"),
+            {core::bytes_of_utf8(note::text(engine, "program")), note::text(engine, "program_sha256"),
+             core::bytes_of_utf8(note::text(engine, "library")), note::text(engine, "library_sha256"),
+             note::line(engine, "version"), note::text(engine, "probes_sha256")},
+            note::line(json, "program_version"),
+            note::line(json, "git_commit"),
+            note::line(json, "host"),
+            note::line(json, "probed"),
+            known_or_nan(json, "grain_steps_per_cpu_second", 0),
+            note::count(json, "speed_grains", 0),
             {}};
-        for (Json const& probe : json.at("probes")) certificate.probes.push_back(read_probe(probe));
+        for (Json const& probe : note::list(json, "probes")) certificate.probes.push_back(read_probe(probe));
         return certificate;
-    } catch (Json::exception const&) {
+    } catch (note::Fault const&) {
         return {};
     }
 }

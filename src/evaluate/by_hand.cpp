@@ -223,7 +223,7 @@ HandRun measure_by_hand(fs::path const& folder, fs::path const& scenario_file) {
         std::span const all(packing.efficiency);
         values.push_back({all.first(static_cast<std::size_t>(run.cycles_used)), start_of(packing.number)});
     }
-    run.estimate = measure::estimate_case(values, wanted_statistics(run.prepared.scenario));
+    run.estimate = estimate_of(values, run.prepared.scenario);
     run.outcome = outcome_of(run.estimate, run.prepared.scenario);
     for (HandPacking const& packing : run.packings) {
         if (!packing.fault) continue;

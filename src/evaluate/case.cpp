@@ -2,11 +2,14 @@
 
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
+#include "measure/mass_flow.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +20,7 @@ measure::Start start_of(int packing) {
 }
 
 core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario) {
+    if (!scenario.stages.empty()) return core::Outcome::finished;  // the stages say how long it is
     constexpr double rounding = 1 + 1e-12;  // the policy ends a case by the squares of the same numbers
     double const wanted = rounding * scenario.measure.half_width;
     bool const is_precise =
@@ -25,6 +29,27 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenar
     if (estimate.steadiness == measure::Steadiness::branching) return core::Outcome::bistable_or_slow;
     if (estimate.steadiness == measure::Steadiness::drifting) return core::Outcome::not_steady;
     return is_precise ? core::Outcome::finished : core::Outcome::not_precise;
+}
+
+measure::CaseEstimate estimate_of(std::vector<measure::PackingValues> const& packings,
+                                  scenario::Scenario const& scenario) {
+    if (scenario.stages.empty()) return measure::estimate_case(packings, wanted_statistics(scenario));
+    std::vector<double> const durations = cycle_durations(stages(scenario));
+    std::vector<double> means;
+    for (measure::PackingValues const& packing : packings) {
+        double sum = 0, time = 0;
+        for (std::size_t i = 0; i < packing.values.size(); ++i) {
+            sum += packing.values[i] * durations[i];
+            time += durations[i];
+        }
+        means.push_back(sum / time);
+    }
+    measure::CaseEstimate estimate{};
+    estimate.packings = static_cast<int>(packings.size());
+    estimate.measured = static_cast<int>(packings.front().values.size());
+    estimate.mean = std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(means.size());
+    estimate.half_width = measure::student_half_width(means, scenario.measure.confidence);
+    return estimate;
 }
 
 measure::Precision wanted_statistics(scenario::Scenario const& scenario) {
@@ -53,12 +78,13 @@ void add_estimate(store::CaseRecord& record) {
     std::vector<measure::PackingValues> values;
     for (store::PackingRecord const& packing : record.packings)
         values.push_back({packing.efficiency, start_of(static_cast<int>(values.size()) + 1)});
-    record.estimate = measure::estimate_case(values, wanted);
+    record.estimate = estimate_of(values, record.scenario);
     for (store::PackingRecord& packing : record.packings) {
         packing.estimate =
             measure::estimate_packing_after(record.estimate.discarded, packing.efficiency, wanted);
     }
     store::add_materials(record);
+    store::add_stages(record);
     record.outcome = outcome_of(record.estimate, record.scenario);
     if (!unsteady_flow(record).empty()) record.outcome = core::Outcome::not_steady;
     if (has_mean(record.outcome)) return;

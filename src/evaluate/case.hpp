@@ -5,6 +5,7 @@
 #include "store/case_record.hpp"
 
 #include <string>
+#include <vector>
 
 namespace vibrotrough::evaluate {
 
@@ -14,6 +15,12 @@ measure::Start start_of(int packing);
 /// What an estimate makes of a case: finished only when it is steady and its interval of statistics and
 /// numerics together is as narrow as measure.half_width asks.
 core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario);
+
+/// The velocity efficiency of a case from the cycles of its packings. With stages it is the mean over the
+/// time of all stages, relative to the omega r cos(beta) of [trough], with Student's interval over the
+/// packings.
+measure::CaseEstimate estimate_of(std::vector<measure::PackingValues> const& packings,
+                                  scenario::Scenario const& scenario);
 
 /// The precision wanted of the packings' statistics, see prepare::statistics_plan().
 measure::Precision wanted_statistics(scenario::Scenario const& scenario);

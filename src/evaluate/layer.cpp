@@ -63,7 +63,8 @@ void add_friction_numbers(measure::LayerMotion& motion, prepare::PreparedCase co
 measure::PhaseSeries packing_phases(prepare::PreparedCase const& prepared, core::TextFile const& file) {
     scenario::Scenario const& s = prepared.scenario;
     auto series = measure::parse_phases(file, prepared.time.steps_per_cycle);
-    if (!is_clump(s.grains) && s.layer.block != scenario::Block::plate) return series;
+    bool const is_body = is_clump(s.grains) || s.layer.block == scenario::Block::plate;
+    if (!is_body || !prepared.stages.empty()) return series;
     return measure::with_integrated_positions(std::move(series),
                                               1 / (s.trough.frequency * measure::PhaseSeries::per_cycle));
 }
@@ -80,6 +81,7 @@ void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& pr
     // Damaged ones are noticed also where they are not needed.
     auto const profiles = measure::parse_snapshots(outputs.snapshots, outputs.folder, "profiles");
     auto const surface = measure::parse_snapshots(outputs.snapshots, outputs.folder, "surface");
+    if (!prepared.stages.empty()) return;  // there is no cycle that repeats
     record.motion = measure::layer_motion(series, facts);
     if (record.motion.curves.phase.empty()) return;                               // too few cycles to look at
     if (prepared.domain.has_mesh()) record.motion.largest_floor_overlap.reset();  // its floor is not a plane

@@ -26,8 +26,21 @@ constexpr double balance_tolerance = 0.002;
 /// A layer faster than so many times the trough has blown up.
 constexpr double largest_speed_ratio = 100;
 
+/// The mean velocity in each cycle over the omega r cos(beta) of [trough]: the cycles of stages differ in
+/// their durations.
+std::vector<double> efficiency_in_stages(prepare::PreparedCase const& prepared,
+                                         measure::CycleSeries const& series) {
+    std::vector<double> const durations = cycle_durations(prepared.stages);
+    if (prepared.clump) return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
+    std::vector<double> efficiency;
+    for (std::size_t i = 0; i + 1 < series.x.size() && i < durations.size(); ++i)
+        efficiency.push_back((series.x[i + 1] - series.x[i]) / (durations[i] * prepared.velocity_scale));
+    return efficiency;
+}
+
 std::vector<double> efficiency_of(prepare::PreparedCase const& prepared, measure::CycleSeries const& series) {
     scenario::Scenario const& s = prepared.scenario;
+    if (!prepared.stages.empty()) return efficiency_in_stages(prepared, series);
     // The engine does not unwrap the positions of rigid bodies, and the grains of an open trough come and go.
     if (prepared.clump || prepared.domain.open)
         return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
@@ -100,7 +113,9 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
                                                        phases.cycles(), cycles.cycles())};
     }
     double const carried =
-        measure::weight_by_momentum(cycles, prepared.mass, 1 / prepared.scenario.trough.frequency);
+        prepared.stages.empty()
+            ? measure::weight_by_momentum(cycles, prepared.mass, 1 / prepared.scenario.trough.frequency)
+            : measure::weight_by_momentum(cycles, prepared.mass, cycle_durations(prepared.stages));
     if (std::abs(carried - prepared.weight) <=
         balance_tolerance * prepared.weight +
             force_at_the_ends(phases) / std::max(1.0, static_cast<double>(phases.lines())))
@@ -199,7 +214,8 @@ std::optional<EvaluatedPacking> read_packing(prepare::PreparedCase const& prepar
 RunExtent extent_of_run(prepare::PreparedCase const& prepared, fs::path const& packing_folder) {
     RunExtent extent;
     double const largest_speed =
-        largest_speed_ratio * prepared.angular_frequency * prepared.scenario.trough.amplitude;
+        largest_speed_ratio *
+        std::max(prepared.angular_frequency * prepared.scenario.trough.amplitude, prepared.largest_speed);
     int lines = 0;
     try {
         std::string const text = core::read_file(packing_folder / "cycles.csv");

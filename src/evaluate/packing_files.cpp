@@ -1,17 +1,16 @@
 #include "evaluate/packing_files.hpp"
 
 #include "core/hash.hpp"
+#include "core/note.hpp"
 
 #include <algorithm>
-#include <string_view>
-
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::evaluate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+namespace note = core::note;
+using note::Json;
 
 constexpr char const* marker_file = "packing.json";
 
@@ -65,28 +64,32 @@ bool has_marker(fs::path const& packing_folder) {
     return fs::is_regular_file(packing_folder / marker_file, missing);
 }
 
+PackingMarker parse_marker(std::string_view text, PackingFiles const& files) {
+    Json const json = note::parse(text);
+    if (note::text(json, "cycles_sha256") != files.cycles_sha256 ||
+        note::text(json, "layer_sha256") != files.layer_sha256)
+        throw note::Fault("it belongs to other files");
+    double const wall_time = note::number(json, "wall_time", 0);
+    PackingMarker marker{wall_time,
+                         note::line(json, "started"),
+                         note::line(json, "finished"),
+                         note::line(json, "program_version"),
+                         note::line(json, "git_commit"),
+                         note::line(json, "host"),
+                         note::text_if_any(json, "engine_certificate"),
+                         json.contains("core_time") ? note::number(json, "core_time", 0) : wall_time,
+                         {},
+                         note::text_if_any(json, "rolling_sha256"),
+                         note::text_if_any(json, "deck_sha256")};
+    if (json.contains("start_efficiency")) marker.start_efficiency = note::number(json, "start_efficiency");
+    return marker;
+}
+
 std::optional<PackingMarker> read_marker(PackingFiles const& files) {
     if (files.cycles_sha256.empty() || !has_marker(files.folder)) return {};
-    Json const json =
-        Json::parse(core::read_file(files.folder / marker_file, core::largest_note), nullptr, false);
     try {
-        if (!json.is_object() || json.at("cycles_sha256") != files.cycles_sha256 ||
-            json.at("layer_sha256") != files.layer_sha256)
-            return {};
-        return PackingMarker{json.at("wall_time"),
-                             json.at("started"),
-                             json.at("finished"),
-                             json.at("program_version"),
-                             json.at("git_commit"),
-                             json.at("host"),
-                             json.value("engine_certificate", std::string()),
-                             json.value("core_time", json.at("wall_time").get<double>()),
-                             json.contains("start_efficiency")
-                                 ? std::optional(json.at("start_efficiency").get<double>())
-                                 : std::nullopt,
-                             json.value("rolling_sha256", std::string()),
-                             json.value("deck_sha256", std::string())};
-    } catch (Json::exception const&) {
+        return parse_marker(core::read_file(files.folder / marker_file, core::largest_note), files);
+    } catch (note::Fault const&) {
         return {};
     }
 }
@@ -96,7 +99,7 @@ std::optional<PackingMarker> read_marker(fs::path const& packing_folder) {
     return read_marker(read_packing_files(packing_folder));
 }
 
-void write_marker(PackingFiles const& files, PackingMarker const& marker) {
+std::string to_json(PackingFiles const& files, PackingMarker const& marker) {
     Json json{{"wall_time", marker.wall_time},
               {"core_time", marker.core_time},
               {"started", marker.started},
@@ -110,7 +113,11 @@ void write_marker(PackingFiles const& files, PackingMarker const& marker) {
     if (!files.rolling_sha256.empty()) json["rolling_sha256"] = files.rolling_sha256;
     if (!marker.deck_sha256.empty()) json["deck_sha256"] = marker.deck_sha256;
     if (marker.start_efficiency) json["start_efficiency"] = *marker.start_efficiency;
-    core::write_file_atomically(files.folder / marker_file, json.dump(2) + "\n");
+    return json.dump(2) + "\n";
+}
+
+void write_marker(PackingFiles const& files, PackingMarker const& marker) {
+    core::write_file_atomically(files.folder / marker_file, to_json(files, marker));
 }
 
 void remove_marker(fs::path const& packing_folder) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vibrotrough::evaluate {
@@ -40,6 +41,12 @@ struct PackingMarker {
 
 /// Whether the folder has a marker, whatever it is worth.
 bool has_marker(std::filesystem::path const& packing_folder);
+
+/// packing.json. @throws core::note::Fault when the text is not a marker of these files
+PackingMarker parse_marker(std::string_view text, PackingFiles const& files);
+
+/// The text of packing.json.
+std::string to_json(PackingFiles const& files, PackingMarker const& marker);
 
 /// The packing's marker, if there is one and the files are still what they were when it was written.
 std::optional<PackingMarker> read_marker(PackingFiles const& files);

@@ -3,6 +3,7 @@
 #include "campaign/state/result_summary.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "learn/notes.hpp"
 #include "scenario/reader/design.hpp"
 
 #include <algorithm>
@@ -44,12 +45,11 @@ std::map<std::string, double> read_wanted_half_widths(std::filesystem::path cons
     auto const file = folder / "learn.json";
     if (!std::filesystem::exists(file)) return {};
     try {
-        return nlohmann::json::parse(core::read_file(file))
-            .at("half_widths")
-            .get<std::map<std::string, double>>();
-    } catch (nlohmann::json::exception const&) {
-        throw core::InputError(fmt::format(
-            "{}: the file is damaged; remove it, and learning begins its choice anew", file.string()));
+        return parse_half_widths(core::read_file(file, core::largest_note));
+    } catch (core::note::Fault const& fault) {
+        throw core::InputError(
+            fmt::format("{} is damaged; remove it, and learning begins its choice anew ({})", file.string(),
+                        fault.what()));
     }
 }
 

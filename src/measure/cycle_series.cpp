@@ -108,4 +108,12 @@ double weight_by_momentum(CycleSeries const& series, double mass, double period)
     return force - mass * (series.vz.back() - series.vz.front()) / (cycles * period);
 }
 
+double weight_by_momentum(CycleSeries const& series, double mass, std::span<double const> durations) {
+    auto const cycles = series.normal_force.size();
+    double const time = std::accumulate(durations.begin(), durations.begin() + series.cycles(), 0.0);
+    double impulse = 0;
+    for (std::size_t i = 0; i < cycles; ++i) impulse += series.normal_force[i] * durations[i];
+    return (impulse - mass * (series.vz.back() - series.vz.front())) / time;
+}
+
 }  // namespace vibrotrough::measure

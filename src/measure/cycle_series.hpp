@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace vibrotrough::measure {
@@ -72,5 +73,8 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles);
 /// @param mass    kg, of the layer
 /// @param period  s, of a cycle
 double weight_by_momentum(CycleSeries const& series, double mass, double period);
+
+/// The same for cycles of different durations, s.
+double weight_by_momentum(CycleSeries const& series, double mass, std::span<double const> durations);
 
 }  // namespace vibrotrough::measure

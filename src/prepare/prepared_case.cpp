@@ -50,14 +50,58 @@ double in_powers_of_four(double unit, double needed) {
     return unit;
 }
 
+/// Takes the bounds of another drive into account.
+void add_bounds(PreparedCase& c, scenario::Trough const& trough) {
+    scenario::DriveMotion const motion = drive_motion(trough);
+    c.largest_speed = std::max(c.largest_speed, largest_speed(motion, angular_frequency(trough)));
+    c.largest_excursion = std::max(c.largest_excursion, largest_excursion(motion));
+    c.highest_order = std::max(c.highest_order, highest_order(motion));
+}
+
+/// In a ramp the displacement is at most that of either stage, at the higher of the two frequencies. Its
+/// change with the ramp itself adds the difference of the displacements in the time of the ramp.
+void add_ramp(PreparedCase& c, scenario::Stage const& stage, double excursion_before) {
+    scenario::Trough faster = stage.trough;
+    faster.frequency = std::max(stage.first_frequency, stage.trough.frequency);
+    add_bounds(c, faster);
+    double const change = 2 * (excursion_before + largest_excursion(drive_motion(stage.trough)));
+    c.largest_speed =
+        std::max(c.largest_speed, largest_speed(drive_motion(stage.trough), angular_frequency(faster)) +
+                                      change / stage.ramp_time());
+}
+
 void prepare_drive(PreparedCase& c) {
     scenario::Trough const& trough = c.scenario.trough;
+    c.stages = stages(c.scenario);
     c.motion = drive_motion(trough);
     c.throw_number = throw_number(trough);
     c.machine_number = machine_number(trough);
     c.angular_frequency = angular_frequency(trough);
     c.velocity_scale = velocity_scale(trough);
-    c.largest_speed = largest_speed(c.motion, c.angular_frequency);
+    c.largest_speed = c.largest_excursion = c.highest_order = 0;
+    if (c.stages.empty()) add_bounds(c, trough);
+    double excursion = 0;
+    for (scenario::Stage const& stage : c.stages) {
+        add_bounds(c, stage.trough);
+        if (stage.ramp_cycles > 0) add_ramp(c, stage, excursion);
+        excursion = stage.standstill ? 0 : largest_excursion(drive_motion(stage.trough));
+    }
+}
+
+/// The scenario with the drive of one stage, without end.
+scenario::Scenario with_drive_of(scenario::Scenario scenario, scenario::Stage const& stage) {
+    scenario.trough = stage.trough;
+    scenario.stages.clear();
+    return scenario;
+}
+
+/// The lowest modulus that is stiff enough in all stages.
+double modulus_for(PreparedCase const& c, double error) {
+    if (c.stages.empty()) return stiff_enough(c.scenario, error);
+    double modulus = 0;
+    for (scenario::Stage const& stage : c.stages)
+        modulus = std::max(modulus, stiff_enough(with_drive_of(c.scenario, stage), error));
+    return modulus;
 }
 
 void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
@@ -87,8 +131,7 @@ void prepare_modulus(PreparedCase& c) {
     bool const block = c.scenario.layer.block != scenario::Block::none;
     std::optional<double>& modulus = c.scenario.grains.youngs_modulus;
     c.modulus_chosen = !modulus;
-    if (!modulus)
-        modulus = block ? modulus_of_blocks : stiff_enough(c.scenario, share * c.scenario.measure.half_width);
+    if (!modulus) modulus = block ? modulus_of_blocks : modulus_for(c, share * c.scenario.measure.half_width);
     for (scenario::Material& material : c.materials) material.grains.youngs_modulus = modulus;
     c.numerics = numerical_errors(c.scenario);
 }
@@ -113,10 +156,19 @@ void prepare_time(PreparedCase& c) {
     scenario::Scenario const& s = c.scenario;
     // The spheres of a plate have the diameter of the grains, so only clumps need a radius of their own.
     double const radius = is_clump(s.grains) ? c.clump->smallest_radius : smallest_diameter(s) / 2;
-    StepLimits const limits{radius, c.largest_speed, highest_order(c.motion)};
+    StepLimits const limits{radius, c.largest_speed, c.highest_order};
     c.settle_speed = settling_speed(c.fill_top);
     c.settle_time_step = settling_time_step(s, limits, c.fill_top);
-    c.time = choose_time_step(s, limits);
+    if (c.stages.empty()) {
+        c.time = choose_time_step(s, limits);
+        return;
+    }
+    std::vector<TimeGrid> grids;
+    for (scenario::Stage const& stage : c.stages)
+        grids.push_back(choose_time_step(with_drive_of(s, stage), limits));
+    int const steps = std::ranges::max(grids, {}, &TimeGrid::steps_per_cycle).steps_per_cycle;
+    for (TimeGrid& grid : grids) grid = with_steps(grid, steps);
+    c.time = std::ranges::max(grids, {}, &TimeGrid::time_step);
 }
 
 /// The box is so high that it holds a grain at ten times the height that a throw with the trough's largest
@@ -124,7 +176,7 @@ void prepare_time(PreparedCase& c) {
 void prepare_box(PreparedCase& c) {
     double const flight =
         c.largest_speed * c.largest_speed / (2 * scenario::gravity * std::cos(c.scenario.trough.inclination));
-    double const excursion = largest_excursion(c.motion);
+    double const excursion = c.largest_excursion;
     c.box_top = in_powers_of_four(8 * (c.fill_top + 5 * c.largest_extent),
                                   c.fill_top + 10 * flight + 5 * c.largest_extent);
     c.box_bottom = -in_powers_of_four(4 * c.largest_extent, 2 * (excursion + c.largest_extent));
@@ -167,6 +219,19 @@ PreparedCase CasePreparer::prepare(scenario::Scenario const& scenario) {
     prepare_box(prepared);
     prepared.point_mass = point_mass_inputs(prepared.scenario, prepared.motion, prepared.layer_height);
     return prepared;
+}
+
+PreparedCase of_stage(PreparedCase const& prepared, scenario::Stage const& stage) {
+    PreparedCase one = prepared;
+    one.scenario = with_drive_of(prepared.scenario, stage);
+    prepare_drive(one);
+    TimeGrid const& time = prepared.time;
+    double const longer = 1 / (stage.trough.frequency * time.steps_per_cycle * time.time_step);
+    one.time = {longer * time.time_step, time.steps_per_cycle, longer * time.rayleigh_fraction,
+                longer * time.contact_fraction, time.impact_speed};
+    one.numerics = numerical_errors(one.scenario);
+    one.point_mass = point_mass_inputs(one.scenario, one.motion, one.layer_height);
+    return one;
 }
 
 PreparedCase prepare_case(scenario::Scenario const& scenario) {

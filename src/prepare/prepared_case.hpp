@@ -24,13 +24,16 @@ struct ClassCount {
 struct PreparedCase {
     scenario::Scenario scenario;  ///< the case from which the rest follows
 
-    // Drive.
-    scenario::DriveMotion motion;  ///< of the trough, as Fourier series
-    double throw_number;           ///< Gamma, as given where it was given
-    double machine_number;         ///< K, as given where it was given
-    double angular_frequency;      ///< omega, rad/s
-    double velocity_scale;         ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
-    double largest_speed;          ///< m/s, upper bound of the speed of the trough
+    // Drive. That of [trough], but for what is said of all stages.
+    std::vector<scenario::Stage> stages;  ///< none: the drive has no end
+    scenario::DriveMotion motion;         ///< of the trough, as Fourier series
+    double throw_number;                  ///< Gamma, as given where it was given
+    double machine_number;                ///< K, as given where it was given
+    double angular_frequency;             ///< omega, rad/s
+    double velocity_scale;                ///< omega r cos(beta), m/s: the speed at velocity efficiency 1
+    double largest_speed;                 ///< m/s, upper bound of the speed of the trough, in all stages
+    double largest_excursion;  ///< m, upper bound of its distance from its mean position, in all stages
+    int highest_order;         ///< of the harmonics of its motion, in all stages
 
     // Grains and layer.
     std::vector<scenario::Material> materials;  ///< that of [grains] first
@@ -51,7 +54,9 @@ struct PreparedCase {
     NumericalErrors numerics;  ///< bounds of the errors of the efficiency by softness, box and time step
 
     // Time.
-    TimeGrid time;            ///< of the run with the moving trough
+    /// Of the run with the moving trough. All stages have the same number of steps per cycle, which is enough
+    /// for each of them; the time step is that of the slowest.
+    TimeGrid time;
     double settle_time_step;  ///< s, while the packing settles
     double settle_speed;      ///< m/s, the fastest impact that is expected while the packing settles
 
@@ -93,6 +98,10 @@ class CasePreparer {
   private:
     ClumpMaker clumps_;
 };
+
+/// A stage of a case as a case of its own, whose drive has no end: for the checks and theories of a steady
+/// drive. @pre the trough moves in this stage
+PreparedCase of_stage(PreparedCase const& prepared, scenario::Stage const& stage);
 
 /// Prepares a single case. @throws core::InputError as CasePreparer::prepare
 PreparedCase prepare_case(scenario::Scenario const& scenario);

@@ -110,6 +110,12 @@ TimeGrid choose_time_step(scenario::Scenario const& s, StepLimits const& limits)
     return {time_step, static_cast<int>(steps), time_step / rayleigh, time_step / contact, speed};
 }
 
+TimeGrid with_steps(TimeGrid grid, int steps_per_cycle) {
+    double const ratio = static_cast<double>(grid.steps_per_cycle) / steps_per_cycle;
+    return {ratio * grid.time_step, steps_per_cycle, ratio * grid.rayleigh_fraction,
+            ratio * grid.contact_fraction, grid.impact_speed};
+}
+
 double settling_speed(double fall_height) {
     return std::sqrt(2 * scenario::gravity * fall_height);
 }

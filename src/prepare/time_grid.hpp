@@ -13,6 +13,9 @@ struct TimeGrid {
     double impact_speed;       ///< m/s, the fastest impact that is expected
 };
 
+/// The same cycle with another number of steps.
+TimeGrid with_steps(TimeGrid grid, int steps_per_cycle);
+
 /// Number of phases of a cycle at which the run is sampled.
 constexpr int phases_per_cycle = 100;
 

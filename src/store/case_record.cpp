@@ -8,6 +8,7 @@ namespace vibrotrough::store {
 
 std::optional<double> CaseRecord::numerical_error() const {
     if (!estimate.mean) return {};
+    if (!scenario.stages.empty()) return {};  // they are known for steady drives
     if (studied) return studied->error;
     if (scenario.layer.block != scenario::Block::none) return {};
     return prepare::numerical_errors(scenario).total();

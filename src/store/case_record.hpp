@@ -37,7 +37,10 @@ struct PackingRecord {
     measure::OpenFlow open;               ///< of an open trough
     std::optional<double> segregation;    ///< of the first of [[materials]], see measure/segregation.hpp
     std::optional<double> material_lead;  ///< its velocity efficiency less that of the grains
-    std::string rolling_problem;          ///< why `rolling` is empty although it was asked for; else empty
+    std::optional<double> stage_speed;    ///< m/s, see store/stage_quantities.hpp
+    std::optional<double> time_to_speed;  ///< s, pseudo-value of the packing
+    std::optional<double> stopping_distance;  ///< m
+    std::string rolling_problem;  ///< why `rolling` is empty although it was asked for; else empty
 };
 
 /// Where and with what a result was made.

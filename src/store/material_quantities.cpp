@@ -80,15 +80,6 @@ OptionalNumber lead() {
     return packing_field([](auto& packing) -> auto& { return packing.material_lead; });
 }
 
-/// Half-width of the interval of a number of the packings; none with fewer than two.
-template <OptionalNumber (*number)()>
-std::optional<double> half_width_over_packings(Case record) {
-    std::vector<double> values;
-    for (PackingRecord const& packing : record.packings)
-        if (auto const& value = number()(packing)) values.push_back(*value);
-    return measure::student_half_width(values, record.scenario.measure.confidence);
-}
-
 /// A column with one number for each material.
 std::vector<double> numbers(std::vector<scenario::Material> const& all,
                             double (*of)(scenario::Material const&)) {
@@ -247,7 +238,7 @@ std::vector<Quantity> material_quantities() {
         {"segregation_half_width",
          "1",
          "Half-width of the interval of segregation, Student's t over the packings",
-         &half_width_over_packings<segregation>,
+         +[](Case c) { return half_width_over_packings(c, segregation()); },
          OverPackings::nothing,
          {{.place = 910,
            .format = "{:.3f}",
@@ -264,7 +255,7 @@ std::vector<Quantity> material_quantities() {
         {"material_lead_half_width",
          "1",
          "Half-width of the interval of material_lead, Student's t over the packings",
-         &half_width_over_packings<lead>,
+         +[](Case c) { return half_width_over_packings(c, lead()); },
          OverPackings::nothing,
          {{.place = 930, .format = "{:.3f}", .position = 268, .report = ReportView{"\u00b1 lead"}}}},
     };

@@ -1,5 +1,7 @@
 #include "store/quantity.hpp"
 
+#include "measure/mass_flow.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -71,6 +73,12 @@ std::string Quantity::meaning_of_case() const {
 std::optional<double> mean_over_packings(CaseRecord const& record,
                                          Field<PackingRecord, std::optional<double>> const& number) {
     return combined(known_values(record.packings, number), OverPackings::mean);
+}
+
+std::optional<double> half_width_over_packings(CaseRecord const& record,
+                                               Field<PackingRecord, std::optional<double>> const& number) {
+    return measure::student_half_width(known_values(record.packings, number),
+                                       record.scenario.measure.confidence);
 }
 
 }  // namespace vibrotrough::store

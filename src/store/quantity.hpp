@@ -150,4 +150,8 @@ void for_packings(Quantity const& quantity, Function const& function) {
 std::optional<double> mean_over_packings(CaseRecord const& record,
                                          Field<PackingRecord, std::optional<double>> const& number);
 
+/// Half-width of Student's interval of that mean at measure.confidence; none with fewer than two values.
+std::optional<double> half_width_over_packings(CaseRecord const& record,
+                                               Field<PackingRecord, std::optional<double>> const& number);
+
 }  // namespace vibrotrough::store

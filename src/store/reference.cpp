@@ -3,6 +3,7 @@
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,8 @@ void add_packings(std::vector<NameInFile>& names) {
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
     for (Entry const& entry : segregation_entries())
         add(names, "segregation/", real_type, "cycles + 1", entry);
+    for (Entry const& entry : stages_entries()) add(names, "stages/", real_type, "stages", entry);
+    for (Entry const& entry : stage_cycles_entries()) add(names, "stage_cycles/", real_type, "cycles", entry);
     for (MassFlowColumn const& column : mass_flow_columns())
         add(names, "mass_flow/", real_type, "slabs", column.entry);
 }

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/note.hpp"
 #include "core/version.hpp"
 #include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -9,6 +10,7 @@
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <map>
 #include <span>
@@ -194,9 +196,9 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         check_series(record.packings[i], i);
     }
     scenario::FileSource source;
-    auto const files = nlohmann::json::parse(text(scenario_files_entry()));
+    auto const files = core::note::parse(text(scenario_files_entry()));
     for (auto const& [name, content] : files.items())
-        source.files.push_back({name, content.get<std::string>()});
+        source.files.push_back({name, core::note::text(files, name)});
     record.scenario =
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
     for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
@@ -264,6 +266,8 @@ std::string result_bytes(CaseRecord const& record) {
     file.table("mass_flow", columns, Rank::array);
     add_case_table(file, "materials", materials_entries(), materials_table(record));
     add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
+    add_case_table(file, "stages", stages_entries(), stages_table(record));
+    add_case_table(file, "stage_cycles", stage_cycles_entries(), stage_cycles_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
@@ -328,10 +332,10 @@ CaseRecord read_result(std::filesystem::path const& path) {
         Hdf5MemoryFileReader const file(std::move(bytes));
         check_kind(file, path);
         return read_record(file, path);
-    } catch (nlohmann::json::exception const&) {
+    } catch (core::note::Fault const& fault) {
         throw core::InputError(
-            fmt::format("{} is damaged (its scenario_files are not JSON); delete it and run its case again",
-                        path.string()));
+            fmt::format("{} is damaged (its scenario_files: {}); delete it and run its case again",
+                        path.string(), fault.what()));
     } catch (Hdf5Error const& error) {
         throw core::InputError(
             fmt::format("{} is damaged ({}); delete it and run its case again", path.string(), error.what()));

@@ -25,8 +25,8 @@ class FirstError {
         index_ = index;
         message_ = message;
     }
-    void raise() const {
-        if (found_) throw std::invalid_argument("point " + std::to_string(index_ + 1) + ": " + message_);
+    void raise(std::size_t first) const {
+        if (found_) throw std::invalid_argument("point " + std::to_string(index_ + first) + ": " + message_);
     }
 
   private:
@@ -38,8 +38,8 @@ class FirstError {
 
 }  // namespace
 
-BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs,
-                        std::optional<RollingLaw> const& rolling) {
+BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs, std::optional<RollingLaw> const& rolling,
+                        std::size_t first) {
     static_cast<void>(PointSolver(rolling));  // its constants are checked once, not in a thread
     BatchResult answer{std::vector<MapPoint>(inputs.size()), 0};
     FirstError first_error;
@@ -60,7 +60,7 @@ BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs,
             }
         });
     });
-    first_error.raise();
+    first_error.raise(first);
     auto const count = static_cast<double>(inputs.empty() ? 1 : inputs.size());
     answer.cpu_seconds_per_solution = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count;
     return answer;

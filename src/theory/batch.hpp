@@ -12,10 +12,12 @@ struct BatchResult {
     double cpu_seconds_per_solution;  ///< CPU time of all threads over the number of points, s
 };
 
-/// Solves many independent points, each with a PointSolver, on `jobs` threads (0: all cores).
-/// @throws std::invalid_argument naming the first point (counted from 1) whose inputs are incomplete or out
-/// of range, or a constant of the law is; PhaseError when a point cannot be solved
+/// Solves many independent points, each with a PointSolver, on `jobs` threads (0: all cores). A point whose
+/// phases cannot be solved gets NaN.
+/// @param first  number of the first point in messages, where a batch is solved in parts
+/// @throws std::invalid_argument naming the first point whose inputs are incomplete or out of range, or a
+/// constant of the law is
 BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs,
-                        std::optional<RollingLaw> const& rolling = {});
+                        std::optional<RollingLaw> const& rolling = {}, std::size_t first = 1);
 
 }  // namespace vibrotrough::theory

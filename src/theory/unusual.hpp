@@ -9,18 +9,18 @@
 
 namespace vibrotrough::theory {
 
-inline constexpr double largest_usual_frequency = 120;   ///< Hz; magnets at twice the mains' 60 Hz
-inline constexpr double smallest_usual_frequency = 1;    ///< Hz
-inline constexpr double largest_usual_amplitude = 0.05;  ///< m
-inline constexpr double largest_usual_machine_number = 9;
-inline constexpr double largest_usual_friction = 1.5;
+inline constexpr double largest_usual_frequency = 120;     ///< Hz; magnets at twice the mains' 60 Hz
+inline constexpr double smallest_usual_frequency = 1;      ///< Hz
+inline constexpr double largest_usual_amplitude = 0.05;    ///< m
+inline constexpr double largest_usual_machine_number = 9;  ///< K
+inline constexpr double largest_usual_friction = 1.5;      ///< of the mass on the trough
 
 /// What is known of a motion; nothing where an input was not given.
 struct MachineNumbers {
     std::optional<double> frequency;       ///< Hz
     std::optional<double> amplitude;       ///< m, half the stroke
     std::optional<double> machine_number;  ///< K = omega^2 r / g
-    std::optional<double> friction;
+    std::optional<double> friction;        ///< mu
 };
 
 /// A sentence for each number that is unusual: what is usual, and which slip would explain it.

@@ -89,9 +89,12 @@ std::vector<TroughPosition> match(std::vector<Dump>& dumps, fs::path const& tabl
 constexpr double motion_tolerance = 0.05;
 
 void check_motion(FrameSource const& source, TroughPosition const& position) {
-    TroughState const trough = trough_state(source, static_cast<double>(position.step) * source.time_step);
+    TroughState const trough = trough_state(source, source.time_of(position.step));
     double const miss = std::hypot(position.x - trough.x, position.z - trough.z);
-    if (miss > motion_tolerance * largest_excursion(source.drive)) {
+    double excursion = largest_excursion(source.drive);
+    for (scenario::DrivePart const& part : source.parts)
+        excursion = std::max(excursion, largest_excursion(part.to));
+    if (miss > motion_tolerance * excursion) {
         throw core::InputError(
             fmt::format("{}: at step {} the trough is {:.3g} m away from its position according to the drive "
                         "(the frames belong to another drive); run the case again",
@@ -113,7 +116,7 @@ class FrameExport {
     }
 
     void write(GrainFrame& frame, TroughPosition const& position) {
-        double const time = static_cast<double>(frame.step) * source_.time_step;
+        double const time = source_.time_of(frame.step);
         std::string const name = fmt::format("{:06}.vtp", files_.size());
         double const surface = trough_.bounds()[4] + position.z;
         grains_.write(target_ / "grains" / name, frame, surface, time);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenario/model/drive.hpp"
+#include "scenario/model/stage_motion.hpp"
 #include "theory/conveyor.hpp"
 #include "view/colour_scales.hpp"
 
@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vibrotrough::view {
 
@@ -32,7 +33,12 @@ struct FrameSource {
     std::optional<TheoryMotion> point_mass = {};  ///< nothing when the theory has no periodic motion
     std::string caption;  ///< one line shown in the scene, without Greek letters (ParaView cannot show them);
                           ///< may be empty
-    Colour colour = Colour::velocity;  ///< what the scene colours the grains by
+    Colour colour = Colour::velocity;             ///< what the scene colours the grains by
+    std::vector<scenario::DrivePart> parts = {};  ///< of a drive with stages, in place of `drive`
+    int steps_per_cycle = 0;                      ///< of the engine, when there are parts
+
+    /// The time of a step of the engine, s.
+    double time_of(long step) const;
 };
 
 /// The files that an export wrote.

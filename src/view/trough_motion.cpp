@@ -9,6 +9,12 @@
 #include <fmt/format.h>
 
 namespace vibrotrough::view {
+
+double FrameSource::time_of(long step) const {
+    if (!parts.empty()) return time_of_step(parts, steps_per_cycle, step);
+    return static_cast<double>(step) * time_step;
+}
+
 namespace {
 
 constexpr std::array<std::string_view, 3> columns{"step", "trough_x", "trough_z"};
@@ -17,6 +23,7 @@ constexpr double largest_step = 9e15;  // whole numbers up to here are exact
 }  // namespace
 
 TroughState trough_state(FrameSource const& source, double time) {
+    if (!source.parts.empty()) return trough_at(source.parts, time);
     double const angle = source.angular_frequency * time;
     TroughState state{};
     auto const add = [&](std::vector<scenario::DriveTerm> const& terms, double& place, double& speed) {

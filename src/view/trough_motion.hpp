@@ -15,10 +15,7 @@ struct TroughPosition {
 };
 
 /// The position and velocity of the trough according to the drive.
-struct TroughState {
-    double x, z;    ///< m, displacement from t = 0
-    double vx, vz;  ///< m/s
-};
+using scenario::TroughState;
 
 /// @param time  s, since the start of the drive
 TroughState trough_state(FrameSource const& source, double time);

@@ -18,6 +18,7 @@ ROADS = (
     ("engine/run_report.cpp", "namespace vibrotrough", "void f() { std::ifstream file(path); }", "opens files past core"),
     ("view/scene.cpp", "namespace vibrotrough", 'void f() { fopen("x", "r"); }', "opens files past core"),
     ("campaign/execute/executors.cpp", "namespace vibrotrough", "void f() { ::open(path, 0); }", "opens files past core"),
+    ("learn/speeds.cpp", "namespace vibrotrough", "void f() { auto json = nlohmann::json::parse(text); }", "reads JSON past core"),
     ("app/commands/work.cpp", "namespace vibrotrough", "// a comment on bp::child and std::ifstream is no road", ""),
 )  # fmt: skip
 

@@ -7,6 +7,7 @@ usage: roads.py SOURCE_FOLDER
   gate: run_campaign() and work(), which call check_foreign_commands() before anything else.
 - Outside of core/, only the files of OPENERS open files in another way than through core (open_to_read(), read_file(), ParentFolder), where
   nothing is waited for and only regular files are taken.
+- JSON is read by core/note.cpp, which limits its depth, and by the files of NOTE_READERS.
 
 Comments do not count. Exit code 1 and one line for each road that is not known; a row of the tables that no road needs is told, too.
 """
@@ -52,6 +53,12 @@ OPENERS = {
     "store/hdf5_memory_file.cpp": "a file in memory",
 }
 
+NOTE = re.compile(r"\b[jJ]son::(?:parse|sax_parse)\s*\(|>>\s*json\b")
+NOTE_READERS = {
+    "core/note.cpp": "the gate, which limits the depth",
+    "scenario/reader/key_schema.cpp": "the program's own examples of keys",
+}
+
 
 def code_of(path: pathlib.Path) -> str:
     """The file without comments and texts."""
@@ -84,6 +91,7 @@ def wrong_roads(source: pathlib.Path) -> Iterator[str]:
     yield from unknown_uses(codes, START, STARTERS, "starts a program")
     outside = {name: code for name, code in codes.items() if not name.startswith("core/")}
     yield from unknown_uses(outside, OPEN, OPENERS, "opens files past core")
+    yield from unknown_uses(codes, NOTE, NOTE_READERS, "reads JSON past core/note.hpp")
     for word, known in ENGINE.items():
         users = {name for name, code in codes.items() if re.search(rf"\b{re.escape(word)}\b", code)}
         yield from (f"{name} names {word}, which leads to the engine past {GATE}()" for name in sorted(users - known))

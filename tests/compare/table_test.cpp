@@ -83,7 +83,13 @@ std::vector<std::string> const contract{"case",
                                         "peclet",
                                         "peclet_half_width",
                                         "fill_time_s",
-                                        "fill_time_half_width_s"};
+                                        "fill_time_half_width_s",
+                                        "stage_speed_m_per_s",
+                                        "stage_speed_half_width_m_per_s",
+                                        "time_to_speed_s",
+                                        "time_to_speed_half_width_s",
+                                        "stopping_distance_m",
+                                        "stopping_distance_half_width_m"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

@@ -14,7 +14,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from trough_program import PATIENCE, EndToEndTest
+from trough_program import PATIENCE, PROGRAM, EndToEndTest
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "postprocess"))
 import vibrotrough  # noqa: E402
@@ -70,6 +70,14 @@ class ForeignFiles(EndToEndTest):
                     self.assert_refused(done, 2, shown, "--allow-extra")
                     self.assertEqual(list(self.folder.glob("**/executed")), [])
         self.assertEqual(self.take_starts(), [])
+
+    def test_no_library_of_the_current_folder_is_loaded(self):
+        needed = re.findall(r"^\s*(\S+) => /", subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout, re.MULTILINE)
+        self.assertIn("libstdc++.so.6", needed)
+        for name in needed:
+            (self.folder / name).write_text("no library")
+        done = subprocess.run([PROGRAM, "keys"], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_no_task_runs_commands_of_a_campaign_unasked(self):
         campaign, tasks = self.write_campaign(ONE), self.folder / "tasks"

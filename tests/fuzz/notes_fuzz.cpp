@@ -1,67 +1,156 @@
-// Whatever lies in place of a note of JSON, packing.json or a certificate: it is believed whole, or not at
-// all, and what is believed is the same when it is written and read again.
+// Whatever lies in place of a note of JSON: it is believed or it has a fault, of one printable line, and what
+// is believed is what it can be: finite numbers, counts that are not negative, lines without control
+// characters. Where the program writes the note, it is the same when it is written and read again.
 
-#include "core/error.hpp"
-#include "core/temporary_folder.hpp"
+#include "archive/bundle_facts.hpp"
+#include "campaign/state/notes.hpp"
+#include "core/hash.hpp"
+#include "core/note.hpp"
+#include "core/text.hpp"
+#include "deck/deck_folder.hpp"
 #include "engine/certificate.hpp"
 #include "evaluate/packing_files.hpp"
+#include "learn/notes.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace {
 
 using namespace vibrotrough;
-namespace fs = std::filesystem;
-
-fs::path const& folder() {
-    static core::TemporaryFolder const made("vibrotrough-fuzz");
-    return made.path();
-}
 
 void require(bool good) {
     if (!good) std::abort();
 }
 
-/// The tables of the packing are empty; "@cycles" and "@layer" stand for their digests.
-void check_marker(std::string text) {
-    for (char const* name : {"cycles.csv", "phases.csv"}) std::ofstream(folder() / name).close();
-    auto const files = evaluate::read_packing_files(folder());
-    for (auto const& [word, digest] :
-         {std::pair("@cycles", files.cycles_sha256), std::pair("@layer", files.layer_sha256)}) {
-        if (auto const at = text.find(word); at != std::string::npos)
-            text.replace(at, std::string_view(word).size(), digest);
-    }
-    std::ofstream(folder() / "packing.json", std::ios::binary) << text;
-    auto const marker = evaluate::read_marker(files);
-    if (!marker) return;
-    evaluate::write_marker(files, *marker);
-    auto const again = evaluate::read_marker(files);
-    require(again && again->started == marker->started && again->host == marker->host &&
-            again->deck_sha256 == marker->deck_sha256 && again->start_efficiency == marker->start_efficiency);
+void require_line(std::string_view text) {
+    require(core::harmless(text) == text);
 }
 
+void require_number(std::optional<double> value, double least) {
+    require(!value || (std::isfinite(*value) && *value >= least));
+}
+
+/// What a reader believes; none when it names a fault. Any other error ends the process.
+auto believed(auto const& read) -> std::optional<decltype(read())> {
+    try {
+        return read();
+    } catch (core::note::Fault const& fault) {
+        std::string_view const words = fault.what();
+        require(!words.empty() && words.size() < 200);
+        require_line(words);
+        return {};
+    }
+}
+
+void check_marker(std::string_view text) {
+    evaluate::PackingFiles files;
+    files.cycles_sha256 = "cycles";
+    files.layer_sha256 = "layer";
+    files.rolling_sha256 = "rolling";
+    auto const marker = believed([&] { return evaluate::parse_marker(text, files); });
+    if (!marker) return;
+    require_number(marker->wall_time, 0);
+    require_number(marker->core_time, 0);
+    require_number(marker->start_efficiency, -INFINITY);
+    for (auto const* line :
+         {&marker->started, &marker->finished, &marker->program_version, &marker->git_commit, &marker->host})
+        require_line(*line);
+    std::string const written = to_json(files, *marker);
+    require(to_json(files, evaluate::parse_marker(written, files)) == written);
+}
+
+/// With the digest of what is there, because nothing else would ever be believed.
 void check_certificate(std::string_view text) {
-    auto const certificate = engine::parse_certificate(text);
+    auto json = believed([&] { return core::note::parse(text); });
+    if (!json || !json->is_object()) return;
+    json->erase("content_sha256");
+    (*json)["content_sha256"] = core::sha256_hex(json->dump());
+    auto const certificate = engine::parse_certificate(json->dump());
     if (!certificate) return;
-    auto const again = engine::parse_certificate(to_json(*certificate));
-    require(again && again->probes.size() == certificate->probes.size() &&
-            again->passed() == certificate->passed());
+    require(certificate->speed_grains >= 0);
+    for (engine::ProbeResult const& probe : certificate->probes) require_line(probe.problem);
+    std::string const written = to_json(*certificate);
+    auto const again = engine::parse_certificate(written);
+    require(again && to_json(*again) == written && again->passed() == certificate->passed());
+}
+
+void check_case(std::string_view text) {
+    if (auto const failure = believed([&] { return campaign::parse_failure(text); })) {
+        require(failure->packing >= 0 && failure->attempts >= 0 && !core::has_result(failure->outcome));
+        require_line(failure->message);
+    }
+    if (auto const seal = believed([&] { return campaign::parse_checkpoint(text); })) {
+        require(seal->checkpoint.cycle >= 1);
+        require_number(seal->checkpoint.wall_time, 0);
+        require_number(seal->checkpoint.core_time, 0);
+        require_line(seal->checkpoint.started);
+    }
+    believed([&] { return campaign::parse_settled(text); });
+}
+
+void check_tasks(std::string_view text) {
+    if (auto const batch = believed([&] { return campaign::parse_batch(text); })) {
+        require(batch->job.value_or(1) > 0);
+        require(batch->name.find_first_of(" '\"$`\\\n/") == std::string::npos);
+    }
+    if (auto const task = believed([&] { return campaign::parse_lost_task(text); })) {
+        require(!core::has_result(task->outcome));
+        require_line(task->message);
+    }
+}
+
+void check_campaign(std::string_view text) {
+    if (auto const engine = believed([&] { return campaign::parse_engine(text); })) {
+        std::string const written = to_json(*engine);
+        require(to_json(campaign::parse_engine(written)) == written);
+        require_line(engine->version);
+    }
+    if (auto const tests = believed([&] { return campaign::parse_friction(text); })) {
+        for (auto const& [layer, test] : *tests) {
+            require_line(layer);
+            require_line(test.message);
+            for (auto const& value : {test.friction, test.low, test.high, test.half_width})
+                require_number(value, 0);
+            require(*test.low <= *test.friction && *test.friction <= *test.high);
+        }
+    }
+    if (auto const list = believed([&] { return campaign::parse_numerics(text); })) {
+        for (auto const& one : *list) require_number(core::note::known_number(one, "numerical_error"), 0);
+        list->dump();
+    }
+    believed([&] { return deck::parse_written(text); });
+}
+
+void check_learned(std::string_view text) {
+    if (auto const wanted = believed([&] { return learn::parse_half_widths(text); })) {
+        for (auto const& [id, half_width] : *wanted) require(std::isfinite(half_width) && half_width > 0);
+    }
+    if (auto const known = believed([&] { return learn::parse_calibration(text); })) {
+        require_line(known->model);
+        require(known->low <= known->median && known->median <= known->high);
+        for (double const value : known->draws) require(std::isfinite(value));
+        for (double const value : known->discrepancies) require(std::isfinite(value));
+    }
+    if (auto const facts = believed([&] { return archive::parse_facts(text); })) {
+        require_line(facts->program_version);
+        for (auto const& [id, outcome] : facts->failures) require(!core::has_result(outcome));
+    }
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
     std::string_view const text(reinterpret_cast<char const*>(data), size);
-    try {
-        check_marker(std::string(text));
-    } catch (core::Error const&) {
-    }
+    check_marker(text);
     check_certificate(text);
+    check_case(text);
+    check_tasks(text);
+    check_campaign(text);
+    check_learned(text);
     return 0;
 }

@@ -60,9 +60,10 @@ class Package(Unpacked):
 
     def test_python_finds_the_module(self):
         modules = self.root / "usr/lib/python3/dist-packages"
-        done = call("/usr/bin/python3", "-B", "-c", "import vibrotrough; print(vibrotrough.__file__, vibrotrough.open_campaign.__name__)",
+        solved = "vibrotrough.theory.solve(throw_number=2, tan_vibration_angle=0.5, friction=0.3).mode"
+        done = call("/usr/bin/python3", "-B", "-c", f"import vibrotrough; print(vibrotrough.__file__, vibrotrough.open_campaign.__name__, {solved})",
                     cwd="/", env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(modules)})  # fmt: skip
-        self.assertEqual(done.stdout.split(), [f"{modules}/vibrotrough.py", "open_campaign"], done.stderr)
+        self.assertEqual(done.stdout.split(), [f"{modules}/vibrotrough.py", "open_campaign", "FN'"], done.stderr)
 
     def test_the_manual_page_is_sound_and_complete(self):
         page = self.root / "usr/share/man/man1/vibrotrough.1"

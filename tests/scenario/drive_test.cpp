@@ -114,5 +114,23 @@ TEST(Drive, WaveformHasItsOwnAmplitudeAndAngle) {
     EXPECT_EQ(drive_motion(s.trough).along.size(), 2u);
 }
 
+// The theory has harmonics of up to 1000 times the acceleration of the fundamental. Everything that is wrong
+// is told at once.
+TEST(Drive, AWaveformWithASmallFundamentalIsRefused) {
+    std::string text = "time_s,x_m,z_m\n";
+    for (int i = 0; i < 64; ++i) {
+        double const t = 2 * pi * i / 64;
+        text += fmt::format("{},{},{}\n", 0.1 * i / 64, 5e-3 * std::sin(t),
+                            1e-6 * std::sin(t) + 1e-3 * std::sin(3 * t));
+    }
+    scenario::Trough trough = scenario(with("throw_number = 2.0", "frequency = \"20 Hz\"")).trough;
+    auto const fault = find_fault(*scenario::read_waveform({"w.csv", text}), trough);
+    ASSERT_TRUE(fault);
+    for (char const* const part :
+         {"sample 2 is at", "differ from the keys", "normal to the trough", "order 3"})
+        EXPECT_NE(fault->wrong.find(part), std::string::npos) << part << " in " << fault->wrong;
+    EXPECT_NE(fault->instead.find("frequency of 10 Hz"), std::string::npos) << fault->instead;
+}
+
 }  // namespace
 }  // namespace vibrotrough

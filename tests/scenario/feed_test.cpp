@@ -69,6 +69,8 @@ TEST(Feed, WrongInputIsToldInOneLine) {
                 HasSubstr("fed with spheres"));
     EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 0.1\n"),
                 HasSubstr("one material"));
+    EXPECT_THAT(error(with("max_cycles = 200\n", "", fed()) + "[[stages]]\ntime = \"1 s\"\n"),
+                HasSubstr("stages.1.time: the drive of an open trough has no stages"));
 }
 
 }  // namespace

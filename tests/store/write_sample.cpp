@@ -4,6 +4,7 @@
 #include "scenario/reader/written_campaign.hpp"
 #include "store/material_quantities.hpp"
 #include "store/result_file.hpp"
+#include "store/stage_quantities.hpp"
 
 #include <cstdio>
 #include <exception>
@@ -28,13 +29,14 @@ void open(vibrotrough::store::CaseRecord& record) {
     }
 }
 
-/// The sample with four materials in an open trough, so that it has every table.
+/// The sample with four materials and a stage in an open trough, so that it has every table.
 vibrotrough::store::CaseRecord sample_mixture() {
     using namespace vibrotrough::store;
     CaseRecord record = sample_record();
     for (char const* const name : {"a", "b", "c"})
         record.scenario.materials.push_back({.name = name, .number_fraction = 0.1});
     open(record);
+    record.scenario.stages = {{.cycles = 1}};  // as many cycles as the shorter packing has
     record.scenario_toml = to_toml(record.scenario);
     for (PackingRecord& packing : record.packings) {
         double place = 0.018;
@@ -44,6 +46,7 @@ vibrotrough::store::CaseRecord sample_mixture() {
         }
     }
     add_materials(record);
+    add_stages(record);
     return record;
 }
 

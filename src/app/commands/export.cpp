@@ -10,6 +10,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "scenario/model/stage_motion.hpp"
 #include "view/frames.hpp"
 #include "view/scene.hpp"
 #include "view/table_vtk.hpp"
@@ -83,7 +84,9 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
             fmt::format("{}, {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
                         planned.scenario().campaign, title(planned, number), planned.prepared->throw_number,
                         planned.prepared->machine_number, trough.friction),
-        .colour = colour};
+        .colour = colour,
+        .parts = drive_parts(planned.prepared->stages),
+        .steps_per_cycle = planned.prepared->time.steps_per_cycle};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
     auto exported = view::export_frames(source, target, [&](int written, int all) {

@@ -1,6 +1,7 @@
 #include "campaign/execute/batch.hpp"
 
 #include "campaign/state/campaign_folder.hpp"
+#include "campaign/state/notes.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -22,20 +23,17 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using core::note::Json;
 
 std::optional<Batch> read_batch(fs::path const& folder) {
     try {
-        Json const json = Json::parse(core::read_file(folder / "batch.json", core::largest_note));
-        Batch batch{folder, json.at("name"), {}, {}};
-        if (json.contains("job")) batch.job = json.at("job").get<long>();
+        BatchNote const note = parse_batch(core::read_file(folder / "batch.json", core::largest_note));
+        Batch batch{folder, note.name, note.job, {}};
         auto tasks = read_task_list(folder / "tasks.txt");
         if (!tasks) return {};
         batch.tasks = std::move(*tasks);
         return batch;
-    } catch (Json::exception const&) {
-        return {};
-    } catch (core::MissingError const&) {
+    } catch (core::Error const&) {
         return {};
     }
 }
@@ -155,16 +153,12 @@ std::optional<TaskActivity> by_marker(Batch const& batch, std::size_t index, Mar
     }
     fs::path const lost = marker(batch, index, "lost");
     if (!is_there(lost)) return {};
-    Json const json = Json::parse(core::read_file(lost, core::largest_note), nullptr, false);
-    if (json.is_object()) {
-        try {
-            auto const outcome = core::outcome_named(json.value("outcome", ""));
-            // A task that was lost has no result, whatever the file says.
-            if (outcome && !core::has_result(*outcome)) activity.outcome = outcome;
-            activity.message = core::harmless(json.value("message", ""));
-        } catch (Json::exception const&) {
-            activity.message = fmt::format("{} is damaged", lost.string());
-        }
+    try {
+        LostTask const task = parse_lost_task(core::read_file(lost, core::largest_note));
+        activity.outcome = task.outcome;
+        activity.message = task.message;
+    } catch (core::note::Fault const& fault) {
+        activity.message = fmt::format("{} is damaged: {}", lost.string(), fault.what());
     }
     return activity;
 }

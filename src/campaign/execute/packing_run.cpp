@@ -25,8 +25,8 @@ void check_files_of_engine(std::filesystem::path const& folder) {
     std::error_code missing;
     for (auto const& entry : std::filesystem::directory_iterator(folder, missing)) {
         // Of the settled packing, which the engine only reads, several packings may have one file.
-        if (entry.path().filename() == deck::settled_file && !core::is_link(entry.path())) continue;
-        if (!core::is_link(entry.path()) && entry.is_directory(missing)) {
+        if (entry.path().filename() == deck::settled_file && !entry.is_symlink()) continue;
+        if (!entry.is_symlink() && entry.is_directory(missing)) {
             check_files_of_engine(entry.path());
         } else {
             core::check_own_file(entry.path());

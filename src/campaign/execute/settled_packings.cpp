@@ -2,6 +2,7 @@
 
 #include "campaign/execute/run_place.hpp"
 #include "campaign/state/file_lock.hpp"
+#include "campaign/state/notes.hpp"
 #include "campaign/state/run_files.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -27,7 +28,6 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// A layer that is called settled still trembles: its kinetic energy is below 1e-7 m g d, its force was seen
 /// within 0.4 % of its weight (20 packings of 20 to 500 grains; 2.5 % below 1e-5 m g d).
@@ -43,10 +43,8 @@ bool is_whole(fs::path const& folder, deck::Deck const& deck) {
             return false;
         auto const made_with = deck::read_files(folder, deck.settle_files);
         if (deck::digest_of_commands(made_with) != deck::digest_of_commands(deck.settle_files)) return false;
-        Json const seal = Json::parse(core::read_file(folder / seal_file, core::largest_note));
-        return seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / deck::settled_file));
-    } catch (Json::exception const&) {
-        return false;
+        return parse_settled(core::read_file(folder / seal_file, core::largest_note)) ==
+               core::sha256_hex(core::read_file(folder / deck::settled_file));
     } catch (core::Error const&) {
         return false;
     }
@@ -64,9 +62,10 @@ Settled judge(fs::path const& folder, engine::ExitStatus status, double weight) 
                 fmt::format("the layer at rest presses on the trough with {:.4g} N; it weighs {:.4g} N",
                             report.settled_force, weight)};
     }
-    Json const seal{{"floor_force_N", report.settled_force},
-                    {"weight_N", weight},
-                    {"restart_sha256", core::sha256_hex(core::read_file(folder / deck::settled_file))}};
+    core::note::Json const seal{
+        {"floor_force_N", report.settled_force},
+        {"weight_N", weight},
+        {"restart_sha256", core::sha256_hex(core::read_file(folder / deck::settled_file))}};
     core::write_file_atomically(folder / seal_file, seal.dump(2) + "\n");
     return {{}, {}, 0, folder / deck::settled_file};
 }

@@ -26,6 +26,7 @@ namespace vibrotrough::campaign {
 /// - Where the interval would be narrow enough but for what is left of a start-up
 ///   (measure::CaseEstimate::drift), all packings are continued to twice the number of cycles. At
 ///   measure.max_cycles packings are added instead: together they know the start-up better.
+/// - A case whose drive has stages has one round: measure.packings packings with all cycles of its stages.
 /// - It ends when the interval is narrow enough, or as not-precise when measure.max_packings or
 ///   measure.max_core_time do not allow another round.
 class UntilPrecise : public Policy {

@@ -1,5 +1,6 @@
 #include "campaign/state/campaign_folder.hpp"
 
+#include "campaign/state/notes.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -13,50 +14,52 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
 
-using Json = nlohmann::ordered_json;
-
 /// What is frozen in a folder: names of files and their contents.
 using FrozenFiles = std::map<std::string, std::string>;
 
-bool is_whole(Json const& facts) {
-    return facts.is_object() && facts.contains("program") && facts.value("version", Json()).is_string();
-}
-
 /// Version 0.1 of this program did not keep the digests of what it froze, and its cases have other ids.
-void refuse_version_0_1(Json const& facts, fs::path const& folder) {
-    if (!is_whole(facts) || facts.contains("frozen")) return;
+void refuse_version_0_1(EngineNote const& facts, fs::path const& folder) {
+    if (facts.frozen) return;
     throw core::InputError(fmt::format(
         "{} is a campaign of version 0.1 of this program, which this version does not read any more; "
         "read it with version 0.1, or run its campaign file in another folder",
         folder.string()));
 }
 
-/// engine.json, if this program wrote it; null when there is none.
+/// engine.json, if this program wrote it; nothing when there is none.
 /// @throws core::InputError when something else has this name
-Json read_frozen_facts(fs::path const& folder) {
+std::optional<EngineNote> read_frozen_facts(fs::path const& folder) {
     fs::path const path = folder / "engine.json";
-    if (!fs::exists(fs::symlink_status(path))) return nullptr;
-    Json json;
+    if (!fs::exists(fs::symlink_status(path))) return {};
+    EngineNote facts;
     try {
-        json = Json::parse(core::read_file(path, core::largest_note), nullptr, false);
-    } catch (core::MissingError const&) {
+        facts = parse_engine(core::read_file(path, core::largest_note));
+    } catch (core::Error const&) {
+        throw core::InputError(
+            fmt::format("{} is not a file of this program, or is damaged, and would be replaced; move it "
+                        "away, or choose another folder with --output",
+                        path.string()));
     }
-    if (is_whole(json)) {
-        refuse_version_0_1(json, folder);
-        return json;
+    refuse_version_0_1(facts, folder);
+    return facts;
+}
+
+/// engine.json of a campaign's folder. @throws core::InputError when it is damaged
+EngineNote read_facts(fs::path const& folder) {
+    fs::path const path = folder / "engine.json";
+    try {
+        return parse_engine(core::read_file(path, core::largest_note));
+    } catch (core::note::Fault const& fault) {
+        throw core::InputError(
+            fmt::format("{} is damaged; run the campaign again after removing this file ({})", path.string(),
+                        fault.what()));
     }
-    throw core::InputError(
-        fmt::format("{} is not a file of this program, or is damaged, and would be replaced; move it away, "
-                    "or choose another "
-                    "folder with --output",
-                    path.string()));
 }
 
 /// The content of a file that is about to be frozen; none when there is no such file.
@@ -72,19 +75,18 @@ std::optional<std::string> content_before(fs::path const& path) {
 }
 
 /// Refuses to replace what a person wrote: a file that is neither what was frozen nor what will be.
-void refuse_edited_files(fs::path const& folder, FrozenFiles const& files, Json const& facts) {
+void refuse_edited_files(fs::path const& folder, FrozenFiles const& files,
+                         std::optional<EngineNote> const& facts) {
     for (auto const& [name, content] : files) {
         auto const before = content_before(folder / name);
         if (!before || *before == content) continue;
-        bool const is_own = !facts.is_null();
-        Json const known = is_own ? facts["frozen"].value(name, Json::array()) : Json::array();
-        if (std::ranges::find(known, Json(core::sha256_hex(*before))) != known.end()) continue;
+        if (facts && core::note::knows(*facts->frozen, name, *before)) continue;
         fs::path const path = folder / name;
         throw core::InputError(fmt::format(
             "{} {}, and this run would replace it; run {} itself to go on with it, move it away, or choose "
             "another "
             "folder with --output",
-            path.string(), is_own ? "was changed since it was frozen here" : "is not a file of this program",
+            path.string(), facts ? "was changed since it was frozen here" : "is not a file of this program",
             name == "campaign.toml" ? path.string() : "a campaign that names it"));
     }
 }
@@ -92,9 +94,9 @@ void refuse_edited_files(fs::path const& folder, FrozenFiles const& files, Json 
 /// Refuses a folder that holds somebody else's files under the names of those that a run writes.
 /// (friction.json and numerics.json may be there before the campaign: friction-test and convergence write
 /// them.)
-void refuse_foreign_folder(fs::path const& folder, Json const& facts, FrozenFiles const& files) {
-    bool const is_own =
-        !facts.is_null() || content_before(folder / "campaign.toml") == files.at("campaign.toml");
+void refuse_foreign_folder(fs::path const& folder, std::optional<EngineNote> const& facts,
+                           FrozenFiles const& files) {
+    bool const is_own = facts || content_before(folder / "campaign.toml") == files.at("campaign.toml");
     if (is_own) return;
     for (char const* name : {"campaign.h5", "certificate.json", "cases", "packings"}) {
         std::error_code missing;
@@ -110,19 +112,19 @@ void refuse_foreign_folder(fs::path const& folder, Json const& facts, FrozenFile
 
 /// Writes engine.json and the files whose contents have changed. While they are written, engine.json knows
 /// the digests of the old and of the new contents, so that after a crash none of them seems to be edited.
-void write_frozen(fs::path const& folder, Json facts, FrozenFiles const& files) {
-    Json both = Json::object(), last = Json::object();
+void write_frozen(fs::path const& folder, EngineNote facts, FrozenFiles const& files) {
+    core::note::Digests both, last;
     FrozenFiles changed;
     for (auto const& [name, content] : files) {
-        last[name] = both[name] = Json::array({core::sha256_hex(content)});
+        last[name] = both[name] = {core::sha256_hex(content)};
         auto const before = content_before(folder / name);
         if (before == content) continue;
         if (before) both[name].push_back(core::sha256_hex(*before));
         changed[name] = content;
     }
-    auto const write_facts = [&](Json const& frozen) {
-        facts["frozen"] = frozen;
-        core::write_file_atomically(folder / "engine.json", facts.dump(2) + "\n");
+    auto const write_facts = [&](core::note::Digests const& frozen) {
+        facts.frozen = frozen;
+        core::write_file_atomically(folder / "engine.json", to_json(facts));
     };
     write_facts(both);
     for (auto const& [name, content] : changed) core::write_file_atomically(folder / name, content);
@@ -130,8 +132,8 @@ void write_frozen(fs::path const& folder, Json facts, FrozenFiles const& files) 
 }
 
 /// The names of the templates with which the decks of a plan are made; empty: the program's own.
-Json template_names(Plan const& plan) {
-    Json names = Json::array();
+std::vector<std::string> template_names(Plan const& plan) {
+    std::vector<std::string> names;
     if (plan.cases.empty() || !plan.cases.front().scenario().engine.templates) return names;
     for (scenario::NamedFile const& file : plan.cases.front().scenario().engine.templates->files)
         names.push_back(file.name);
@@ -139,29 +141,22 @@ Json template_names(Plan const& plan) {
 }
 
 /// Takes the templates that are frozen in a folder for all cases, if 'run --templates' made it.
-/// @throws core::InputError when engine.json does not name templates
-void use_frozen_templates(fs::path const& folder, Json const& facts, std::vector<scenario::Scenario>& cases) {
-    Json const names = facts.is_object() ? facts.value("templates", Json::array()) : Json::array();
+void use_frozen_templates(fs::path const& folder, EngineNote const& facts,
+                          std::vector<scenario::Scenario>& cases) {
+    if (facts.templates.empty()) return;
     scenario::DeckTemplates templates;
-    for (Json const& name : names) {
-        if (!name.is_string() || !scenario::is_template_name(name.get<std::string>()))
-            throw core::InputError(
-                fmt::format("{} is damaged; run the campaign again after removing this file",
-                            (folder / "engine.json").string()));
-        auto const file = name.get<std::string>();
-        templates.files.push_back({file, core::read_file(folder / file, core::largest_note)});
-    }
-    if (templates.files.empty()) return;
+    for (std::string const& name : facts.templates)
+        templates.files.push_back({name, core::read_file(folder / name, core::largest_note)});
     auto const shared = std::make_shared<scenario::DeckTemplates const>(std::move(templates));
     for (scenario::Scenario& one : cases) one.engine.templates = shared;
 }
 
 /// An edited campaign may continue in its folder; a different one would hide the cases of the first.
-void refuse_other_campaign(Plan const& plan, Json const& facts) {
+void refuse_other_campaign(Plan const& plan, bool is_own) {
     fs::path const frozen = plan.folder / "campaign.toml";
     std::string name;
     try {
-        if (!facts.is_null() && fs::is_regular_file(frozen)) name = scenario::read_campaign(frozen).name;
+        if (is_own && fs::is_regular_file(frozen)) name = scenario::read_campaign(frozen).name;
     } catch (core::InputError const&) {
         return;  // of an older program, or damaged and then refused as an edited file
     }
@@ -207,16 +202,19 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
         for (scenario::NamedFile const& file : named_files(planned.scenario()))
             files[file.name] = file.content;
     }
-    Json const before = read_frozen_facts(plan.folder);
-    refuse_other_campaign(plan, before);
+    auto const before = read_frozen_facts(plan.folder);
+    refuse_other_campaign(plan, before.has_value());
     refuse_foreign_folder(plan.folder, before, files);
     refuse_edited_files(plan.folder, files, before);
 
-    Json facts{{"program", core::utf8_of_bytes(engine.program.string())}, {"version", engine.version}};
-    if (!engine.binary_sha256.empty()) facts["binary_sha256"] = engine.binary_sha256;
-    if (!engine.scratch.empty()) facts["scratch"] = engine.scratch;
-    if (Json const names = template_names(plan); !names.empty()) facts["templates"] = names;
-    write_frozen(plan.folder, std::move(facts), files);
+    write_frozen(plan.folder,
+                 {engine.program.string(),
+                  engine.version,
+                  engine.binary_sha256,
+                  engine.scratch,
+                  template_names(plan),
+                  {}},
+                 files);
     fs::path const certificate = plan.folder / "certificate.json";
     if (engine.certificate.empty()) {
         core::remove_file(certificate);  // it belongs to another engine
@@ -228,12 +226,12 @@ void freeze(Plan const& plan, fs::path const& campaign_file, engine::Engine cons
 
 std::vector<std::string> edited_files(fs::path const& folder) {
     std::vector<std::string> names;
-    Json const facts = read_frozen_facts(folder);
-    Json const frozen = facts.is_object() ? facts.value("frozen", Json::object()) : Json::object();
-    for (auto const& [name, digests] : frozen.items()) {
+    auto const facts = read_frozen_facts(folder);
+    if (!facts) return names;
+    for (auto const& [name, digests] : *facts->frozen) {
         try {
-            Json const now = core::sha256_hex(core::read_file(folder / name, core::largest_note));
-            if (digests.is_array() && std::ranges::find(digests, now) != digests.end()) continue;
+            if (core::note::knows(*facts->frozen, name, core::read_file(folder / name, core::largest_note)))
+                continue;
         } catch (core::MissingError const&) {
         }
         names.push_back(core::harmless(name));
@@ -251,8 +249,7 @@ scenario::Campaign read_frozen_campaign(fs::path const& folder) {
             folder.string()));
     }
     scenario::Campaign campaign = scenario::read_campaign(folder / "campaign.toml");
-    Json const facts =
-        Json::parse(core::read_file(folder / "engine.json", core::largest_note), nullptr, false);
+    EngineNote const facts = read_facts(folder);
     refuse_version_0_1(facts, folder);
     use_frozen_templates(folder, facts, campaign.cases);
     return campaign;
@@ -267,17 +264,11 @@ Plan open_plan(fs::path const& folder) {
 }
 
 engine::Engine read_engine(fs::path const& folder) {
-    try {
-        auto const json = nlohmann::json::parse(core::read_file(folder / "engine.json", core::largest_note));
-        engine::Engine engine{core::bytes_of_utf8(json.at("program").get<std::string>()),
-                              json.at("version").get<std::string>()};
-        engine.binary_sha256 = json.value("binary_sha256", std::string());
-        engine.scratch = json.value("scratch", std::string());
-        return engine;
-    } catch (nlohmann::json::exception const&) {
-        throw core::InputError(fmt::format("{} is damaged; run the campaign again after removing this file",
-                                           (folder / "engine.json").string()));
-    }
+    EngineNote const facts = read_facts(folder);
+    engine::Engine engine{facts.program, facts.version};
+    engine.binary_sha256 = facts.binary_sha256;
+    engine.scratch = facts.scratch;
+    return engine;
 }
 
 bool is_case_id(std::string_view text) {

@@ -17,7 +17,7 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using core::note::Json;
 
 /// The number of a folder "packing-<number>".
 std::optional<int> packing_number(std::string_view name) {
@@ -35,15 +35,9 @@ std::optional<int> packing_number(std::string_view name) {
 std::optional<Failure> read_failure(PlannedCase const& planned) {
     std::error_code missing;
     if (!fs::is_regular_file(planned.failure_file(), missing)) return {};
-    Json const json =
-        Json::parse(core::read_file(planned.failure_file(), core::largest_note), nullptr, false);
     try {
-        if (!json.is_object()) return {};
-        auto const outcome = core::outcome_named(json.at("outcome").get<std::string>());
-        if (!outcome || core::has_result(*outcome)) return {};
-        return Failure{*outcome, core::harmless(json.at("message").get<std::string>()), json.at("packing"),
-                       json.at("attempts")};
-    } catch (Json::exception const&) {
+        return parse_failure(core::read_file(planned.failure_file(), core::largest_note));
+    } catch (core::note::Fault const&) {
         return {};
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "campaign/state/notes.hpp"
 #include "campaign/state/plan.hpp"
-#include "core/outcome.hpp"
 #include "evaluate/packing.hpp"
 #include "store/case_record.hpp"
 
@@ -13,14 +13,6 @@
 namespace vibrotrough::campaign {
 
 // What the files say of one case. Nothing here runs or removes anything; whatever writes says so.
-
-/// Why a case has no result.
-struct Failure {
-    core::Outcome outcome;  ///< what the case came to
-    std::string message;    ///< one line for people
-    int packing;            ///< that failed, from 1
-    int attempts;           ///< how often the case has failed so far
-};
 
 /// The failure that failure.json names; none when there is no such file or it is damaged.
 std::optional<Failure> read_failure(PlannedCase const& planned);

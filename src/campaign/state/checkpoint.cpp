@@ -1,5 +1,6 @@
 #include "campaign/state/checkpoint.hpp"
 
+#include "campaign/state/notes.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -16,7 +17,7 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using core::note::Json;
 
 /// The tables of a run whose rows begin with their step.
 constexpr char const* tables[] = {"cycles.csv", "phases.csv", "rolling.csv", "dump/frames.csv"};
@@ -63,11 +64,6 @@ std::string digest_of_drive(std::string const& content) {
     return core::sha256_hex(deck::commands_of(content));
 }
 
-/// Whether the checkpoint was made with the commands of this deck.
-bool belongs_to(Json const& seal, std::string const& drive) {
-    return seal.at("commands_sha256") == digest_of_drive(drive);
-}
-
 std::optional<long> number_between(std::string_view name, std::string_view start, std::string_view end) {
     if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + end.size())
         return {};
@@ -93,19 +89,15 @@ std::optional<Checkpoint> find_checkpoint(fs::path const& folder, std::string co
                                           int steps_per_cycle) {
     try {
         if (!fs::is_regular_file(folder / checkpoint_seal)) return {};
-        Json const seal = Json::parse(core::read_file(folder / checkpoint_seal, core::largest_note));
-        Checkpoint const checkpoint{seal.at("cycle"), seal.at("file"), seal.at("started"),
-                                    seal.at("wall_time"),
-                                    seal.value("core_time", seal.at("wall_time").get<double>())};
-        bool const known =
-            checkpoint_cycle(checkpoint.file) && belongs_to(seal, drive) &&
-            seal.at("restart_sha256") == core::sha256_hex(core::read_file(folder / checkpoint.file));
+        auto const [checkpoint, restart, commands] =
+            parse_checkpoint(core::read_file(folder / checkpoint_seal, core::largest_note));
+        bool const known = checkpoint_cycle(checkpoint.file) && commands == digest_of_drive(drive) &&
+                           restart == core::sha256_hex(core::read_file(folder / checkpoint.file));
         if (known && has_row(core::read_file(folder / "cycles.csv"),
                              static_cast<long>(checkpoint.cycle) * steps_per_cycle))
             return checkpoint;
-    } catch (Json::exception const&) {
-        // Damaged: the run starts anew.
     } catch (core::Error const&) {
+        // Damaged: the run starts anew.
     }
     return {};
 }

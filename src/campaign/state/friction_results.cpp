@@ -10,7 +10,7 @@
 namespace vibrotrough::campaign {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::note::Json;
 
 evaluate::LayerFriction measure_one(PlannedCase const& planned) {
     if (auto const record = read_whole_result(planned))
@@ -23,11 +23,6 @@ evaluate::LayerFriction measure_one(PlannedCase const& planned) {
 
 Json number(std::optional<double> const& value) {
     return value ? Json(*value) : Json(nullptr);
-}
-
-std::optional<double> number(Json const& value) {
-    if (value.is_null()) return {};
-    return value.get<double>();
 }
 
 }  // namespace
@@ -64,29 +59,14 @@ void write_friction(std::filesystem::path const& campaign_folder,
 
 std::map<std::string, evaluate::LayerFriction> read_friction(std::filesystem::path const& campaign_folder) {
     auto const path = friction_file(campaign_folder);
-    std::map<std::string, evaluate::LayerFriction> tests;
-    if (!std::filesystem::is_regular_file(path)) return tests;
+    if (!std::filesystem::is_regular_file(path)) return {};
     try {
-        for (Json const& one : Json::parse(core::read_file(path, core::largest_note))) {
-            evaluate::LayerFriction test{one.at("layer"),
-                                         one.at("case"),
-                                         one.at("grain_friction"),
-                                         one.at("machine_number"),
-                                         number(one.at("max_relative_displacement")),
-                                         number(one.at("max_relative_displacement_half_width")),
-                                         one.at("creep_per_cycle"),
-                                         number(one.at("friction")),
-                                         number(one.at("friction_low")),
-                                         number(one.at("friction_high")),
-                                         one.at("mode"),
-                                         one.at("message")};
-            if (test.friction && test.low && test.high) tests[test.layer] = test;
-        }
-    } catch (Json::exception const&) {
+        return parse_friction(core::read_file(path, core::largest_note));
+    } catch (core::note::Fault const& fault) {
         throw core::InputError(
-            fmt::format("{} is damaged; run 'vibrotrough friction-test' again or delete it", path.string()));
+            fmt::format("{} is damaged; run 'vibrotrough friction-test' again or delete it ({})",
+                        path.string(), fault.what()));
     }
-    return tests;
 }
 
 }  // namespace vibrotrough::campaign

@@ -17,10 +17,7 @@ namespace vibrotrough::campaign {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-constexpr char const* format_name = "vibrotrough numerics";
-constexpr int schema_version = 1;
+using core::note::Json;
 
 evaluate::StudyResult result_of(Plan const& plan, scenario::Scenario const& scenario) {
     std::string const id = case_id(prepare::prepare_case(scenario), plan.engine_version);
@@ -96,17 +93,13 @@ Json read_list(fs::path const& campaign_folder) {
     fs::path const path = numerics_file(campaign_folder);
     if (!fs::is_regular_file(path)) return Json::array();
     try {
-        Json const json = Json::parse(core::read_file(path, core::largest_note));
-        if (json.at("format") == format_name && json.at("schema_version") == schema_version &&
-            json.at("cases").is_array())
-            return json.at("cases");
-    } catch (Json::exception const&) {
-        // The message below says it.
+        return parse_numerics(core::read_file(path, core::largest_note));
+    } catch (core::note::Fault const& fault) {
+        throw core::InputError(
+            fmt::format("{} is damaged; delete it and run 'vibrotrough convergence' again, which "
+                        "simulates nothing a second time ({})",
+                        path.string(), fault.what()));
     }
-    throw core::InputError(
-        fmt::format("{} is damaged; delete it and run 'vibrotrough convergence' again, which simulates "
-                    "nothing a second time",
-                    path.string()));
 }
 
 /// Distances between the cases of a plan in the keys in which they differ.
@@ -225,22 +218,16 @@ void write_numerics(fs::path const& campaign_folder, std::vector<evaluate::Numer
         if (!is_new) list.push_back(kept);
     }
     for (evaluate::NumericsBudget const& one : budgets) list.push_back(describe(one));
-    Json const json{{"format", format_name}, {"schema_version", schema_version}, {"cases", std::move(list)}};
+    Json const json{
+        {"format", numerics_format}, {"schema_version", numerics_schema}, {"cases", std::move(list)}};
     core::write_file_atomically(numerics_file(campaign_folder), json.dump(2) + "\n");
 }
 
 std::map<std::string, store::CaseNumerics> read_case_numerics(Plan const& plan) {
     std::map<std::string, double> studied;
-    try {
-        for (Json const& one : read_list(plan.folder)) {
-            if (Json const& error = one.at("numerical_error"); !error.is_null())
-                studied[one.at("case")] = error.get<double>();
-        }
-    } catch (Json::exception const&) {
-        throw core::InputError(
-            fmt::format("{} is damaged; delete it and run 'vibrotrough convergence' again, which simulates "
-                        "nothing a second time",
-                        numerics_file(plan.folder).string()));
+    for (Json const& one : read_list(plan.folder)) {
+        if (Json const& error = one.at("numerical_error"); !error.is_null())
+            studied[one.at("case")] = error.get<double>();
     }
     std::map<std::string, store::CaseNumerics> found;
     std::vector<std::size_t> sources;

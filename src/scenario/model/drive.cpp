@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -52,6 +53,25 @@ double sum_of(std::vector<DriveTerm> const& terms, int power) {
     double sum = 0;
     for (DriveTerm const& term : terms) sum += std::abs(term.amplitude) * std::pow(term.order, power);
     return sum;
+}
+
+double fundamental(std::vector<DriveTerm> const& terms) {
+    return terms.empty() || terms.front().order != 1 ? 0.0 : terms.front().amplitude;
+}
+
+/// A sentence when a harmonic accelerates the trough too much against a fundamental of this amplitude, m.
+void check_harmonics(std::vector<std::string>& faults, std::vector<DriveTerm> const& terms, double amplitude,
+                     std::string_view direction) {
+    constexpr double largest_ratio = 1000;  // theory/detail/conveyor_check.cpp
+    for (DriveTerm const& term : terms) {
+        double const acceleration = term.order * term.order * term.amplitude;
+        if (term.order == 1 || acceleration <= largest_ratio * amplitude) continue;
+        faults.push_back(fmt::format(
+            "{} the trough its fundamental of {:.3g} mm is too small: the harmonic of order {} accelerates "
+            "the trough by more than {} times as much",
+            direction, 1e3 * amplitude, term.order, largest_ratio));
+        return;
+    }
 }
 
 }  // namespace
@@ -118,6 +138,35 @@ void check_samples(Waveform const& waveform, double period) {
                         "{:.6g} s evenly (without the first sample of the next cycle)",
                         i + 1, waveform.times[i], expected, waveform.times.size(), period));
     }
+}
+
+std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough) {
+    double const along = fundamental(waveform.motion.along), normal = fundamental(waveform.motion.normal);
+    double const amplitude = std::hypot(along, normal), angle = std::atan2(normal, along);
+    std::vector<std::string> faults;
+    try {
+        check_samples(waveform, 1 / trough.frequency);
+    } catch (std::invalid_argument const& error) {
+        faults.emplace_back(error.what());
+    }
+    if (std::abs(amplitude - trough.amplitude) > 0.01 * amplitude ||
+        std::abs(angle - trough.vibration_angle) > 0.01) {
+        faults.push_back(
+            fmt::format("its fundamental has amplitude {:.6g} mm and vibration angle {:.5g} deg, which "
+                        "differ from the keys",
+                        1e3 * amplitude, in_degrees(angle)));
+    }
+    check_harmonics(faults, waveform.motion.along, along, "along");
+    check_harmonics(faults, waveform.motion.normal, normal, "normal to");
+    if (faults.empty()) return {};
+    auto const count = static_cast<double>(waveform.times.size());
+    double const frequency = (count - 1) / (count * (waveform.times.back() - waveform.times.front()));
+    return WaveformFault{
+        fmt::format("{}: {}", waveform.file.name, fmt::join(faults, "; besides, ")),
+        fmt::format(
+            "write amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} deg\" for its frequency of "
+            "{:.6g} Hz; its samples must be evenly spaced in one cycle, and its fundamental not small",
+            1e3 * amplitude, in_degrees(angle), frequency)};
 }
 
 }  // namespace vibrotrough::scenario

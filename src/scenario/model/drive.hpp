@@ -3,6 +3,8 @@
 #include "scenario/model/grains.hpp"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace vibrotrough::scenario {
@@ -64,5 +66,18 @@ std::shared_ptr<Waveform const> read_waveform(NamedFile file);
 /// @param period  s
 /// @throws std::invalid_argument with one line that names the first sample for which this is not true
 void check_samples(Waveform const& waveform, double period);
+
+/// What is wrong with a waveform as the motion of a trough, and what to write instead.
+struct WaveformFault {
+    std::string wrong;    ///< everything that is wrong, in one line
+    std::string instead;  ///< the keys that go with the waveform
+};
+
+/// Whether a trough can have this waveform as its motion: the samples divide one cycle (check_samples());
+/// the trough's amplitude and vibration angle, on which theory, throw number and efficiency are based, are
+/// those of the waveform's fundamental, to 1 % and 0.01 rad; and along and normal to the trough no harmonic
+/// accelerates it by more than 1000 times as much as the fundamental, which is the range of the theory.
+/// None when it can.
+std::optional<WaveformFault> find_fault(Waveform const& waveform, Trough const& trough);
 
 }  // namespace vibrotrough::scenario

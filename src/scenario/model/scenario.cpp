@@ -30,6 +30,15 @@ double throw_number(Trough const& trough) {
     return machine_number(trough) * std::sin(trough.vibration_angle) / std::cos(trough.inclination);
 }
 
+double frequency_of(Trough const& trough) {
+    if (!trough.given.throw_number && !trough.given.machine_number) return trough.frequency;
+    double const machine_number =
+        trough.given.throw_number
+            ? *trough.given.throw_number * std::cos(trough.inclination) / std::sin(trough.vibration_angle)
+            : *trough.given.machine_number;
+    return std::sqrt(machine_number * gravity / trough.amplitude) / (2 * std::numbers::pi);
+}
+
 double in_degrees(double radian) {
     constexpr double degree = std::numbers::pi / 180;
     for (int digits = 1; digits < 17; ++digits) {
@@ -85,6 +94,10 @@ std::vector<NamedFile> named_files(Scenario const& scenario) {
     if (scenario.grains.shape_file) files.push_back(scenario.grains.shape_file->file);
     if (scenario.trough.mesh) files.push_back(scenario.trough.mesh->file);
     if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
+    for (GivenStage const& stage : scenario.stages)
+        if (stage.waveform &&
+            std::ranges::find(files, stage.waveform->file.name, &NamedFile::name) == files.end())
+            files.push_back(stage.waveform->file);
     if (scenario.engine.extra) files.push_back(scenario.engine.extra->file);
     if (scenario.engine.templates) {
         auto const& templates = scenario.engine.templates->files;

@@ -5,6 +5,7 @@
 #include "scenario/model/feed.hpp"
 #include "scenario/model/grains.hpp"
 #include "scenario/model/materials.hpp"
+#include "scenario/model/stages.hpp"
 #include "scenario/model/trough_mesh.hpp"
 
 #include <optional>
@@ -49,6 +50,25 @@ struct Trough {
     MeshUnit mesh_unit = MeshUnit::mm;                   ///< of the file of `mesh`
     std::shared_ptr<TroughMesh const> mesh = nullptr;    ///< a surface instead of the flat floor
     std::optional<double> width = {};                    ///< m, of the real trough; see trough_width()
+};
+
+/// One stage with everything that holds for it. At the end of every cycle the trough is back where it was at
+/// the beginning of the run: its displacement in a cycle with the angle phi is X(phi) - X(0), with the motion
+/// X of its drive. In a ramp of the length t_r the displacement goes over linearly from that of the stage
+/// before to that of this one, and the frequency does so, too: phi(t) = 2 pi (f_1 t + (f_2 - f_1) t^2 / (2
+/// t_r)). Position and velocity of the trough are continuous at both ends of the ramp. A trough that stands
+/// still has the displacement 0 and keeps the frequency of its neighbour.
+struct Stage {
+    Trough trough;           ///< with the drive of the stage; at a standstill with that of the stage before
+    bool standstill;         ///< the trough stands still, but for the ramp
+    int first_cycle;         ///< number of cycles before the stage
+    int cycles;              ///< at least 1, with those of the ramp
+    int ramp_cycles;         ///< of the ramp at its beginning; 0 without a ramp
+    double first_frequency;  ///< Hz, with which the ramp begins
+    double start;            ///< s, when the stage begins
+
+    double ramp_time() const;  ///< s
+    double time() const;       ///< s, with the ramp
 };
 
 /// A single rigid body that replaces the layer and represents the point mass of the theory.
@@ -117,12 +137,17 @@ struct Scenario {
     std::vector<AddedMaterial> materials = {};  ///< that are mixed with the grains; see materials()
     std::vector<MaterialPair> pairs = {};       ///< contacts of two materials
     Feed feed = {};                             ///< of an open trough
+    std::vector<GivenStage> stages = {};        ///< of the drive; none: the drive of the trough without end
 };
 
 double angular_frequency(Trough const& trough);  ///< Angular frequency omega, rad/s.
 double machine_number(Trough const& trough);     ///< K = omega^2 r / g, as given where it was given.
 /// Gamma = omega^2 r sin(beta) / (g cos(alpha)), as given where it was given.
 double throw_number(Trough const& trough);
+
+/// The frequency that follows from the given throw number or machine number, Hz: f = sqrt(K g / r) / (2 pi)
+/// with K = Gamma cos(alpha) / sin(beta). That of the trough when neither is given.
+double frequency_of(Trough const& trough);
 
 /// An angle (rad) in degrees: the shortest decimal number that converts back to this angle to within
 /// rounding, so that 30 degrees are printed as 30 and not as 29.999999999999996.

@@ -190,9 +190,9 @@ class CampaignFileReader {
         }
     }
 
-    /// The entries of [[materials]] or [[pairs]]; the first one's keys are "materials.1.name" and so on.
+    /// The entries of a list such as [[materials]]; the first one's keys are "materials.1.name" and so on.
     void read_list(std::string_view section, Position where, toml::node const& node) {
-        std::size_t const most = section == pairs_section ? most_pairs : most_added_materials;
+        std::size_t const most = most_entries(section);
         toml::array const* const list = node.as_array();
         if (list == nullptr || !std::ranges::all_of(*list, [](toml::node const& e) { return e.is_table(); }))
             fail(where, section, "is a list of tables",

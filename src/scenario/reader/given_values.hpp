@@ -70,7 +70,9 @@ class GivenKeys {
 
 /// What to write instead of a waveform that is wrong.
 inline constexpr std::string_view waveform_advice =
-    "write the header time_s,x_m,z_m and evenly spaced samples of one cycle";
+    "write the header time_s,x_m,z_m and at least 8 evenly spaced samples of one cycle, the first at 0 s and "
+    "without the first of the next cycle; frequency, amplitude and vibration_angle must be those of its "
+    "fundamental";
 
 /// Works out what follows from several keys of the trough, and checks that they go together.
 /// @param scenario  all keys are set
@@ -83,6 +85,9 @@ void complete_grains(Scenario& scenario, GivenKeys const& given);
 /// Checks that the materials and their pairs go together, and that the layer can have them. @throws
 /// core::InputError
 void complete_materials(Scenario const& scenario, GivenKeys const& given);
+
+/// Works out how long the run of a drive in stages is, and checks its stages. @throws core::InputError
+void complete_stages(Scenario& scenario, GivenKeys const& given);
 
 /// The same for the layer, whose number of grains follows from its height. @throws core::InputError
 void complete_layer(Scenario& scenario, GivenKeys const& given);

@@ -4,6 +4,7 @@
 #include "scenario/reader/other_words.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <numeric>
 #include <string>
@@ -18,7 +19,7 @@ namespace {
 std::vector<Key> const& table() {
     static std::vector<Key> const rows = [] {
         std::vector<Key> all;
-        for (auto const part : {trough_keys(), grains_keys(), material_keys(), plan_keys()})
+        for (auto const part : {trough_keys(), grains_keys(), material_keys(), stage_keys(), plan_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();
@@ -73,7 +74,18 @@ std::string_view section_of(Key const& key) {
 }
 
 bool is_list_section(std::string_view section) {
-    return section == materials_section || section == pairs_section;
+    return most_entries(section) > 0;
+}
+
+std::size_t most_entries(std::string_view section) {
+    if (section == materials_section) return most_added_materials;
+    if (section == pairs_section) return most_pairs;
+    return section == stages_section ? most_stages : 0;
+}
+
+std::string_view path_of_entry(std::string_view section, std::size_t index, std::string_view name) {
+    static std::deque<std::string> paths;  // a deque, so that earlier paths stay where they are
+    return paths.emplace_back(fmt::format("{}.{}.{}", section, index + 1, name));
 }
 
 std::string_view last_name(std::string_view path) {

@@ -107,16 +107,23 @@ std::vector<std::string_view> choices(Key const& key);
 
 /// A section that is a list, [[materials]]. The keys of its entries count them from 1: "materials.2.density".
 inline constexpr std::string_view materials_section = "materials";
-/// The other one, [[pairs]].
+/// Another one, [[pairs]].
 inline constexpr std::string_view pairs_section = "pairs";
+/// Another one, [[stages]].
+inline constexpr std::string_view stages_section = "stages";
 
 /// How many entries [[materials]] may have: four materials with that of [grains].
 inline constexpr std::size_t most_added_materials = 3;
 /// How many entries [[pairs]] may have: all pairs of four materials.
 inline constexpr std::size_t most_pairs = 6;
+/// How many entries [[stages]] may have.
+inline constexpr std::size_t most_stages = 16;
 
 /// Whether a section is a list.
 bool is_list_section(std::string_view section);
+
+/// How many entries a section that is a list may have; 0 for other sections.
+std::size_t most_entries(std::string_view section);
 
 /// All keys that describe cases, in the order of the reference and of to_toml().
 std::span<Key const> all_keys();

@@ -135,6 +135,9 @@ void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
     refuse(is_clump(s.grains), "grains.shape", "an open trough is fed with spheres");
     refuse(!s.materials.empty(), "materials.1.name", "an open trough is fed with one material");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of an open trough");
+    if (!s.stages.empty())
+        given.fail(given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
+                   "the drive of an open trough has no stages", "remove [[stages]], or the section [feed]");
     if (s.trough.side_wall_friction) return;
     given.fail("feed.mass_flow",
                "an open trough needs side walls, and there are none: it is not periodic across",

@@ -1,10 +1,6 @@
 #include "scenario/reader/key_fields.hpp"
 
-#include <deque>
-#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -12,26 +8,9 @@ namespace {
 using enum KeyKind;
 using enum KeyNeed;
 
-/// A member of one entry of a list of the case. Setting it makes the entry.
-template <auto list, std::size_t index, auto member>
-constexpr KeyAccess entry_field{[](Scenario const& s) -> std::optional<Content> {
-                                    return (s.*list).size() > index ? content_of((s.*list)[index].*member)
-                                                                    : std::nullopt;
-                                },
-                                [](Scenario& s, GivenValue const& value) {
-                                    if ((s.*list).size() <= index) (s.*list).resize(index + 1);
-                                    take((s.*list)[index].*member, value);
-                                }};
-
-/// The path of a key in the entry with this index, such as "materials.1.density": entries count from 1.
-std::string_view path_of(std::string_view section, std::size_t index, std::string_view name) {
-    static std::deque<std::string> paths;  // a deque, so that earlier paths stay where they are
-    return paths.emplace_back(fmt::format("{}.{}.{}", section, index + 1, name));
-}
-
 template <std::size_t index>
 void add_material(std::vector<Key>& rows) {
-    auto const path = [](std::string_view name) { return path_of(materials_section, index, name); };
+    auto const path = [](std::string_view name) { return path_of_entry(materials_section, index, name); };
     constexpr auto list = &Scenario::materials;
     auto const add = [&](std::string_view name, KeyKind kind, std::string_view unit, double least,
                          double most, std::string_view range, std::string_view example,
@@ -71,7 +50,7 @@ void add_material(std::vector<Key>& rows) {
 
 template <std::size_t index>
 void add_pair(std::vector<Key>& rows) {
-    auto const path = [](std::string_view name) { return path_of(pairs_section, index, name); };
+    auto const path = [](std::string_view name) { return path_of_entry(pairs_section, index, name); };
     constexpr auto list = &Scenario::pairs;
     rows.push_back({path("materials"), texts, "", 0, 0,
                     "two names of materials; \"grains\" is that of [grains]", "", optional,

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -29,19 +28,12 @@ class TroughChecks {
   private:
     void set_frequency() {
         if (given_.has("trough.frequency")) return;
-        double machine_number = trough_.given.machine_number.value_or(0);
-        if (trough_.given.throw_number) {
-            if (trough_.vibration_angle <= 0) {
-                given_.fail(
-                    "trough.throw_number",
-                    "a trough that vibrates along its own surface (vibration angle 0) has throw number 0",
-                    "write machine_number or frequency instead");
-            }
-            machine_number = *trough_.given.throw_number * std::cos(trough_.inclination) /
-                             std::sin(trough_.vibration_angle);
+        if (trough_.given.throw_number && trough_.vibration_angle <= 0) {
+            given_.fail("trough.throw_number",
+                        "a trough that vibrates along its own surface (vibration angle 0) has throw number 0",
+                        "write machine_number or frequency instead");
         }
-        double const result =
-            std::sqrt(machine_number * gravity / trough_.amplitude) / (2 * std::numbers::pi);
+        double const result = frequency_of(trough_);
         Key const& key = *find_key("trough.frequency");
         if (result < key.least || result > key.most) {
             given_.fail(
@@ -67,38 +59,14 @@ class TroughChecks {
         }
     }
 
-    /// The amplitude and vibration angle of the keys must be those of the waveform's fundamental, because
-    /// theory, throw number and efficiency are based on them.
     void check_waveform() const {
-        constexpr auto key = "trough.waveform";
         for (char const* other : {"trough.harmonics", "trough.along_phase"}) {
             if (given_.has(other))
                 given_.fail(other, "is given together with a waveform, which already is the whole motion",
                             "keep one of the two");
         }
-        try {
-            check_samples(*trough_.waveform, 1 / trough_.frequency);
-        } catch (std::invalid_argument const& error) {
-            given_.fail(key, fmt::format("{}: {}", trough_.waveform->file.name, error.what()),
-                        waveform_advice);
-        }
-        DriveMotion const& motion = trough_.waveform->motion;
-        auto const fundamental = [](std::vector<DriveTerm> const& terms) {
-            return terms.empty() || terms.front().order != 1 ? 0.0 : terms.front().amplitude;
-        };
-        double const along = fundamental(motion.along), normal = fundamental(motion.normal);
-        double const amplitude = std::hypot(along, normal), angle = std::atan2(normal, along);
-        if (std::abs(amplitude - trough_.amplitude) > 0.01 * amplitude ||
-            std::abs(angle - trough_.vibration_angle) > 0.01) {
-            given_.fail(
-                key,
-                fmt::format(
-                    "its fundamental has amplitude {:.6g} mm and vibration angle {:.5g} deg, which differ "
-                    "from the keys",
-                    1e3 * amplitude, angle * 180 / std::numbers::pi),
-                fmt::format("write amplitude = \"{:.6g} mm\" and vibration_angle = \"{:.5g} deg\"",
-                            1e3 * amplitude, angle * 180 / std::numbers::pi));
-        }
+        if (auto const fault = find_fault(*trough_.waveform, trough_))
+            given_.fail("trough.waveform", fault->wrong, fault->instead);
     }
 
     Trough& trough_;

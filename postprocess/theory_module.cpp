@@ -1,0 +1,159 @@
+// The theory as a module for Python, without words of its own: vibrotrough_theory.py is what people import.
+
+#include "theory/batch.hpp"
+#include "theory/quantities.hpp"
+#include "theory/tested_range.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace vibrotrough::theory {
+namespace {
+
+using Column = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Constants = std::map<std::string, double>;
+
+/// The inputs of a million points would fill 300 MB: so many are solved at once.
+constexpr std::size_t points_at_once = 65536;
+
+Input input_of(std::string const& name) {
+    if (auto const input = input_named(name)) return *input;
+    throw std::invalid_argument(name + " is not an input of the theory");
+}
+
+std::optional<RollingLaw> law_of(std::optional<Constants> const& constants) {
+    if (!constants) return {};
+    RollingLaw law;
+    for (auto const& [name, value] : *constants) {
+        if (!set_constant(law, name, value))
+            throw std::invalid_argument(name + " is not a constant of the rolling-layer law");
+    }
+    return law;
+}
+
+/// One motion, from one value for each input.
+Inputs one_motion(Constants const& values) {
+    Inputs inputs;
+    for (auto const& [name, value] : values) inputs.set(input_of(name), value);
+    return inputs;
+}
+
+/// @param columns  of the same length; NaN where a motion does not have that input
+py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t count, int jobs,
+                       std::optional<Constants> const& rolling, bool accept_untested) {
+    std::vector<std::pair<Input, double const*>> given;
+    for (auto const& [name, column] : columns) given.emplace_back(input_of(name), column.data());
+    auto const law = law_of(rolling);
+    py::array_t<double> efficiency(count), half_width(count), scale(count);
+    py::array_t<ModeCode> mode(count);
+    py::array_t<int> period(count);
+    py::array_t<bool> converged(count);
+    double *const eta = efficiency.mutable_data(), *const width = half_width.mutable_data(),
+                  *const speed = scale.mutable_data();
+    ModeCode* const modes = mode.mutable_data();
+    int* const periods = period.mutable_data();
+    bool* const settled = converged.mutable_data();
+    double seconds = 0;
+    {
+        py::gil_scoped_release const others_may_run;
+        for (std::size_t begin = 0; begin < count; begin += points_at_once) {
+            std::vector<Inputs> inputs(std::min(points_at_once, count - begin));
+            for (auto const& [input, values] : given) {
+                for (std::size_t i = 0; i < inputs.size(); ++i)
+                    if (!std::isnan(values[begin + i])) inputs[i].set(input, values[begin + i]);
+            }
+            BatchResult answer = solve_batch(inputs, jobs, law, begin + 1);
+            if (law && !accept_untested) withhold_untested(inputs, answer.points);
+            seconds += answer.cpu_seconds_per_solution * static_cast<double>(inputs.size());
+            for (std::size_t i = 0; i < inputs.size(); ++i) {
+                MapPoint const& point = answer.points[i];
+                eta[begin + i] = point.velocity_efficiency;
+                width[begin + i] = point.half_width;
+                speed[begin + i] =
+                    inputs[i].velocity_scale().value_or(std::numeric_limits<double>::quiet_NaN());
+                modes[begin + i] = point.mode;
+                periods[begin + i] = point.period_cycles;
+                settled[begin + i] = point.outcome == Outcome::periodic;
+            }
+        }
+    }
+    py::dict answer;
+    answer["velocity_efficiency"] = efficiency;
+    answer["half_width"] = half_width;
+    answer["velocity_scale"] = scale;
+    answer["mode"] = mode;
+    answer["period_cycles"] = period;
+    answer["converged"] = converged;
+    answer["cpu_seconds"] = seconds;
+    return answer;
+}
+
+ConveyorMotion solve_one(Inputs const& inputs) {
+    ConveyorMotion motion =
+        inputs.plastic() ? solve_plastic(inputs.conveyor(), Detail::pieces) : solve(inputs.conveyor());
+    if (motion.pieces.empty())
+        throw std::invalid_argument("the motion has no period: " +
+                                    std::string(to_string(motion.motion.outcome)));
+    return motion;
+}
+
+py::dict trace_columns_of(Constants const& values, int samples) {
+    Inputs const inputs = one_motion(values);
+    auto rows = trace(solve_one(inputs), samples);
+    auto const amplitude = inputs.amplitude();
+    if (amplitude) rows = in_si_units(std::move(rows), inputs.point(), {.amplitude = *amplitude});
+    py::dict answer;
+    for (TraceColumn const& column : trace_columns()) {
+        py::array_t<double> numbers(rows.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) numbers.mutable_data()[i] = rows[i].*column.value;
+        answer[amplitude ? column.si_name : column.name] = numbers;
+    }
+    py::list phases;
+    for (TraceSample const& row : rows) phases.append(std::string(to_string(row.kind)));
+    answer["phase"] = phases;
+    return answer;
+}
+
+/// Name, value and unit of each quantity.
+py::list quantities_of(Constants const& values, double bulk_density, double height, double width) {
+    Inputs const inputs = one_motion(values);
+    if (!inputs.amplitude()) throw std::invalid_argument("an amplitude or a stroke is missing");
+    Machine machine{.amplitude = *inputs.amplitude()};
+    machine.bulk_density = bulk_density;
+    machine.layer_height = height;
+    machine.layer_width = width;
+    py::list answer;
+    for (NamedQuantity const& one : listed(engineer_quantities(solve_one(inputs), machine)))
+        answer.append(py::make_tuple(one.name, one.value, one.unit));
+    return answer;
+}
+
+std::vector<std::string> names_of_inputs() {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < input_count; ++i) names.emplace_back(name_of(static_cast<Input>(i)));
+    return names;
+}
+
+PYBIND11_MODULE(_vibrotrough_theory, module) {
+    module.def("inputs", &names_of_inputs);
+    module.def("constants", [] {
+        return std::vector<std::string>(rolling_constants().begin(), rolling_constants().end());
+    });
+    module.def("solve", &solve_columns);
+    module.def("mode", py::overload_cast<ModeCode>(&to_string));
+    module.def("trace", &trace_columns_of);
+    module.def("quantities", &quantities_of);
+}
+
+}  // namespace
+}  // namespace vibrotrough::theory

@@ -1,0 +1,101 @@
+"""The theory of Sloot & Kruyt (1996) and its extensions, for numpy arrays: the same library that the program uses.
+
+    import vibrotrough
+
+    one = vibrotrough.theory.solve(rpm=960, stroke_mm=9.7, vibration_angle_deg=30, friction=0.3)
+    print(one.velocity_efficiency, one.conveying_speed, one.mode)       # 0-dimensional arrays; the speed in m/s
+
+    import numpy as np
+    throw_number = np.linspace(1, 3, 201)
+    friction = np.array([0.2, 0.4])[:, None]
+    many = vibrotrough.theory.solve(throw_number=throw_number, tan_vibration_angle=0.5, friction=friction)
+    print(many.velocity_efficiency.shape)                               # (2, 201)
+
+Inputs are those of `vibrotrough theory batch`, by name, in the unit that ends the name; numbers or arrays, which numpy spreads over each other. NaN says that a motion does not have that input. Needed are
+one of throw_number, machine_number, frequency_hz and rpm (the last two with an amplitude), one of vibration_angle_deg and tan_vibration_angle, and friction.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+try:
+    import _vibrotrough_theory as _library
+except ImportError as error:
+    raise ImportError(f"the compiled theory is missing ({error}); in a checkout of Vibrotrough: pip install --no-build-isolation ./postprocess") from error
+
+# Further names of inputs: what they stand for, and by what a value is divided.
+_OTHER_UNITS = {"rpm": ("frequency_hz", 60.0), "amplitude_mm": ("amplitude_m", 1000.0)}
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The long run of many motions, in arrays of one shape."""
+
+    velocity_efficiency: NDArray[np.float64]  #: mean relative velocity over omega r cos(beta); NaN where the rolling-layer law has not been tested
+    half_width: NDArray[np.float64]  #: of its 95 % confidence interval where the motion has no period, else 0
+    conveying_speed: NDArray[np.float64]  #: m/s; NaN for a motion without amplitude
+    period_cycles: NDArray[np.int32]  #: cycles after which the motion repeats; 0 if it does not
+    converged: NDArray[np.bool_]  #: whether a period was found
+    mode_code: NDArray[np.uint64]  #: a number for each mode; equal modes have equal numbers
+    cpu_seconds: float  #: processor time of all threads within the library
+
+    @property
+    def mode(self) -> NDArray[np.str_]:
+        """Phases of one period in order: P slides forwards, N backwards, R rests, F flies; P' and N' are slides that start with a landing."""
+        codes, where = np.unique(self.mode_code, return_inverse=True)
+        return np.array([_library.mode(int(code)) for code in codes])[where].reshape(self.mode_code.shape)
+
+
+def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, accept_untested: bool = False, **inputs: ArrayLike) -> Solution:
+    """Solves all motions, on `jobs` threads (0: all cores).
+
+    rolling_layer: a layer of grains that roll on the trough in place of a point mass; a mapping replaces constants of its law (torque, dry_torque, spin_inertia, stiffness, damping).
+    accept_untested: also answers where that law has not been tested.
+    Raises ValueError for a value out of range (with the number of the motion, in the order of the flattened arrays), TypeError for an unknown name.
+    """
+    columns = _in_base_units(inputs)
+    shape = np.broadcast_shapes(*(column.shape for column in columns.values()))
+    flat = {name: np.broadcast_to(column, shape).ravel() for name, column in columns.items()}
+    law = dict(rolling_layer) if isinstance(rolling_layer, Mapping) else {} if rolling_layer else None
+    found = _library.solve(flat, int(np.prod(shape)), jobs, law, accept_untested)
+    arrays = {name: found[name].reshape(shape) for name in ("velocity_efficiency", "half_width", "period_cycles", "converged")}
+    scale = found["velocity_scale"].reshape(shape)
+    return Solution(**arrays, conveying_speed=np.asarray(arrays["velocity_efficiency"] * scale), mode_code=found["mode"].reshape(shape), cpu_seconds=found["cpu_seconds"])
+
+
+def trace(*, samples: int = 721, **inputs: float) -> dict[str, NDArray[np.float64] | NDArray[np.str_]]:
+    """The curves of one motion over a period, as 'vibrotrough theory trace' prints them: in SI units where an amplitude is given, else without dimension. `phase` has the letters of Solution.mode."""
+    columns = _library.trace(_numbers(inputs), samples)
+    return {**columns, "phase": np.array(columns["phase"])}
+
+
+def quantities(*, bulk_density: float = 0, layer_height: float = 0, layer_width: float = 0, **inputs: float) -> dict[str, tuple[float, str]]:
+    """What an engineer needs of one motion, by name: value and unit, as 'vibrotrough theory point' prints them. Mass flow and power need bulk density (kg/m3), height and width of the layer (m)."""
+    rows: list[tuple[str, float, str]] = _library.quantities(_numbers(inputs), bulk_density, layer_height, layer_width)
+    return {name: (value, unit) for name, value, unit in rows}
+
+
+def _in_base_units(inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
+    names = [*_library.inputs(), *_OTHER_UNITS]
+    columns: dict[str, NDArray[np.float64]] = {}
+    given_as: dict[str, str] = {}
+    for name, values in inputs.items():
+        if name not in names:
+            near = difflib.get_close_matches(name, names, 1)
+            raise TypeError(f"{name} is not an input; " + (f"did you mean {near[0]}?" if near else "inputs are " + ", ".join(sorted(names))))
+        base, divisor = _OTHER_UNITS.get(name, (name, 1.0))
+        if base in columns:
+            raise TypeError(f"{given_as[base]} and {name} are both given; leave one out")
+        given_as[base] = name
+        columns[base] = np.asarray(values, dtype=np.float64) / divisor
+    return columns
+
+
+def _numbers(inputs: Mapping[str, float]) -> dict[str, float]:
+    return {name: float(column) for name, column in _in_base_units(inputs).items()}

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "core/error.hpp"
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+/// Notes: files of JSON that this program writes and reads again, in whose place anything may lie by then.
+/// All of them are read through here, so that each either holds what its reader asks for or has a fault with
+/// a name. Numbers are finite, because JSON has no other ones.
+namespace vibrotrough::core::note {
+
+/// A value of JSON whose members keep their order.
+using Json = nlohmann::ordered_json;
+
+/// Why a note cannot be believed: one printable line, such as "'cycle' is not a whole number from 1 to 9".
+class Fault : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// The largest depth of lists and objects within each other. The program's own notes have six levels.
+constexpr int deepest = 100;
+
+/// The value that a text holds. @throws Fault unless it is JSON of at most `deepest` levels
+Json parse(std::string_view text);
+
+/// A member that is an object. @throws Fault when it is missing or something else
+Json const& object(Json const& note, std::string const& key);
+/// A member that is a list. @throws Fault when it is missing or something else
+Json const& list(Json const& note, std::string const& key);
+
+/// The values of a list. @throws Fault when the note is something else
+Json const& elements(Json const& note);
+
+/// A number. @throws Fault when it is missing, something else, or below `least`
+double number(Json const& note, std::string const& key, double least = std::numeric_limits<double>::lowest());
+/// The same where null stands for a number that is not known. @throws Fault as number()
+std::optional<double> known_number(Json const& note, std::string const& key,
+                                   double least = std::numeric_limits<double>::lowest());
+/// The numbers of a list. @throws Fault when one is something else
+std::vector<double> numbers(Json const& note, std::string const& key);
+
+/// A whole number from `least` on. @throws Fault when it is missing, something else, or too large
+int count(Json const& note, std::string const& key, int least);
+/// The same for larger ones, such as the ids of jobs.
+long whole_number(Json const& note, std::string const& key, long least,
+                  long most = std::numeric_limits<long>::max());
+
+/// The texts of a list. @throws Fault when one is something else
+std::vector<std::string> texts(Json const& note, std::string const& key);
+
+/// The SHA-256 digests that each file which the program wrote may have, by the file's name.
+using Digests = std::map<std::string, std::vector<std::string>>;
+/// An object of lists of digests. @throws Fault when it is missing or something else
+Digests digests(Json const& note, std::string const& key);
+/// Whether a file of this name may have this content.
+bool knows(Digests const& digests, std::string const& name, std::string_view content);
+
+/// A text as it stands. @throws Fault when it is missing or something else
+std::string text(Json const& note, std::string const& key);
+/// A text for messages and tables: harmless(). @throws Fault as text()
+std::string line(Json const& note, std::string const& key);
+/// The same where the text may be missing and then is empty. @throws Fault when it is something else
+std::string text_if_any(Json const& note, std::string const& key);
+/// A text for messages that may be missing. @throws Fault when it is something else
+std::string line_if_any(Json const& note, std::string const& key);
+
+}  // namespace vibrotrough::core::note

@@ -1,0 +1,54 @@
+#include "learn/notes.hpp"
+
+namespace vibrotrough::learn {
+namespace {
+
+namespace note = core::note;
+using note::Json;
+
+CalibratedFriction friction_of(Json const& calibration, Json const& parameter) {
+    std::string const model = note::line_if_any(calibration, "model");
+    if (!calibration.contains("draws")) {
+        CalibratedFriction const known{model,
+                                       note::number(parameter, "median", 0),
+                                       note::number(parameter, "low", 0),
+                                       note::number(parameter, "high", 0),
+                                       {}};
+        if (!(known.low <= known.median && known.median <= known.high))
+            throw note::Fault("'median' lies outside of its own interval");
+        return known;
+    }
+    Json const& draws = note::object(calibration, "draws");
+    CalibratedFriction known{model, 0, 0, 0, note::numbers(draws, note::text(parameter, "name"))};
+    if (!calibration.contains("model_discrepancy")) throw note::Fault("'model_discrepancy' is missing");
+    if (!calibration.at("model_discrepancy").is_null()) {
+        Json const& discrepancy = note::object(calibration, "model_discrepancy");
+        known.discrepancies = note::numbers(draws, note::text(discrepancy, "name"));
+    }
+    return known;
+}
+
+}  // namespace
+
+std::map<std::string, double> parse_half_widths(std::string_view text) {
+    std::map<std::string, double> wanted;
+    Json const json = note::parse(text);
+    Json const& half_widths = note::object(json, "half_widths");
+    for (auto const& [id, half_width] : half_widths.items()) {
+        if (!half_width.is_number() || half_width.get<double>() <= 0)
+            throw note::Fault("'half_widths' holds what is not a number above 0");
+        wanted[id] = half_width.get<double>();
+    }
+    return wanted;
+}
+
+CalibratedFriction parse_calibration(std::string_view text) {
+    Json const calibration = note::parse(text);
+    for (Json const& parameter : note::list(calibration, "parameters")) {
+        std::string const name = note::text(parameter, "name");
+        if (name == "friction" || name == "trough.friction") return friction_of(calibration, parameter);
+    }
+    throw note::Fault("it holds no calibrated friction");
+}
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/note.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::learn {
+
+// The notes of this room, from their text alone. All functions throw core::note::Fault when the text is not
+// such a note.
+
+/// learn.json. @returns the half-width that was wanted of each case, by its id, > 0
+std::map<std::string, double> parse_half_widths(std::string_view text);
+
+/// What a calibration says of the friction of the material on the trough.
+struct CalibratedFriction {
+    std::string model;                       ///< that was calibrated
+    double median, low, high;                ///< the central 95 % interval; 0 where there are draws
+    std::vector<double> draws;               ///< of the posterior; empty when only the interval is known
+    std::vector<double> discrepancies = {};  ///< one for each draw; empty without a model discrepancy
+};
+
+/// The file of `theory calibrate --posterior`, or what it prints with --json.
+CalibratedFriction parse_calibration(std::string_view text);
+
+}  // namespace vibrotrough::learn

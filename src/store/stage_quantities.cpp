@@ -1,0 +1,248 @@
+#include "store/stage_quantities.hpp"
+
+#include "measure/stage_means.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace vibrotrough::store {
+namespace {
+
+using Case = CaseRecord const&;
+using scenario::Stage;
+
+bool has_stages(Case record) {
+    return !record.scenario.stages.empty() && !record.packings.empty();
+}
+
+/// The mean velocity along the trough in each cycle, m/s. The positions of rigid bodies are not unwrapped.
+std::vector<double> velocity_of(Case record, PackingRecord const& packing,
+                                std::vector<double> const& durations) {
+    if (is_clump(record.scenario.grains)) return packing.series.mean_velocity;
+    std::vector<double> velocity;
+    for (std::size_t i = 0; i < durations.size(); ++i)
+        velocity.push_back((packing.series.x[i + 1] - packing.series.x[i]) / durations[i]);
+    return velocity;
+}
+
+measure::StagedVelocities velocities_of(Case record, std::vector<Stage> const& stages) {
+    measure::StagedVelocities all{cycle_durations(stages), {}};
+    for (PackingRecord const& packing : record.packings)
+        all.packings.push_back(velocity_of(record, packing, all.durations));
+    return all;
+}
+
+std::vector<measure::StageMeans> means_of(Case record, std::vector<Stage> const& stages) {
+    std::vector<measure::StageCycles> cycles;
+    for (Stage const& stage : stages) cycles.push_back({stage.first_cycle, stage.ramp_cycles, stage.cycles});
+    return measure_stages(cycles, velocities_of(record, stages), record.scenario.measure.confidence);
+}
+
+/// The index of the last stage that moves, or that does not.
+std::optional<std::size_t> last_stage(std::vector<Stage> const& stages, bool standstill) {
+    for (std::size_t i = stages.size(); i-- > 0;)
+        if (stages[i].standstill == standstill) return i;
+    return {};
+}
+
+std::optional<double> known(double value) {
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// A column with one number for each stage.
+template <typename Of>
+std::vector<double> numbers(std::vector<Stage> const& stages, Of const& of) {
+    std::vector<double> values;
+    for (Stage const& stage : stages) values.push_back(of(stage));
+    return values;
+}
+
+/// Mean and half-width of a number for each stage.
+void add_measured(std::vector<CaseValues>& columns, std::vector<measure::StageMeans> const& means,
+                  measure::EnsembleNumber measure::StageMeans::*number, double confidence) {
+    std::vector<double> values, widths;
+    for (measure::StageMeans const& one : means) {
+        values.push_back((one.*number).mean());
+        widths.push_back((one.*number).half_width(confidence));
+    }
+    columns.emplace_back(std::move(values));
+    columns.emplace_back(std::move(widths));
+}
+
+using OptionalNumber = Field<PackingRecord, std::optional<double>>;
+
+OptionalNumber stage_speed() {
+    return packing_field([](auto& packing) -> auto& { return packing.stage_speed; });
+}
+
+OptionalNumber time_to_speed() {
+    return packing_field([](auto& packing) -> auto& { return packing.time_to_speed; });
+}
+
+OptionalNumber stopping_distance() {
+    return packing_field([](auto& packing) -> auto& { return packing.stopping_distance; });
+}
+
+/// The columns of a number with its half-width in tables for people.
+View shown(int place, std::string_view heading, std::string_view format) {
+    return {.place = place,
+            .format = format,
+            .position = place - 650,
+            .terminal = TerminalView{.heading = heading, .priority = 4, .only_when_known = true},
+            .report = ReportView{heading}};
+}
+
+}  // namespace
+
+std::vector<Entry> const& stages_entries() {
+    constexpr auto width =
+        "Half-width of its interval at measure.confidence, Student's t over the packings; "
+        "NaN with one packing";
+    static std::vector<Entry> const entries{
+        {"start", "s", "When the stage begins; only of drives with stages"},
+        {"time", "s", "How long it is, with its ramp"},
+        {"first_cycle", "1", "Number of its first cycle, from 1"},
+        {"cycles", "1", "Number of its cycles, with its ramp"},
+        {"ramp_cycles", "1", "Number of cycles of its ramp"},
+        {"standstill", "1", "1 when the trough stands still, else 0"},
+        {"throw_number", "1", "Throw number Gamma behind the ramp; 0 at a standstill"},
+        {"frequency", "Hz", "Frequency behind the ramp; at a standstill that of the stage before"},
+        {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
+        {"speed", "m/s",
+         "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, "
+         "mean "
+         "over the packings; NaN without such cycles"},
+        {"speed_half_width", "m/s", width},
+        {"speed_change", "m/s",
+         "Mean velocity in the second half of these cycles less that in the first: not 0 while the speed is "
+         "not steady"},
+        {"speed_change_half_width", "m/s", width},
+        {"distance", "m",
+         "Displacement of the layer along the trough in the whole stage; at a standstill the distance in "
+         "which "
+         "it stops"},
+        {"distance_half_width", "m", width},
+        {"time_to_speed", "s",
+         "Time from the start of the stage until the mean of the packings has gone 95 % of the way from the "
+         "speed before to `speed`; NaN when the two do not differ"},
+        {"time_to_speed_half_width", "s", "Half-width of its interval, by the jackknife over the packings"},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> stages_table(Case record) {
+    if (!has_stages(record)) return {};
+    std::vector<Stage> const all = stages(record.scenario);
+    auto const moving = [](Stage const& stage, double value) { return stage.standstill ? 0 : value; };
+    std::vector<CaseValues> columns{
+        numbers(all, [](Stage const& s) { return s.start; }),
+        numbers(all, [](Stage const& s) { return s.time(); }),
+        numbers(all, [](Stage const& s) { return s.first_cycle + 1; }),
+        numbers(all, [](Stage const& s) { return s.cycles; }),
+        numbers(all, [](Stage const& s) { return s.ramp_cycles; }),
+        numbers(all, [](Stage const& s) { return s.standstill ? 1 : 0; }),
+        numbers(all, [&](Stage const& s) { return moving(s, throw_number(s.trough)); }),
+        numbers(all, [](Stage const& s) { return s.trough.frequency; }),
+        numbers(all, [&](Stage const& s) { return moving(s, s.trough.amplitude); }),
+    };
+    auto const means = means_of(record, all);
+    double const confidence = record.scenario.measure.confidence;
+    for (auto const number : {&measure::StageMeans::speed, &measure::StageMeans::change,
+                              &measure::StageMeans::distance, &measure::StageMeans::time_to_speed})
+        add_measured(columns, means, number, confidence);
+    return columns;
+}
+
+std::vector<Entry> const& stage_cycles_entries() {
+    static std::vector<Entry> const entries{
+        {"time", "s", "Middle of the cycle after the start of the run; only of drives with stages"},
+        {"stage", "1", "Number of its stage, from 1"},
+        {"speed", "m/s", "Mean velocity of the layer along the trough in the cycle, mean over the packings"},
+        {"speed_half_width", "m/s",
+         "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
+         "packing"},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> stage_cycles_table(Case record) {
+    if (!has_stages(record)) return {};
+    std::vector<Stage> const all = stages(record.scenario);
+    measure::StagedVelocities const velocities = velocities_of(record, all);
+    std::vector<double> times, numbers, speeds, widths;
+    double time = 0;
+    for (std::size_t i = 0; i < velocities.durations.size(); ++i) {
+        times.push_back(time + velocities.durations[i] / 2);
+        time += velocities.durations[i];
+        measure::EnsembleNumber speed;
+        for (auto const& packing : velocities.packings) speed.values.push_back(packing[i]);
+        speeds.push_back(speed.mean());
+        widths.push_back(speed.half_width(record.scenario.measure.confidence));
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        numbers.insert(numbers.end(), static_cast<std::size_t>(all[i].cycles), static_cast<double>(i + 1));
+    return {times, numbers, speeds, widths};
+}
+
+void add_stages(CaseRecord& record) {
+    if (!has_stages(record)) return;
+    std::vector<Stage> const all = stages(record.scenario);
+    auto const means = means_of(record, all);
+    auto const moving = last_stage(all, false), standing = last_stage(all, true);
+    for (std::size_t i = 0; i < record.packings.size(); ++i) {
+        PackingRecord& packing = record.packings[i];
+        if (moving) packing.stage_speed = known(means[*moving].speed.values[i]);
+        if (moving) packing.time_to_speed = known(means[*moving].time_to_speed.values[i]);
+        if (standing) packing.stopping_distance = known(means[*standing].distance.values[i]);
+    }
+}
+
+std::vector<Quantity> stage_quantities() {
+    std::vector<Quantity> rows{
+        {"stage_speed",
+         "m/s",
+         "Speed of the layer at the end of the last stage of the drive in which the trough moves, see the "
+         "table "
+         "stages; NaN without stages",
+         stage_speed(),
+         OverPackings::mean,
+         {shown(972, "stage speed", "{:.4f}")}},
+        {"stage_speed_half_width",
+         "m/s",
+         "Half-width of the interval of stage_speed, Student's t over the packings",
+         +[](Case c) { return half_width_over_packings(c, stage_speed()); },
+         OverPackings::nothing,
+         {shown(976, "+-", "{:.4f}")}},
+        {"time_to_speed",
+         "s",
+         "Time in this stage until the mean of the packings has gone 95 % of the way to that speed; of a "
+         "packing its pseudo-value (jackknife); NaN without stages",
+         time_to_speed(),
+         OverPackings::mean,
+         {shown(980, "time to speed", "{:.3f}")}},
+        {"time_to_speed_half_width",
+         "s",
+         "Half-width of the interval of time_to_speed, by the jackknife over the packings",
+         +[](Case c) { return half_width_over_packings(c, time_to_speed()); },
+         OverPackings::nothing,
+         {shown(984, "+-", "{:.3f}")}},
+        {"stopping_distance",
+         "m",
+         "Displacement of the layer along the trough in the last stage in which the trough stands still, "
+         "with "
+         "its ramp; NaN without one",
+         stopping_distance(),
+         OverPackings::mean,
+         {shown(988, "stopping distance", "{:.5f}")}},
+        {"stopping_distance_half_width",
+         "m",
+         "Half-width of the interval of stopping_distance, Student's t over the packings",
+         +[](Case c) { return half_width_over_packings(c, stopping_distance()); },
+         OverPackings::nothing,
+         {shown(992, "+-", "{:.5f}")}},
+    };
+    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    return rows;
+}
+
+}  // namespace vibrotrough::store

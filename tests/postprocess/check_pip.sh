@@ -1,0 +1,13 @@
+#!/bin/sh
+# check_pip.sh PYTHON SOURCE PROGRAM: installs the Python package into a fresh virtual environment, without a network, as the README says,
+# and holds its theory to the program. From a copy, because pip writes beside the sources; without optimisation, which takes most of the time.
+set -eu
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/src"
+cp -R "$2/postprocess" "$folder/postprocess"
+cp -R "$2/src/theory" "$folder/src/theory"
+"$1" -m venv --system-site-packages "$folder/env"
+CMAKE_BUILD_TYPE=Debug "$folder/env/bin/pip" install --quiet --no-index --no-build-isolation "$folder/postprocess"
+cd /
+"$folder/env/bin/python" -B "$(dirname "$(readlink -f "$0")")/check_theory.py" "$3" "$folder"
