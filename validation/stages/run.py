@@ -20,12 +20,12 @@ AMPLITUDES = ["3.3", "4.4", "5.5"]  # mm
 FREQUENCY, COSINE = 15.0, math.cos(math.radians(30))
 ONE_PACKING = {"measure.packings": 1, "measure.max_packings": 1, "measure.half_width": 1.0, "measure.max_cycles": 24}
 ONE_STAGE = {"stages.1.cycles": 48}
-CHANGES = {"stages.1.cycles": 40, "stages.2.cycles": 60, "stages.2.amplitude": "3.3 mm", "stages.3.cycles": 45, "stages.3.ramp_cycles": 5, "stages.3.amplitude": "5.5 mm",
-           "stages.4.cycles": 20, "stages.4.standstill": True}  # fmt: skip
-BEFORE, RAMP, LOW, HIGH = 30, 120, 2.75, 6.05  # cycles, cycles, mm, mm
-RAMPS = {"stages.1.cycles": BEFORE, "stages.1.amplitude": f"{LOW} mm", "stages.2.cycles": RAMP, "stages.2.ramp_cycles": RAMP, "stages.2.amplitude": f"{HIGH} mm",
+CHANGES = {"measure.packings": 4, "stages.1.cycles": 30, "stages.2.cycles": 40, "stages.2.amplitude": "3.3 mm", "stages.3.cycles": 35, "stages.3.ramp_cycles": 5, "stages.3.amplitude": "5.5 mm",
+           "stages.4.cycles": 15, "stages.4.standstill": True}  # fmt: skip
+BEFORE, RAMP, LOW, HIGH = 20, 84, 2.75, 6.05  # cycles, cycles, mm, mm
+RAMPS = {"measure.packings": 4, "stages.1.cycles": BEFORE, "stages.1.amplitude": f"{LOW} mm", "stages.2.cycles": RAMP, "stages.2.ramp_cycles": RAMP, "stages.2.amplitude": f"{HIGH} mm",
          "stages.3.cycles": RAMP, "stages.3.ramp_cycles": RAMP, "stages.3.amplitude": f"{LOW} mm"}  # fmt: skip
-HALF_WINDOW = 6  # cycles before and after the amplitude that is looked at
+HALF_WINDOW = 5  # cycles before and after the amplitude that is looked at
 COLUMNS = ["drive", "amplitude_mm", "efficiency", "half_width"]
 CONTROL = {"3.3": "5.5", "4.4": "3.3", "5.5": "4.4"}  # the negative control: another drive
 
@@ -97,8 +97,8 @@ def judge(run: ValidationCase) -> None:
     def steady(amplitude: str) -> tuple[float, float]:
         return numbers(rows["steady", CONTROL[amplitude] if run.control else amplitude])
 
-    # Efficiency that the layer lags behind: the steady speeds change over 80 cycles of the ramp from 3.3 to 5.5 mm.
-    change = (steady("5.5")[0] * scale("5.5") - steady("3.3")[0] * scale("3.3")) / 80
+    # Efficiency that the layer lags behind: the steady speeds change while the ramp goes from 3.3 to 5.5 mm.
+    change = (steady("5.5")[0] * scale("5.5") - steady("3.3")[0] * scale("3.3")) / (RAMP * (5.5 - 3.3) / (HIGH - LOW))
     for (drive, amplitude), row in rows.items():
         value, width = numbers(row)
         if drive == "single packing, largest difference":
