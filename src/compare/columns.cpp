@@ -222,19 +222,6 @@ std::string larger_error_colour(Row const& row) {
     return larger_error(row) == "numerical" ? "\x1b[1m" : "";
 }
 
-/// What the names of columns in text files end in, because these files tell no units: t/h/m is _t_per_h_m.
-std::string unit_suffix(std::string_view unit) {
-    if (unit == "1") return "";
-    std::string suffix = "_";
-    for (char const c : unit) {
-        if (c == '/')
-            suffix += suffix.find("_per_") == suffix.npos ? "_per_" : "_";
-        else
-            suffix += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return suffix;
-}
-
 /// A function that stands for the type of the values of a quantity.
 Column::Function type_of(store::CaseNumber const& value) {
     constexpr auto nothing = []<typename Type>(Type const&) {
@@ -271,6 +258,18 @@ std::vector<Column> measured_columns() {
 
 }  // namespace
 
+std::string unit_suffix(std::string_view unit) {
+    if (unit == "1") return "";
+    std::string suffix = "_";
+    for (char const c : unit) {
+        if (c == '/')
+            suffix += suffix.find("_per_") == suffix.npos ? "_per_" : "_";
+        else
+            suffix += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return suffix;
+}
+
 std::vector<Column> budget_columns(std::span<Column const> all) {
     std::vector<Column> columns(all.begin(), all.end());
     for (Column& column : columns) {
@@ -291,6 +290,7 @@ std::optional<Value> Column::of(Row const& row) const {
         return i < values.size() ? values[i] : std::nullopt;
     };
     if (swept >= 0) return at(row.swept, swept);
+    if (stage >= 0) return at(row.stage, stage);
     if (measured >= 0) {
         auto known = at(row.measured, measured);
         if (known && std::holds_alternative<double>(*known)) known = unit_factor * std::get<double>(*known);

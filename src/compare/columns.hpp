@@ -36,7 +36,7 @@ struct Column {
     /// A function that gives the value of a row, none where it is not known. Its type is the column's type.
     using Function = std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
                                   std::optional<std::string> (*)(Row const&)>;
-    Function value;       ///< gives the value of a row; of Row::swept and Row::measured only the type counts
+    Function value;  ///< gives the value of a row; of Row::swept, measured and stage only the type counts
     std::string meaning;  ///< one sentence for people, in the reference and the report
     std::string_view format =
         "{}";             ///< of a value in tables for people, as both fmt and Python understand it
@@ -49,6 +49,7 @@ struct Column {
     std::string_view key = "";  ///< of the campaign file, another name for --filter and --sort; may be empty
     int swept = -1;             ///< place in Row::swept; negative for other columns
     int measured = -1;          ///< place in Row::measured; negative for other columns
+    int stage = -1;             ///< place in Row::stage; negative for other columns
     double unit_factor = 1;     ///< of the values in `unit` against those in Row::measured
     double factor = 1;          ///< tables for people show the number times this, in the unit `shown_unit`
     std::string_view shown_unit = "";     ///< empty: `unit`
@@ -68,6 +69,9 @@ std::span<Column const> all_columns();
 /// All columns and one for each swept key that has none, named like the key. The columns of swept keys come
 /// right behind the case in tables for people, and are left out last.
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept);
+
+/// What the names of columns in text files end in, because these files tell no units: t/h/m is _t_per_h_m.
+std::string unit_suffix(std::string_view unit);
 
 /// Whether a column shows one of these keys.
 bool is_swept(Column const& column, scenario::SweptKeys const& swept);

@@ -37,6 +37,8 @@ struct Row {
     std::string outcome;                             ///< how the case ended, or what it waits for
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
+    /// Of a row of stage_rows(): the values of its stage_columns(); empty in other rows.
+    std::vector<std::optional<Value>> stage = {};
     /// Values of measured_quantities() in their order and units; empty without a result.
     std::vector<std::optional<Value>> measured = {};
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered

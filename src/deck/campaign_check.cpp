@@ -10,11 +10,6 @@
 namespace vibrotrough::deck {
 namespace {
 
-/// How far a finding is beyond its limit (above 1) or within it.
-double excess(Finding const& finding) {
-    return finding.at_least ? finding.limit / finding.measured : finding.measured / finding.limit;
-}
-
 void add(CampaignCheck& total, Finding const& finding, int number) {
     auto const item = std::ranges::find_if(
         total.items, [&](CheckedItem const& one) { return one.worst.item == finding.item; });

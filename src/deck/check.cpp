@@ -292,21 +292,8 @@ void check_each_material(std::vector<Finding>& findings, prepare::PreparedCase c
     findings.insert(findings.end(), worst.begin(), worst.end());
 }
 
-}  // namespace
-
-std::string to_string(Severity severity) {
-    switch (severity) {
-        case Severity::fine:
-            return "fine";
-        case Severity::warning:
-            return "warning";
-        case Severity::error:
-            return "error";
-    }
-    return "unknown";
-}
-
-std::vector<Finding> check(prepare::PreparedCase const& prepared) {
+/// All checks but those of the whole run, for a drive without stages.
+std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
     std::vector<Finding> findings;
     check_time_step(findings, prepared);
     if (!is_block(prepared.scenario)) {
@@ -322,6 +309,47 @@ std::vector<Finding> check(prepare::PreparedCase const& prepared) {
     }
     check_stroke(findings, prepared);
     check_unusual(findings, prepared);
+    return findings;
+}
+
+/// The checks of each stage as if its drive had no end; of each item the worst stage counts.
+std::vector<Finding> check_stages(prepare::PreparedCase const& prepared) {
+    std::vector<Finding> worst;
+    for (std::size_t i = 0; i < prepared.stages.size(); ++i) {
+        if (prepared.stages[i].standstill) continue;
+        for (Finding& finding : check_drive(of_stage(prepared, prepared.stages[i]))) {
+            if (finding.severity != Severity::fine) finding.advice += fmt::format(" (stage {})", i + 1);
+            auto const known = std::ranges::find(worst, finding.item, &Finding::item);
+            if (known == worst.end()) {
+                worst.push_back(std::move(finding));
+            } else if (excess(finding) > excess(*known)) {
+                *known = std::move(finding);
+            }
+        }
+    }
+    return worst;
+}
+
+}  // namespace
+
+std::string to_string(Severity severity) {
+    switch (severity) {
+        case Severity::fine:
+            return "fine";
+        case Severity::warning:
+            return "warning";
+        case Severity::error:
+            return "error";
+    }
+    return "unknown";
+}
+
+double excess(Finding const& finding) {
+    return finding.at_least ? finding.limit / finding.measured : finding.measured / finding.limit;
+}
+
+std::vector<Finding> check(prepare::PreparedCase const& prepared) {
+    std::vector<Finding> findings = prepared.stages.empty() ? check_drive(prepared) : check_stages(prepared);
     check_engine(findings, prepared);
     return findings;
 }

@@ -32,12 +32,16 @@ struct Finding {
 /// moves as it should (engine/three_grains.hpp). Increasing.
 constexpr std::array<double, 6> probed_size_ratios{1, 2, 3, 5, 8, 20};
 
+/// How far a finding is beyond its limit (above 1) or within it.
+double excess(Finding const& finding);
+
 /// "fine", "warning" or "error".
 std::string to_string(Severity severity);
 
 /// Checks what a careful person would check before spending hours of computing on a case: time step, steps
 /// per cycle and per contact, overlaps, contact time against flight time, the box, the errors that
-/// are known of such settings, the sizes of the grains, neighbour lists, disk space. All findings are
+/// are known of such settings, the sizes of the grains, neighbour lists, disk space. Each stage of a drive is
+/// checked as if it had no end, and the worst of each finding counts. All findings are
 /// returned, including fine ones, in a fixed order. The formulas are in `estimates.hpp`.
 std::vector<Finding> check(prepare::PreparedCase const& prepared);
 

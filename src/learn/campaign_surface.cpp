@@ -104,6 +104,7 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
     CampaignPoints found{inputs_of(plan, maker, words), {}, {}, 0};
     auto const studied = campaign::read_case_numerics(plan);
     for (campaign::PlannedCase const& planned : plan.cases) {
+        require_steady_drive(planned.scenario(), "a surface");
         if (!has_words(planned.scenario(), words)) continue;
         auto const place = place_of(planned.scenario(), found.inputs);
         auto const theory = theory_of(*planned.prepared);

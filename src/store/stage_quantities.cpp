@@ -131,7 +131,7 @@ std::vector<Entry> const& stages_entries() {
 }
 
 std::vector<CaseValues> stages_table(Case record) {
-    if (!has_stages(record)) return {};
+    if (record.scenario.stages.empty()) return {};
     std::vector<Stage> const all = stages(record.scenario);
     auto const moving = [](Stage const& stage, double value) { return stage.standstill ? 0 : value; };
     std::vector<CaseValues> columns{
@@ -145,6 +145,7 @@ std::vector<CaseValues> stages_table(Case record) {
         numbers(all, [](Stage const& s) { return s.trough.frequency; }),
         numbers(all, [&](Stage const& s) { return moving(s, s.trough.amplitude); }),
     };
+    if (record.packings.empty()) return columns;
     auto const means = means_of(record, all);
     double const confidence = record.scenario.measure.confidence;
     for (auto const number : {&measure::StageMeans::speed, &measure::StageMeans::change,

@@ -13,7 +13,7 @@ namespace vibrotrough::store {
 
 /// The columns of the table `stages`: one row for each stage.
 std::vector<Entry> const& stages_entries();
-/// Their values; none when the drive has no stages.
+/// Their values; none when the drive has no stages, and without packings only those of the drive.
 std::vector<CaseValues> stages_table(CaseRecord const& record);
 
 /// The columns of the table `stage_cycles`: one row for each cycle of the stages.

@@ -3,6 +3,7 @@ cycles that the engine wrote; and a run that is killed within a stage and goes o
 """
 
 import csv
+import json
 import unittest
 
 import h5py
@@ -104,6 +105,14 @@ class Stages(EndToEndTest):
         self.assertAlmostEqual(stages["distance"][2], np.mean([x[17] - x[14] for x in ends]), delta=1e-12)
         self.assertGreater(stages["speed"][1], 0)
         self.assertLess(stages["speed"][3], 0)  # the trough is reversed
+        rows = json.loads(self.call("compare", self.output, "--stages", "--json").stdout)
+        self.assertEqual([row["stage"] for row in rows], [1, 2, 3, 4])
+        np.testing.assert_allclose([row["speed_m_per_s"] for row in rows], stages["speed"], rtol=1e-12)
+        # The point mass of the first stage, by the command for a drive that never ends.
+        words = ["--throw-number", rows[0]["throw_number"], "--tan-vibration-angle", np.tan(ANGLES[0]), "--friction", 0.23, "--json"]
+        efficiency = json.loads(self.call("theory", "point", *words).stdout)["velocity_efficiency"]
+        self.assertAlmostEqual(rows[0]["speed_theory_m_per_s"], efficiency * 2 * np.pi * F1 * 3e-3 * np.cos(ANGLES[0]), delta=1e-8)
+        self.assertIsNone(rows[2]["speed_theory_m_per_s"])
         row = self.table()[0]
         self.assertEqual(row["outcome"], "finished")
         self.assertIsNone(row["efficiency_theory"])
@@ -140,6 +149,8 @@ class Stages(EndToEndTest):
                 self.assertEqual(done.returncode, 2, done.stdout)
                 self.assertIn(told, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
+        steady_only = self.call("convergence", self.write_stages())
+        self.assertIn("convergence: the campaign 'small' has [[stages]]", steady_only.stderr)
         done = self.call("check", self.write_stages({"measure.max_packings": 9}))
         self.assertIn("as many packings as measure.packings says", done.stderr)
 

@@ -9,6 +9,7 @@
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "compare/select.hpp"
+#include "compare/stage_rows.hpp"
 #include "compare/table.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
@@ -35,6 +36,7 @@ struct CompareArguments {
     bool csv = false;
     bool curves = false;
     bool budget = false;
+    bool stages = false;
     std::string sort;
     std::vector<std::string> filters;
     std::string colour = "auto";
@@ -82,10 +84,15 @@ void tell_unknown_results(archive::OpenBundle const& bundle, std::vector<compare
 int run_compare(CompareArguments const& options) {
     auto const bundle = archive::open_bundle(options.folder);
     campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(options.folder));
-    auto [cases, rows, columns] =
+    compare::ComparedCases compared =
         compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    auto& [cases, rows, columns] = compared;
     if (bundle) tell_unknown_results(*bundle, rows, cases);
     tell_left_aside(plan, cases);
+    if (options.stages) {
+        rows = compare::stage_rows(compared);
+        columns = compare::stage_columns(columns);
+    }
     for (std::string const& condition : options.filters) rows = compare::filtered(rows, condition, columns);
     if (!options.sort.empty()) rows = compare::sorted(std::move(rows), options.sort, columns);
     auto const print = [](std::string_view piece) { fmt::print("{}", piece); };
@@ -129,6 +136,13 @@ void add_compare(CLI::App& program, int& exit_code) {
         ->excludes(json)
         ->excludes(csv);
     command
+        ->add_flag(
+            "--stages", options->stages,
+            "Print a line for each stage of drives with [[stages]]: what the layer does in it, and what "
+            "the theory says of its drive")
+        ->excludes("--theory-curves")
+        ->excludes("--budget");
+    command
         ->add_option("--sort", options->sort,
                      "Sort by a column of the JSON or by 'difference' (DEM minus theory), for example "
                      "difference:desc")
@@ -168,6 +182,10 @@ the name that it has in the campaign file; --sort and --filter take these names,
 The files of a bundle are checked against its checksums first, and one that was changed is named. A packed bundle is
 unpacked into a private folder below TMPDIR, which is removed again.
 
+With --stages, speed is that of the layer at the end of the stage and theory that of a point mass for which the drive of
+this stage never ends; 'distance' is how far the layer moves in the stage, and 'to speed' the time until its speed has
+changed by 95 % of what it changes.
+
 With --budget, eta DEM is followed by +- its statistical and +- its numerical error: half the width of the confidence
 interval of the packings, and how far Young's modulus, box and time step are from their limits. < marks a bound at 95 %
 that is known beforehand. 'vibrotrough convergence' replaces it by the error of the case itself; a star marks one that was
@@ -185,6 +203,7 @@ Examples:
   vibrotrough compare runs/demo --csv > demo.csv
   vibrotrough compare runs/demo --filter 'throw_number>1.8' --sort difference:desc
   vibrotrough compare runs/mine --filter 'grains.rolling_friction<0.1'
+  vibrotrough compare runs/stages --stages
   vibrotrough compare supplement.zip)");
     command->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }

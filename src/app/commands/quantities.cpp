@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
 #include "compare/exports.hpp"
+#include "compare/stage_rows.hpp"
 #include "store/reference.hpp"
 
 #include <memory>
@@ -18,7 +19,8 @@ std::string reference() {
     return "# Everything in the results\n\n"
            "Printed by `vibrotrough quantities`. What the shapes, the tables and the missing values mean is "
            "explained in\n[src/store](README.md) and [src/compare](../compare/README.md).\n\n" +
-           store::file_reference() + "\n## Columns of compare\n\n" + compare::column_reference();
+           store::file_reference() + "\n## Columns of compare\n\n" + compare::column_reference() +
+           "\n## Columns of compare --stages\n\n" + compare::column_reference(compare::stage_columns());
 }
 
 Json list_of(std::vector<store::NameInFile> const& names) {

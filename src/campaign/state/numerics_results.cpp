@@ -172,6 +172,7 @@ scenario::Scenario as_read_back(scenario::Scenario const& scenario) {
 
 NumericsStudy plan_study(PlannedCase const& planned, std::optional<double> half_width) {
     scenario::Scenario scenario = planned.scenario();
+    require_steady_drive(scenario, "convergence");
     scenario.output.frames_per_cycle = 0;
     scenario.measure.rolling = false;
     if (half_width) scenario.measure.half_width = *half_width;

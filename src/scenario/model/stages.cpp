@@ -1,9 +1,12 @@
 #include "scenario/model/stages.hpp"
 
+#include "core/error.hpp"
 #include "scenario/model/scenario.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -84,6 +87,14 @@ std::vector<double> cycle_durations(std::vector<Stage> const& stages) {
         }
     }
     return durations;
+}
+
+void require_steady_drive(Scenario const& scenario, std::string_view what) {
+    if (scenario.stages.empty()) return;
+    throw core::InputError(
+        fmt::format("{}: the campaign '{}' has [[stages]], and this needs a drive that never ends; give it a "
+                    "campaign without them, with the drive of one stage below [trough]",
+                    what, scenario.campaign));
 }
 
 int cycles_of(std::vector<Stage> const& stages) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 /// @file
@@ -38,6 +39,11 @@ std::vector<Stage> stages(Scenario const& scenario);
 
 /// The duration of each cycle of all stages, s.
 std::vector<double> cycle_durations(std::vector<Stage> const& stages);
+
+/// For what works with steady drives only.
+/// @param what  that it is, the begin of the message
+/// @throws core::InputError when the drive has stages
+void require_steady_drive(Scenario const& scenario, std::string_view what);
 
 /// Cycles of all stages.
 int cycles_of(std::vector<Stage> const& stages);

@@ -39,6 +39,7 @@ std::string shake_test_campaign(std::filesystem::path const& campaign_file, doub
     std::set<std::string> known;
     std::vector<Scenario> layers;
     for (Scenario const& one : read_campaign(campaign_file).cases) {
+        require_steady_drive(one, "friction-test");
         if (known.insert(layer_key(one)).second) layers.push_back(shaken(one, machine_number));
     }
     return campaign_toml(layers, fmt::format("The layers of {} shaken along a level trough", name));
