@@ -46,7 +46,8 @@ constexpr std::array shown{
     Shown{"throw_number", "Gamma", "", 8, "{:.3f}"},
     Shown{"frequency", "f", "Hz", 4, "{:.2f}"},
     Shown{"amplitude", "r", "m", 4, "{:.4f}"},
-    Shown{"speed", "speed", "m/s", 9, "{:.4f}", [](Row const& row) { return cell(row, "speed", 4); }},
+    Shown{"conveying_speed", "speed", "m/s", 9, "{:.4f}",
+          [](Row const& row) { return cell(row, "conveying_speed", 4); }},
     Shown{"distance", "distance", "m", 6, "{:.4f}", [](Row const& row) { return cell(row, "distance", 4); }},
     Shown{"time_to_speed", "to speed", "s", 6, "{:.3f}",
           [](Row const& row) { return cell(row, "time_to_speed", 3); }},
@@ -145,7 +146,7 @@ std::vector<Column> stage_columns(std::span<Column const> columns) {
             column.format = view->format;
             column.cell = view->cell;
         }
-        bool const is_speed = entry.name == "speed";
+        bool const is_speed = entry.name == "conveying_speed";
         chosen.push_back(std::move(column));
         if (!is_speed) continue;
         for (Column& theory : theory_columns(chosen.back().position)) chosen.push_back(std::move(theory));

@@ -108,11 +108,11 @@ std::vector<Entry> const& stages_entries() {
         {"throw_number", "1", "Throw number Gamma behind the ramp; 0 at a standstill"},
         {"frequency", "Hz", "Frequency behind the ramp; at a standstill that of the stage before"},
         {"amplitude", "m", "Amplitude r behind the ramp; 0 at a standstill"},
-        {"speed", "m/s",
+        {"conveying_speed", "m/s",
          "Mean velocity of the layer along the trough over the second half of the cycles behind the ramp, "
          "mean "
          "over the packings; NaN without such cycles"},
-        {"speed_half_width", "m/s", width},
+        {"conveying_speed_half_width", "m/s", width},
         {"speed_change", "m/s",
          "Mean velocity in the second half of these cycles less that in the first: not 0 while the speed is "
          "not steady"},
@@ -124,7 +124,7 @@ std::vector<Entry> const& stages_entries() {
         {"distance_half_width", "m", width},
         {"time_to_speed", "s",
          "Time from the start of the stage until the mean of the packings has gone 95 % of the way from the "
-         "speed before to `speed`; NaN when the two do not differ"},
+         "speed before to `conveying_speed`; NaN when the two do not differ"},
         {"time_to_speed_half_width", "s", "Half-width of its interval, by the jackknife over the packings"},
     };
     return entries;
@@ -158,8 +158,9 @@ std::vector<Entry> const& stage_cycles_entries() {
     static std::vector<Entry> const entries{
         {"time", "s", "Middle of the cycle after the start of the run; only of drives with stages"},
         {"stage", "1", "Number of its stage, from 1"},
-        {"speed", "m/s", "Mean velocity of the layer along the trough in the cycle, mean over the packings"},
-        {"speed_half_width", "m/s",
+        {"conveying_speed", "m/s",
+         "Mean velocity of the layer along the trough in the cycle, mean over the packings"},
+        {"conveying_speed_half_width", "m/s",
          "Half-width of its interval at measure.confidence, Student's t over the packings; NaN with one "
          "packing"},
     };

@@ -58,7 +58,7 @@ TEST(StageRows, TheTheoryIsThatOfTheDriveOfTheStage) {
     }
     EXPECT_FALSE(number(rows[2], "speed_theory_m_per_s"));
     EXPECT_EQ(number(rows[2], "throw_number"), 0);
-    EXPECT_FALSE(number(rows[1], "speed_m_per_s"));  // nothing has been measured
+    EXPECT_FALSE(number(rows[1], "conveying_speed_m_per_s"));  // nothing has been measured
 }
 
 TEST(StageRows, ASpeedStandsBesideTheTheoryWithItsInterval) {
@@ -76,9 +76,9 @@ TEST(StageRows, ASpeedStandsBesideTheTheoryWithItsInterval) {
         }
         return stage_rows("0123456789ab", prepare::prepare_case(scenario), record, "finished");
     }();
-    EXPECT_NEAR(number(rows[1], "speed_m_per_s").value(), 0.15, 1e-12);
+    EXPECT_NEAR(number(rows[1], "conveying_speed_m_per_s").value(), 0.15, 1e-12);
     // Student's t for two packings, 12.706, times 0.0707 / sqrt(2).
-    EXPECT_NEAR(number(rows[1], "speed_half_width_m_per_s").value(), 0.63531, 1e-5);
+    EXPECT_NEAR(number(rows[1], "conveying_speed_half_width_m_per_s").value(), 0.63531, 1e-5);
     EXPECT_THAT(to_table(rows, {}, stage_columns()), testing::HasSubstr("0.1500 +- 0.6353"));
     EXPECT_THAT(to_csv(rows, stage_columns()), testing::HasSubstr("case,stage,start_s,time_s"));
 }

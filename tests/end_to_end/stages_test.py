@@ -96,18 +96,18 @@ class Stages(EndToEndTest):
             with open(case / f"packing-{packing}/cycles.csv") as lines:
                 ends.append([float(row["x_com"]) for row in csv.DictReader(line for line in lines if not line.startswith("#"))])
         speed = np.diff(ends, axis=1) / durations()
-        np.testing.assert_allclose(cycles["speed"], speed.mean(axis=0), rtol=1e-12)
+        np.testing.assert_allclose(cycles["conveying_speed"], speed.mean(axis=0), rtol=1e-12)
         np.testing.assert_allclose(cycles["time"], np.cumsum(durations()) - durations() / 2, rtol=1e-12)
         # The second half of the cycles behind each ramp.
         for stage, part in zip(stages, (slice(4, 6), slice(12, 14), slice(16, 17), slice(19, 21))):
-            self.assertAlmostEqual(stage["speed"], speed[:, part].mean(), delta=1e-12)
+            self.assertAlmostEqual(stage["conveying_speed"], speed[:, part].mean(), delta=1e-12)
         np.testing.assert_array_equal(stages["ramp_cycles"], [2, 3, 0, 0])
         self.assertAlmostEqual(stages["distance"][2], np.mean([x[17] - x[14] for x in ends]), delta=1e-12)
-        self.assertGreater(stages["speed"][1], 0)
-        self.assertLess(stages["speed"][3], 0)  # the trough is reversed
+        self.assertGreater(stages["conveying_speed"][1], 0)
+        self.assertLess(stages["conveying_speed"][3], 0)  # the trough is reversed
         rows = json.loads(self.call("compare", self.output, "--stages", "--json").stdout)
         self.assertEqual([row["stage"] for row in rows], [1, 2, 3, 4])
-        np.testing.assert_allclose([row["speed_m_per_s"] for row in rows], stages["speed"], rtol=1e-12)
+        np.testing.assert_allclose([row["conveying_speed_m_per_s"] for row in rows], stages["conveying_speed"], rtol=1e-12)
         # The point mass of the first stage, by the command for a drive that never ends.
         words = ["--throw-number", rows[0]["throw_number"], "--tan-vibration-angle", np.tan(ANGLES[0]), "--friction", 0.23, "--json"]
         efficiency = json.loads(self.call("theory", "point", *words).stdout)["velocity_efficiency"]
@@ -116,7 +116,7 @@ class Stages(EndToEndTest):
         row = self.table()[0]
         self.assertEqual(row["outcome"], "finished")
         self.assertIsNone(row["efficiency_theory"])
-        self.assertAlmostEqual(row["stage_speed_m_per_s"], stages["speed"][3], delta=1e-12)
+        self.assertAlmostEqual(row["stage_speed_m_per_s"], stages["conveying_speed"][3], delta=1e-12)
         self.assertAlmostEqual(row["stopping_distance_m"], stages["distance"][2], delta=1e-12)
 
     def test_a_run_that_is_killed_goes_on_with_the_same_numbers(self):

@@ -56,7 +56,7 @@ def of_packings(values: Floats) -> list[str]:
 def speeds_in_stages(run: ValidationCase, name: str, drives: list[tuple[str, str]]) -> list[list[str]]:
     with result(run, name) as file:
         stages = file["stages"][:]
-    return [[drive, amplitude, f"{stage['speed'] / scale(amplitude):.5f}", f"{stage['speed_half_width'] / scale(amplitude):.5f}"]
+    return [[drive, amplitude, f"{stage['conveying_speed'] / scale(amplitude):.5f}", f"{stage['conveying_speed_half_width'] / scale(amplitude):.5f}"]
             for (drive, amplitude), stage in zip(drives, stages, strict=True)]  # fmt: skip
 
 
