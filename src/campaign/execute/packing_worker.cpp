@@ -44,7 +44,9 @@ class Attempt {
         wait_for_signal(Stop::with_checkpoint);
         tick();
         context_.run();
-        if (is_over_time_ && end_.failure == core::Outcome::interrupted)
+        // A scheduler's own signal at the end of its time may come before the next look at the clock.
+        bool const is_late = deadline_ && std::chrono::steady_clock::now() > *deadline_;
+        if (is_late && end_.failure == core::Outcome::interrupted)
             return {core::Outcome::time_limit, "the packing was not finished within its time"};
         return end_;
     }
@@ -84,6 +86,25 @@ class Attempt {
     bool ended_ = false;
     PackingEnd end_{};
     PackingRun run_;
+};
+
+/// Whether the process was asked to stop. While one of these exists, no signal ends the process: one that
+/// comes between two runs, or while the last is evaluated, counts before the next run begins.
+class StopRequest {
+  public:
+    StopRequest() {
+        engine::add_stop_signals(signals_);
+        signals_.async_wait([this](auto const& cancelled, int) { is_made_ = !cancelled; });
+    }
+    bool is_made() {
+        context_.poll();
+        return is_made_;
+    }
+
+  private:
+    boost::asio::io_context context_;
+    boost::asio::signal_set signals_{context_};
+    bool is_made_ = false;
 };
 
 engine::Engine same_engine(std::filesystem::path const& folder) {
@@ -136,6 +157,7 @@ WorkResult finish_if_enough(KnownCase const& known, CaseDecision const& decision
 
 WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& id, WorkLimits const& limits,
                 Policy const& policy) {
+    StopRequest stop;
     std::optional<std::chrono::steady_clock::time_point> deadline;
     if (limits.time_limit) {
         deadline = std::chrono::steady_clock::now() +
@@ -161,6 +183,7 @@ WorkResult work(std::filesystem::path const& campaign_folder, PackingId const& i
         auto const packing = find_wanted(decision, id.packing);
         if (!packing || is_done(known, *packing))
             return finish_if_enough(known, decision, engine.version, std::move(evaluated));
+        if (stop.is_made()) return {WorkResult::interrupted, "the run was interrupted"};
         evaluate::remove_marker(planned.packing_folder(id.packing));  // of a run with fewer cycles
         long const memory_kills = count_memory_kills();
         Attempt running(engine, campaign_folder, planned, *packing, deadline);
