@@ -53,15 +53,16 @@ def of_packings(values: Floats) -> list[str]:
     return [f"{values.mean():.5f}", f"{width:.5f}"]
 
 
-def speeds_in_stages(run: ValidationCase, name: str, drives: list[tuple[str, str]]) -> list[list[str]]:
+def speeds_in_stages(run: ValidationCase, name: str, drives: list[tuple[str, str]]) -> list[list[object]]:
     with result(run, name) as file:
         stages = file["stages"][:]
     return [[drive, amplitude, f"{stage['conveying_speed'] / scale(amplitude):.5f}", f"{stage['conveying_speed_half_width'] / scale(amplitude):.5f}"]
             for (drive, amplitude), stage in zip(drives, stages, strict=True)]  # fmt: skip
 
 
-def speeds_in_ramps(run: ValidationCase) -> list[list[str]]:
-    x, rows = places(run, "ramps"), []
+def speeds_in_ramps(run: ValidationCase) -> list[list[object]]:
+    x = places(run, "ramps")
+    rows: list[list[object]] = []
     for amplitude in AMPLITUDES:
         share = (float(amplitude) - LOW) / (HIGH - LOW)
         middles = [BEFORE + round(share * RAMP), BEFORE + RAMP + round((1 - share) * RAMP)]
