@@ -138,17 +138,18 @@ py::list quantities_of(Constants const& values, double bulk_density, double heig
     return answer;
 }
 
-std::vector<std::string> names_of_inputs() {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < input_count; ++i) names.emplace_back(name_of(static_cast<Input>(i)));
-    return names;
+/// The input that each name stands for, and what its numbers are multiplied with.
+std::map<std::string, std::pair<std::string, double>> columns() {
+    std::map<std::string, std::pair<std::string, double>> all;
+    for (std::string const& name : input_column_names()) {
+        InputColumn const column = input_column_named(name).value();
+        all[name] = {std::string(name_of(column.input)), column.factor};
+    }
+    return all;
 }
 
 PYBIND11_MODULE(_vibrotrough_theory, module) {
-    module.def("inputs", &names_of_inputs);
-    module.def("constants", [] {
-        return std::vector<std::string>(rolling_constants().begin(), rolling_constants().end());
-    });
+    module.def("columns", &columns);
     module.def("solve", &solve_columns);
     module.def("mode", py::overload_cast<ModeCode>(&to_string));
     module.def("trace", &trace_columns_of);

@@ -29,9 +29,6 @@ try:
 except ImportError as error:
     raise ImportError(f"the compiled theory is missing ({error}); in a checkout of Vibrotrough: pip install --no-build-isolation ./postprocess") from error
 
-# Further names of inputs: what they stand for, and by what a value is divided.
-_OTHER_UNITS = {"rpm": ("frequency_hz", 60.0), "amplitude_mm": ("amplitude_m", 1000.0)}
-
 
 @dataclass(frozen=True)
 class Solution:
@@ -82,18 +79,18 @@ def quantities(*, bulk_density: float = 0, layer_height: float = 0, layer_width:
 
 
 def _in_base_units(inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
-    names = [*_library.inputs(), *_OTHER_UNITS]
+    known: dict[str, tuple[str, float]] = _library.columns()
     columns: dict[str, NDArray[np.float64]] = {}
     given_as: dict[str, str] = {}
     for name, values in inputs.items():
-        if name not in names:
-            near = difflib.get_close_matches(name, names, 1)
-            raise TypeError(f"{name} is not an input; " + (f"did you mean {near[0]}?" if near else "inputs are " + ", ".join(sorted(names))))
-        base, divisor = _OTHER_UNITS.get(name, (name, 1.0))
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            raise TypeError(f"{name} is not an input; " + (f"did you mean {near[0]}?" if near else "inputs are " + ", ".join(known)))
+        base, factor = known[name]
         if base in columns:
             raise TypeError(f"{given_as[base]} and {name} are both given; leave one out")
         given_as[base] = name
-        columns[base] = np.asarray(values, dtype=np.float64) / divisor
+        columns[base] = np.asarray(values, dtype=np.float64) * factor
     return columns
 
 

@@ -18,7 +18,8 @@ struct BundleFacts {
 };
 
 /// The facts of a bundle, from their text.
-/// @throws core::note::Fault when the text is no such note, or of a version that this program does not know
+/// @throws core::note::Fault when the text is not such a note, or has a version that this program does not
+/// know
 BundleFacts parse_facts(std::string_view text);
 
 }  // namespace vibrotrough::archive

@@ -246,9 +246,12 @@ void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& 
             "lower it, or write stroke for the distance between the ends of the vibration, which is "
             "twice the amplitude: troughs bear 3 to 6 times gravity"));
     constexpr double lightest_usual = 30;  // kg/m3, foamed polystyrene
-    if (c.scenario.grains.density < lightest_usual) {
-        Finding light = least("density of the grains", "grains.density", c.scenario.grains.density,
-                              lightest_usual, 0, "check its unit: 0.6 t/m3 are 600 kg/m3");
+    double lightest = c.scenario.grains.density;
+    for (scenario::Material const& material : c.materials)
+        lightest = std::min(lightest, material.grains.density);
+    if (lightest < lightest_usual) {
+        Finding light = least("density of the grains", "grains.density", lightest, lightest_usual, 0,
+                              "check its unit: 0.6 t/m3 are 600 kg/m3");
         light.unit = "kg/m3";
         findings.push_back(light);
     }

@@ -46,17 +46,10 @@ constexpr std::array<AnswerColumn, 5> answer_columns{{
      [](Point const& a) { return is_converged(a) ? 1.0 : 0.0; }},
 }};
 
-/// An input of the theory and what a number of its column is multiplied with.
-struct InputColumn {
-    theory::Input input;
-    double factor;
-};
+using theory::InputColumn;
 
 InputColumn column_named(std::string const& name, core::CsvReader const& table, std::string const& path) {
-    if (name == "rpm") return {theory::Input::frequency_hz, 1.0 / 60};
-    if (name == "amplitude_mm") return {theory::Input::amplitude_m, 1e-3};
-    auto const input = theory::input_named(name);
-    if (input) return {*input, 1};
+    if (auto const column = theory::input_column_named(name)) return *column;
     throw core::CsvError(path, table.header_line(), fmt::format("column '{}' is not an input", name),
                          "write names such as throw_number, tan_vibration_angle, friction");
 }

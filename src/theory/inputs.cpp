@@ -1,5 +1,6 @@
 #include "theory/inputs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -31,6 +32,14 @@ constexpr std::array<std::string_view, input_count> names{"throw_number",
                                                           "height_over_width",
                                                           "landing_friction"};
 
+/// What people also write for an input.
+struct OtherUnit {
+    std::string_view name;
+    InputColumn column;
+};
+constexpr std::array other_units{OtherUnit{"rpm", {Input::frequency_hz, 1.0 / 60}},
+                                 OtherUnit{"amplitude_mm", {Input::amplitude_m, 1e-3}}};
+
 }  // namespace
 
 std::string_view name_of(Input input) {
@@ -42,6 +51,19 @@ std::optional<Input> input_named(std::string_view name) {
         if (names[i] == name) return static_cast<Input>(i);
     }
     return std::nullopt;
+}
+
+std::optional<InputColumn> input_column_named(std::string_view name) {
+    auto const other = std::ranges::find(other_units, name, &OtherUnit::name);
+    if (other != other_units.end()) return other->column;
+    auto const input = input_named(name);
+    return input ? std::optional(InputColumn{*input, 1}) : std::nullopt;
+}
+
+std::vector<std::string> input_column_names() {
+    std::vector<std::string> all(names.begin(), names.end());
+    for (OtherUnit const& other : other_units) all.emplace_back(other.name);
+    return all;
 }
 
 std::optional<std::string> Inputs::incomplete() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vibrotrough::theory {
 
@@ -38,6 +39,17 @@ inline constexpr std::size_t input_count = 19;  ///< Number of inputs.
 std::string_view name_of(Input input);
 /// The input of this name; nothing when there is none.
 std::optional<Input> input_named(std::string_view name);
+
+/// A column of numbers for an input, which may be in a unit of its own.
+struct InputColumn {
+    Input input;    ///< what the numbers are
+    double factor;  ///< makes a number one of the unit of the input
+};
+
+/// The column of this name: that of an input, rpm or amplitude_mm; nothing when there is none.
+std::optional<InputColumn> input_column_named(std::string_view name);
+/// The names of all columns.
+std::vector<std::string> input_column_names();
 
 /// The inputs given for a motion; inputs that are not given have their default values.
 ///

@@ -4,6 +4,7 @@
 //   growing_policy run CAMPAIGN.toml FOLDER        runs the campaign to its end, with the executor it asks
 //   for growing_policy work FOLDER --task-list FILE --index N ...   one packing, as a task of the cluster
 //   runs it
+//   growing_policy stop ...                        the same, but it gets SIGTERM before the engine begins
 
 #include "campaign/execute/campaign_driver.hpp"
 #include "campaign/execute/packing_worker.hpp"
@@ -12,6 +13,7 @@
 #include "scenario/reader/campaign_file.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <string_view>
 
@@ -52,6 +54,15 @@ class GrowingPolicy : public campaign::Policy {
     }
 };
 
+/// The same, but the process is asked to stop while it decides: before the engine of a packing has begun.
+class StoppingPolicy : public GrowingPolicy {
+  public:
+    campaign::CaseDecision decide(campaign::KnownCase const& known) const override {
+        std::raise(SIGTERM);
+        return GrowingPolicy::decide(known);
+    }
+};
+
 class Silent : public campaign::Observer {
   public:
     void progressed(campaign::Progress const&) override {}
@@ -84,7 +95,9 @@ int work(int argc, char** argv) {
         if (std::string_view(argv[i]) == "--index") index = argv[i + 1];
     }
     campaign::PackingId const packing = campaign::read_task(list, std::stoi(index)).at(0);
-    auto const result = campaign::work(argv[2], packing, {}, GrowingPolicy());
+    bool const stops = std::string_view(argv[1]) == "stop";
+    auto const result = stops ? campaign::work(argv[2], packing, {}, StoppingPolicy())
+                              : campaign::work(argv[2], packing, {}, GrowingPolicy());
     fmt::print("{}\n", result.message);
     return result.kind == campaign::WorkResult::interrupted ? 130 : 0;
 }
@@ -94,7 +107,8 @@ int work(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         if (argc == 4 && std::string_view(argv[1]) == "run") return run(argv[2], argv[3]);
-        if (argc > 3 && std::string_view(argv[1]) == "work") return work(argc, argv);
+        if (argc > 3 && (std::string_view(argv[1]) == "work" || std::string_view(argv[1]) == "stop"))
+            return work(argc, argv);
         return 2;
     } catch (std::exception const& error) {
         fmt::print(stderr, "growing_policy: {}\n", error.what());

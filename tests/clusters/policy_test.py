@@ -66,6 +66,17 @@ class GrowingPolicy(EndToEndTest):
         for path, before in kept.items():
             self.assertEqual(fingerprint(path), before, f"{path} was run again")
 
+    def test_a_signal_before_the_engine_begins_is_an_interruption(self):
+        """Where nothing ran yet there is nothing to interrupt, but a scheduler's signal must not end the process without a word."""
+        output = self.folder / "stopped"
+        tasks = self.folder / "tasks.txt"
+        done = self.call("prepare", self.write(), "--output", output, "--liggghts", self.engine, "--task-list", tasks)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.starts_file.write_text("")  # those of the engine's test are not meant
+        stopped = subprocess.run([GROWING, "stop", output, "--task-list", tasks, "--index", "0"], env=self.environment, capture_output=True, text=True)
+        self.assertEqual((stopped.returncode, stopped.stdout), (130, "the run was interrupted\n"), stopped.stderr)
+        self.assertEqual(self.starts_file.read_text(), "", "no engine was started")
+
     def test_on_both_executors_and_after_kills(self):
         campaign = self.write()
         undisturbed = self.folder / "undisturbed"

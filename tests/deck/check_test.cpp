@@ -33,6 +33,26 @@ Finding finding(scenario::Scenario const& s, std::string const& item) {
     return *found;
 }
 
+// Possible, but hardly any machine or material: told only where it is so, with the slip that would explain
+// it.
+TEST(Check, TellsWhatIsUnusual) {
+    scenario::Scenario s = scenario();
+    EXPECT_THROW(finding(s, "machine number"), std::out_of_range);
+    EXPECT_THROW(finding(s, "density of the grains"), std::out_of_range);
+    s.grains.density = 0.6;  // t/m3 taken for kg/m3
+    Finding const light = finding(s, "density of the grains");
+    EXPECT_NE(light.severity, Severity::fine);
+    EXPECT_NE(light.advice.find("0.6 t/m3 are 600 kg/m3"), std::string::npos) << light.advice;
+    // K = omega^2 r / g: a stroke taken for the amplitude doubles it.
+    s = scenario();
+    double const omega = 2 * pi * s.trough.frequency;
+    s.trough.amplitude = 10 * scenario::gravity / (omega * omega);
+    Finding const strong = finding(s, "machine number");
+    EXPECT_NEAR(strong.measured, 10, 1e-12);
+    EXPECT_EQ(strong.severity, Severity::warning);
+    EXPECT_NE(strong.advice.find("stroke"), std::string::npos) << strong.advice;
+}
+
 // One grain of the floor carries rho phi g h d^2 where the layer is h high; the example is asked for as 12 mm
 // at a solid fraction of 0.58, rounded to whole grains (1 / 500).
 TEST(Estimates, BottomLoadIsTheColumnsWeight) {

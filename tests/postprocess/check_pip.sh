@@ -10,4 +10,6 @@ cp -R "$2/src/theory" "$folder/src/theory"
 "$1" -m venv --system-site-packages "$folder/env"
 CMAKE_BUILD_TYPE=Debug "$folder/env/bin/pip" install --quiet --no-index --no-build-isolation "$folder/postprocess"
 cd /
+version=$("$folder/env/bin/python" -c 'import importlib.metadata; print(importlib.metadata.version("vibrotrough"))')
+"$3" --version | head -n 1 | grep -F "$version" >&2
 "$folder/env/bin/python" -B "$(dirname "$(readlink -f "$0")")/check_theory.py" "$3" "$folder"

@@ -11,7 +11,7 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// The nearest whole number of cycles; 0 for what is no number.
+/// The nearest whole number of cycles; 0 when the number is not finite.
 int whole(double cycles) {
     constexpr double most = 1e8;
     return std::isfinite(cycles) ? static_cast<int>(std::lround(std::clamp(cycles, 0.0, most))) : 0;
