@@ -4,6 +4,7 @@
 #include "app/process.hpp"
 #include "app/standard_streams.hpp"
 #include "app/version_text.hpp"
+#include "app/with_vtk.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/text.hpp"
@@ -18,6 +19,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#ifndef VIBROTROUGH_PROGRAM_WITH_VTK
+#define VIBROTROUGH_PROGRAM_WITH_VTK ""  // this program needs no other
+#endif
 
 namespace vibrotrough::app {
 namespace {
@@ -158,8 +163,9 @@ void flush_output() {
 
 int main(int argc, char** argv) {
     using namespace vibrotrough;
-    app::prepare_process();
     try {
+        app::continue_with_vtk(VIBROTROUGH_PROGRAM_WITH_VTK, argc, argv);
+        app::prepare_process();
         core::require_open_files(app::least_open_files, "this program needs");
         int const exit_code = app::run(argc, argv);
         app::flush_output();

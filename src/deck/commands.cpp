@@ -13,6 +13,16 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
+/// Whether a character ends what can be copied as it stands.
+bool is_special(char c) {
+    static constexpr std::array<bool, 256> special = [] {
+        std::array<bool, 256> table{};
+        for (char const one : std::string_view(" \t\r#\"'")) table[static_cast<unsigned char>(one)] = true;
+        return table;
+    }();
+    return special[static_cast<unsigned char>(c)];
+}
+
 /// Older versions wrote frames without the spin of the grains. What a frame says of a grain is not part
 /// of what the engine simulates, so that a case keeps its id, and a run its checkpoint.
 std::size_t length_without_spin(std::string_view command) {
@@ -23,15 +33,14 @@ std::size_t length_without_spin(std::string_view command) {
 
 /// Appends one line without its comment, with single blanks between words.
 void append_command(std::string& commands, std::string_view line) {
-    static constexpr std::array<bool, 256> special = [] {
-        std::array<bool, 256> table{};
-        for (char const c : std::string_view(" \t\r#\"'")) table[static_cast<unsigned char>(c)] = true;
-        return table;
-    }();
     std::size_t const start = commands.size();
     while (!line.empty()) {
+        // Words, with the single blanks between them.
         std::size_t plain = 0;
-        while (plain < line.size() && !special[static_cast<unsigned char>(line[plain])]) ++plain;
+        while (plain < line.size() &&
+               (!is_special(line[plain]) ||
+                (plain > 0 && line[plain] == ' ' && plain + 1 < line.size() && !is_special(line[plain + 1]))))
+            ++plain;
         commands += line.substr(0, plain);
         line.remove_prefix(plain);
         if (line.empty() || line.front() == '#') break;

@@ -80,12 +80,13 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
 std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& prepared) {
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
+    bool const has_walls = scenario.trough.side_wall_friction || prepared.domain.has_mesh();
     std::array<double, 7> const shape{metres_in(scenario.trough.mesh_unit),
                                       scenario.layer.length,
                                       scenario.layer.width,
                                       mean_diameter(scenario),
                                       scenario.trough.side_wall_friction ? 1.0 : 0.0,
-                                      prepared.wall_height,
+                                      has_walls ? prepared.wall_height : 0.0,
                                       prepared.domain.open ? 1.0 : 0.0};
     thread_local std::array<double, 7> last_shape{};
     thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;

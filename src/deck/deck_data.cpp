@@ -259,8 +259,11 @@ void describe_contacts(core::TemplateData& data, bool contacts, bool rolling) {
     data.set("contacts", contacts);
     data.set("overlap_column", std::string(contacts ? "16" : "1"));
     data.set("floor_torque_column", std::string(contacts ? "17" : "2"));
-    data.set("contact_columns", columns_of("overlaps", 16));
-    data.set("trough_contact_columns", columns_of("floor_contacts", rolling ? 19 : 16));
+    static std::string const of_grains = columns_of("overlaps", 16),
+                             of_floor = columns_of("floor_contacts", 16),
+                             of_rolling = columns_of("floor_contacts", 19);
+    data.set("contact_columns", of_grains);
+    data.set("trough_contact_columns", rolling ? of_rolling : of_floor);
 }
 
 void describe_output(core::TemplateData& data, scenario::Scenario const& s, prepare::TimeGrid const& time,

@@ -23,6 +23,7 @@ STARTERS = {
     "engine/certificate_cache.cpp": "ldd, which names the libraries of the engine",
     "campaign/execute/scheduler_call.cpp": "the commands of schedulers",
     "core/temporary_folder.cpp": "a copy of this process, which removes its folders when a signal ends it",
+    "app/with_vtk.cpp": "the program's own part with VTK, from the program's folder",
     "app/python.cpp": "Python with the scripts of the program",
 }
 # What leads to the engine: where it may be named. The last ones are behind the gate.

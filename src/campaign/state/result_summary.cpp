@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
@@ -24,23 +25,19 @@ std::filesystem::path summary_file(PlannedCase const& planned) {
     return planned.folder / "summary";
 }
 
-std::string const& layout() {
-    static std::string const text = "vibrotrough summary 4 " + store::summary_layout();
-    return text;
-}
-
-/// Size, time and inode of a file; none when it is not a regular file.
-std::optional<Json> stamp_of(std::filesystem::path const& file) {
+/// Size, time and inode of a file, as a list in JSON; none when it is not a regular file.
+std::optional<std::string> stamp_of(std::filesystem::path const& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
     std::int64_t const time = status.st_mtim.tv_sec * 1'000'000'000 + status.st_mtim.tv_nsec;
-    return Json::array({status.st_size, time, status.st_ino});
+    return fmt::format("[{},{},{}]", status.st_size, time, status.st_ino);
 }
 
-/// The first line of the file: what the summary was made from. The second one is the SHA-256 of the result,
-/// and the packed summary follows.
-std::string header(Json const& stamp) {
-    return Json({{"layout", layout()}, {"result", stamp}}).dump() + "\n";
+/// The first line of the file, in JSON: what the summary was made from. The second one is the SHA-256 of the
+/// result, and the packed summary follows.
+std::string header(std::string const& stamp) {
+    static std::string const layout = Json("vibrotrough summary 4 " + store::summary_layout()).dump();
+    return "{\"layout\":" + layout + ",\"result\":" + stamp + "}\n";
 }
 
 constexpr std::size_t digest_line = 65;  ///< length of the second line
@@ -51,7 +48,8 @@ bool has_digest(PlannedCase const& planned, std::string_view digest) {
     return now && *now == digest;
 }
 
-std::optional<store::CaseRecord> read_file(PlannedCase const& planned, Json const& stamp, Trust trust) {
+std::optional<store::CaseRecord> read_file(PlannedCase const& planned, std::string const& stamp,
+                                           Trust trust) {
     std::error_code missing;
     if (!std::filesystem::is_regular_file(summary_file(planned), missing)) return {};
     try {
