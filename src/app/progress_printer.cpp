@@ -41,7 +41,9 @@ std::string describe(campaign::Progress const& progress) {
 std::string describe(campaign::RunningPacking const& one) {
     std::string text = fmt::format("  {}, packing {}: cycle {} of {}", name_of(*one.planned), one.packing,
                                    one.cycles, one.cycles_wanted);
-    if (one.estimate && std::isfinite(one.estimate->mean)) {
+    // One efficiency says nothing of a drive that changes in stages.
+    bool const is_steady = one.planned->scenario().stages.empty();
+    if (is_steady && one.estimate && std::isfinite(one.estimate->mean)) {
         text += fmt::format(", eta {:.3f}", one.estimate->mean);
         if (std::isfinite(one.estimate->half_width))
             text += fmt::format(" +- {:.3f}", one.estimate->half_width);

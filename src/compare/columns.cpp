@@ -1,6 +1,7 @@
 #include "compare/columns.hpp"
 
 #include "compare/drive_columns.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +22,7 @@ std::optional<double> difference(Row const& row) {
 }
 
 std::string three_digits(std::optional<double> const& value) {
-    return value ? fmt::format("{:.3f}", *value) : "-";
+    return value ? core::without_sign_of_zero(fmt::format("{:.3f}", *value)) : "-";
 }
 
 std::string efficiency_cell(Row const& row) {
@@ -308,7 +309,7 @@ std::string Column::shown(Row const& row) const {
     auto const known = of(row);
     if (!known) return "-";
     if (auto const* const number = std::get_if<double>(&*known))
-        return fmt::format(fmt::runtime(format), factor * *number);
+        return core::without_sign_of_zero(fmt::format(fmt::runtime(format), factor * *number));
     return std::visit([this](auto const& one) { return fmt::format(fmt::runtime(format), one); }, *known);
 }
 

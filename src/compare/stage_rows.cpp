@@ -1,6 +1,7 @@
 #include "compare/stage_rows.hpp"
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "store/result_file.hpp"
 #include "store/stage_quantities.hpp"
 
@@ -27,7 +28,7 @@ std::optional<double> number_of(Row const& row, std::string_view name) {
 std::string cell(Row const& row, std::string const& name, int digits) {
     auto const value = number_of(row, name), width = number_of(row, name + "_half_width");
     if (!value) return "-";
-    std::string const mean = fmt::format("{:.{}f}", *value, digits);
+    std::string const mean = core::without_sign_of_zero(fmt::format("{:.{}f}", *value, digits));
     return width ? fmt::format("{} +- {:.{}f}", mean, *width, digits) : mean;
 }
 

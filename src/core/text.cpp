@@ -79,6 +79,13 @@ std::string harmless(std::string_view text) {
     return line;
 }
 
+std::string without_sign_of_zero(std::string number) {
+    bool const is_zero = number.starts_with('-') && number.find('0') != std::string::npos &&
+                         number.find_first_not_of("-0.") == std::string::npos;
+    if (is_zero) number.erase(0, 1);
+    return number;
+}
+
 bool is_utf16(std::string_view text) {
     return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
 }

@@ -18,6 +18,9 @@ std::string printable(std::string_view text, std::size_t longest);
 /// written as "\x1b", "\u202e" and "\xff". The letters of all languages stay.
 std::string harmless(std::string_view text);
 
+/// A printed number that rounds to zero without a sign: "0.0000" for "-0.0000".
+std::string without_sign_of_zero(std::string number);
+
 /// Whether a text begins with the byte order mark of UTF-16, as Excel's "Unicode text" does.
 bool is_utf16(std::string_view text);
 

@@ -10,6 +10,13 @@ TEST(Text, HarmlessKeepsTheLettersOfAllLanguages) {
         EXPECT_EQ(harmless(text), text);
 }
 
+TEST(Text, ANumberThatRoundsToZeroHasNoSign) {
+    EXPECT_EQ(without_sign_of_zero("-0.0000"), "0.0000");
+    EXPECT_EQ(without_sign_of_zero("-0"), "0");
+    for (char const* const kept : {"0.0", "-0.0001", "-10.0", "-0.0e-3", "-nan", "-", ""})
+        EXPECT_EQ(without_sign_of_zero(kept), kept);
+}
+
 TEST(Text, HarmlessReplacesWhatSteersATerminal) {
     EXPECT_EQ(harmless("a\x1b[2Jb"), "a\\x1b[2Jb");
     EXPECT_EQ(harmless("a\nb\rc\td\x7f"), "a\\x0ab\\x0dc\\x09d\\x7f");

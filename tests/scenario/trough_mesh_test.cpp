@@ -228,6 +228,8 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(with("[grains]", "mesh = \"no.stl\"\n\n[grains]")), HasSubstr("there is no file"));
     EXPECT_THAT(error(with("[grains]", "mesh = \"../vee.stl\"\n\n[grains]")),
                 HasSubstr("not an allowed value"));
+    EXPECT_THAT(error(with("[grains]", "mesh_unit = \"m\"\n\n[grains]")),
+                HasSubstr("trough.mesh_unit: is the unit of a mesh, and trough.mesh is not given"));
     std::vector<Triangle> slope;
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);

@@ -196,7 +196,12 @@ void complete_layer(Scenario& scenario, GivenKeys const& given) {
     check_box("layer.length", layer.length, largest, given);
     check_box("layer.width", layer.width, largest, given);
     check_floor(layer, largest, given);
-    if (scenario.trough.mesh) check_mesh(scenario, given);
+    if (scenario.trough.mesh) {
+        check_mesh(scenario, given);
+    } else if (given.has("trough.mesh_unit")) {
+        given.fail("trough.mesh_unit", "is the unit of a mesh, and trough.mesh is not given",
+                   "write mesh = \"chute.stl\", or remove mesh_unit");
+    }
     if (layer.block != Block::none) layer.grains = 1;
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
     complete_feed(scenario, given);
