@@ -130,6 +130,8 @@ class Engineer(EndToEndTest):
             answer = self.call(*task, *words)
             self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
             self.assertIn(message, answer.stderr)
+        by_mass, by_volume = (self.call("design", "--mass-flow", flow, *TROUGH, "--friction", "0.3").stdout for flow in ("12 t/h", "20 m3/h"))
+        self.assertEqual(by_mass, by_volume, "600 kg/m3 times 20 m3/h are 12 t/h")
         answer = self.call("design", "--mass-flow", "12 tons/h", *TROUGH, "--friction", "0.3")
         self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
         self.assertIn("t/h", answer.stderr)

@@ -253,6 +253,14 @@ TEST(TheoryDesign, NamesTheActiveLimit) {
     EXPECT_NEAR(turns.at("mass_flow_t_per_h"),
                 3.6 * 800 * 0.02 * 0.2 * turns.at("conveying_speed_m_per_s").get<double>(), 1e-9);
     expect_refused("design --friction 0.3 --mass-flow '12 tons/h'", "metric tonnes");
+    // 800 kg/m3 times 6.25 m3/h are 5 t/h.
+    auto const volume = ask(
+        "design --friction 0.3 --frequency '300 rpm to 3000 rpm' --vibration-angle '10 deg to 45 deg' "
+        "--machine-number 4 --amplitude '1 mm to 8 mm' --mass-flow '6.25 m3/h' --bulk-density '800 kg/m3' "
+        "--layer-height '20 mm' --layer-width '200 mm'");
+    EXPECT_NEAR(volume.at("mass_flow_t_per_h"), turns.at("mass_flow_t_per_h"), 1e-9) << "one division rounds";
+    expect_refused("design --friction 0.3 --mass-flow '6.25 m3/h'",
+                   "a flow of volume, for which the bulk density");
     auto const steep =
         ask("design --friction 0.1 --inclination '-10 deg to 0 deg'");  // the slope, not beyond mu
     EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));

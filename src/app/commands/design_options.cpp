@@ -151,7 +151,7 @@ void DesignOptions::add_material(CLI::App& command) {
     auto const add = [&](char const* name, Text& text, char const* help) {
         command.add_option(name, text, help)->group("The task");
     };
-    add("--mass-flow", mass_flow, "To be reached, for example \"12 t/h\"");
+    add("--mass-flow", mass_flow, "To be reached, for example \"12 t/h\", or by volume \"20 m3/h\"");
     add("--bulk-density", bulk_density, "Of the material, for example \"600 kg/m3\"");
     add("--width", width, "Of the trough, for example \"300 mm\"");
     add("--length", length, "Of the trough, for power and time, for example \"3 m\"");
@@ -230,8 +230,9 @@ learn::DesignTask DesignOptions::task() const {
     };
     learn::DesignTask task{};
     task.space = read_space(*this);
-    task.mass_flow = quantity("--mass-flow", mass_flow, "kg/s", "12 t/h");
+    std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
     task.bulk_density = quantity("--bulk-density", bulk_density, "kg/m3", "600 kg/m3");
+    task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
     task.width = quantity("--width", width, "m", "300 mm");
     if (length) task.length = quantity("--length", length, "m", "3 m");
     if (landing_speed) task.landing_speed = quantity("--landing-speed", landing_speed, "m/s", "0.3 m/s");

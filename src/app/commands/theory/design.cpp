@@ -72,8 +72,11 @@ theory::DesignLimits read(TheoryDesignArguments const& o) {
                         char const* example) {
         if (text) value = read_positive_quantity(option, *text, unit, example);
     };
-    set(l.min_mass_flow, "--mass-flow", o.mass_flow, "kg/s", "2 kg/s");
     set(l.bulk_density, "--bulk-density", o.bulk_density, "kg/m3", "800 kg/m3");
+    if (o.mass_flow) {
+        l.min_mass_flow = read_mass_flow("--mass-flow", *o.mass_flow,
+                                         o.bulk_density ? std::optional(l.bulk_density) : std::nullopt);
+    }
     set(l.layer_height, "--layer-height", o.layer_height, "m", "20 mm");
     set(l.layer_width, "--layer-width", o.layer_width, "m", "200 mm");
     set(l.gravity, "--gravity", o.gravity, "m/s2", "9.81 m/s2");
@@ -163,7 +166,8 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
         "Largest machine number K that the structure bears; default: 5");
     add("--throw-number", options->throw_number,
         "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
-    add("--mass-flow", options->mass_flow, "Least mass flow, for example \"12 t/h\" or \"2 kg/s\"");
+    add("--mass-flow", options->mass_flow,
+        "Least mass flow, for example \"12 t/h\" or \"2 kg/s\", or by volume \"20 m3/h\"");
     add("--bulk-density", options->bulk_density, "Of the layer, for example \"800 kg/m3\"");
     add("--layer-height", options->layer_height, "For example \"20 mm\"");
     add("--layer-width", options->layer_width, "For example \"200 mm\"");

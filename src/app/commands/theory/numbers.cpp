@@ -63,6 +63,23 @@ double read_positive_quantity(std::string const& option, std::string const& text
         fmt::format("{} {}: must be above zero; write for example {} \"{}\"", option, text, option, example));
 }
 
+double read_mass_flow(std::string const& option, std::string const& text,
+                      std::optional<double> bulk_density) {
+    std::string const example = "12 t/h";
+    bool is_volume = true;
+    try {
+        core::parse_quantity(text, "m3/s");
+    } catch (core::QuantityError const&) {
+        is_volume = false;
+    }
+    if (!is_volume) return read_positive_quantity(option, text, "kg/s", example);
+    if (bulk_density) return *bulk_density * read_positive_quantity(option, text, "m3/s", "20 m3/h");
+    throw core::InputError(fmt::format(
+        "{} {}: is a flow of volume, for which the bulk density must be known; write --bulk-density, or a "
+        "flow of mass, for example {} \"{}\"",
+        option, text, option, example));
+}
+
 double read_turns(std::string const& option, std::string const& text) {
     bool const plain = text.find_first_not_of("0123456789.+eE- \t,") == std::string::npos;
     double const frequency =

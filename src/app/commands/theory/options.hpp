@@ -41,6 +41,11 @@ int read_count(std::string const& option, std::string const& text, std::string c
 double read_positive_quantity(std::string const& option, std::string const& text, std::string const& unit,
                               std::string const& example);
 
+/// Reads a flow above zero in kg/s. A flow of volume, such as "20 m3/h", is one of mass at the bulk density.
+/// @param bulk_density  kg/m3; without it, a flow of volume is refused
+/// @throws core::InputError as read_number
+double read_mass_flow(std::string const& option, std::string const& text, std::optional<double> bulk_density);
+
 /// Reads the speed of a motor's shaft in turns per minute, "960" or "960 rpm", as cycles per second (Hz).
 /// @throws core::InputError as read_number
 double read_turns(std::string const& option, std::string const& text);
