@@ -20,6 +20,7 @@ from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 import figure_budget
+import figure_columns
 import figure_cycles
 import figure_portraits
 import figure_residuals
@@ -161,6 +162,11 @@ def main() -> None:
     parser.add_argument("--case", action="append", default=[], metavar="ID", help="single cases' figures of this one only")
     parser.add_argument("--format", action="append", choices=FORMATS, help="write this kind of file; several for several")
     parser.add_argument("--width", type=float, metavar="METRES", help="width of every figure, for print")
+    parser.add_argument("--x", metavar="COLUMN", help="draw one figure: a column of 'compare' over this one")
+    parser.add_argument("--y", metavar="COLUMN", help="the column that is drawn over --x")
+    parser.add_argument("--by", metavar="COLUMN", help="the column that tells series apart")
+    parser.add_argument("--unit", help="unit of --y")
+    parser.add_argument("--with", action="append", default=[], type=pathlib.Path, metavar="OUT", dest="others", help="output of another campaign")
     parser.add_argument("--style", type=pathlib.Path, metavar="FILE", help="a style sheet of matplotlib")
     options = parser.parse_args()
     target.formats, target.width = tuple(options.format or target.formats), options.width
@@ -168,8 +174,12 @@ def main() -> None:
         take_style(options.style)
     # Bars of an interval that is not known are left out, of which matplotlib would warn.
     warnings.filterwarnings("ignore", message="Warning: converting a masked element to nan")
-    source = Source(options.directory, options.output or options.directory / "report")
-    for paths in draw(source, options.only or KINDS, options.case):
+    output = options.output or options.directory / "report"
+    if options.x is not None:
+        figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y, options.by, options.unit)])
+    else:
+        figures = draw(Source(options.directory, output), options.only or KINDS, options.case)
+    for paths in figures:
         for path in paths:
             print(shown(path), flush=True)
 

@@ -58,6 +58,12 @@ class Archive(EndToEndTest):
         shutil.rmtree(self.output / "cases" / self.table()[1]["case"])
         self.check_that_nothing_is_left_out_in_silence()
         self.assertEqual(self.call("plot", self.output).returncode, 0)  # writes campaign.h5 for what there is
+        done = self.call("plot", self.output, "--with", self.output, "--x", "throw_number", "--y", "speed", "--unit", "m/min")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("conveying_speed-over-throw_number.png", done.stdout)
+        for words, said in ((("--x", "friction"), "--y is missing"), (("--by", "friction"), "belong to the figure of two columns"),
+                            (("--x", "friction", "--y", "speed", "--only", "cycles"), "leave them out")):  # fmt: skip
+            self.assert_one_line_error(self.call("plot", self.output, *words), 2, said)
         shutil.rmtree(self.output / "report")
         self.run_campaign(self.write_campaign({"trough.throw_number": 1.5}, name="one.toml"), self.folder / "one")
         return self.archive("--author", "A. Researcher", "--license", "https://creativecommons.org/licenses/by/4.0/")

@@ -27,6 +27,8 @@ struct PlotArguments {
     std::string folder, output, python;
     std::vector<std::string> cases, only, formats;
     std::string width, style;
+    std::string x, y, by, unit;       ///< of the figure of any two columns
+    std::vector<std::string> others;  ///< folders of further campaigns in that figure
     bool report = false;
 };
 
@@ -70,8 +72,37 @@ std::vector<std::string> words_for_print(PlotArguments const& options) {
     return words;
 }
 
+/// The figure of any two columns, for figures.py: its options, and what the program knows of the other
+/// campaigns, which is written into their folders as for their own figures.
+std::vector<std::string> words_for_columns(PlotArguments const& options) {
+    bool const is_asked = !options.x.empty() || !options.y.empty();
+    if (!is_asked && (!options.by.empty() || !options.unit.empty() || !options.others.empty()))
+        throw core::InputError(
+            "--by, --unit and --with belong to the figure of two columns; write --x COLUMN --y COLUMN");
+    if (!is_asked) return {};
+    if (options.x.empty() || options.y.empty())
+        throw core::InputError(fmt::format("{} is missing; write for example --x layer.height --y speed",
+                                           options.x.empty() ? "--x" : "--y"));
+    if (!options.only.empty() || !options.cases.empty())
+        throw core::InputError(
+            "--only and --case choose among the other figures; leave them out with --x and --y");
+    std::vector<std::string> words{"--x", options.x, "--y", options.y};
+    if (!options.by.empty()) words.insert(words.end(), {"--by", options.by});
+    if (!options.unit.empty()) words.insert(words.end(), {"--unit", options.unit});
+    for (std::string const& folder : options.others) {
+        campaign::Plan const plan = campaign::open_plan(folder);
+        fs::path const output = fs::path(folder) / "report";
+        core::make_folder(output);
+        core::OwnFolder const own(output);
+        tell_left_aside(
+            plan, compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data"));
+        words.insert(words.end(), {"--with", fs::absolute(output).lexically_normal().string()});
+    }
+    return words;
+}
+
 int run_plot(PlotArguments const& options) {
-    std::vector<std::string> const print = words_for_print(options);
+    std::vector<std::string> const print = words_for_print(options), columns = words_for_columns(options);
     campaign::Plan const plan = campaign::open_plan(options.folder);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
@@ -90,6 +121,7 @@ int run_plot(PlotArguments const& options) {
                                        fs::absolute(output).lexically_normal().string()};
     std::vector<std::string> drawing = arguments;
     drawing.insert(drawing.end(), print.begin(), print.end());
+    drawing.insert(drawing.end(), columns.begin(), columns.end());
     for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
     for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});
     if (finished) run_script("figures.py", drawing, options.python, modules);
@@ -127,6 +159,24 @@ void add_plot(CLI::App& program, int& exit_code) {
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    auto const add_column = [&](char const* name, std::string& column, char const* meaning) {
+        command->add_option(name, column, meaning)->type_name("COLUMN");
+    };
+    add_column("--x", options->x,
+               "Draw one figure only: any column of 'compare' over this one, such as layer.height");
+    add_column("--y", options->y,
+               "The column that is drawn over --x, such as efficiency, speed or mass_flow");
+    add_column("--by", options->by, "The column that tells series apart; default: the other swept keys");
+    command
+        ->add_option("--unit", options->unit,
+                     "Unit of --y, such as m/min or kg/s; default: that of the table")
+        ->type_name("UNIT");
+    command
+        ->add_option("--with", options->others,
+                     "Draw the cases of this campaign in the same figure; repeat the option for several")
+        ->type_name("DIR")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         ->add_option("--format", options->formats,
                      "Write these kinds of files: svg, png, pdf, with commas between them; default svg,png")
@@ -155,6 +205,10 @@ void add_plot(CLI::App& program, int& exit_code) {
   rolling     for each case with measure.rolling: spin, slip and forces at the floor over the cycle
   profiles    for each case: velocity over height
 
+With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
+speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in
+'compare --csv', without its unit if you like, or as its key in the campaign file.
+
 Prints the path of every file that it wrote. Works while the campaign runs. With --width, letters shrink less than the
 figure, down to 7 points, and PNG has 300 dots per inch. A figure with panels beside one another needs 150 mm: in one column it is left out, and a line on standard error says so. PDF holds its fonts, as journals ask. The widths are those of Granular
 Matter (Springer); Elsevier's are 90 mm and 190 mm. A style sheet can name programs that matplotlib starts, such as LaTeX
@@ -167,7 +221,8 @@ Exit codes:
 
 Example:
   vibrotrough plot runs/demo
-  vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures)");
+  vibrotrough plot runs/demo --format pdf --width one-column --only efficiency --output figures
+  vibrotrough plot runs/deep --with runs/shallow --x layer.height --y speed --unit m/min)");
     command->callback([options, &exit_code] { exit_code = run_plot(*options); });
 }
 

@@ -1,0 +1,212 @@
+"""Any column of `vibrotrough compare` over any other, of one campaign or several: `vibrotrough plot DIR --x COLUMN --y COLUMN`."""
+
+import dataclasses
+import json
+import math
+import pathlib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from drawn_figures import read_note
+from figure_inputs import SYMBOLS, UNITS
+from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, corner, new_figure, one_line, plain, plain_axes, points, save, shown
+
+Row = dict[str, Any]
+Floats = NDArray[np.float64]
+
+# Other units of a column: what a number in the unit of the table is multiplied with.
+CONVERSIONS = {("m/s", "m/min"): 60.0, ("m/s", "mm/s"): 1e3, ("t/h", "kg/s"): 1 / 3.6, ("t/h", "kg/h"): 1e3, ("m", "mm"): 1e3, ("mm", "m"): 1e-3,
+               ("kg/s", "t/h"): 3.6, ("Hz", "rpm"): 60.0, ("1", "%"): 100.0, ("Pa", "MPa"): 1e-6, ("s", "min"): 1 / 60, ("s", "h"): 1 / 3600}
+# What the theory says of the same case, as efficiencies of the table.
+MODELS = {"point-mass theory": "efficiency_theory", "rolling-layer law": "efficiency_rolling_layer"}
+# Quantities that are an efficiency times a number that is known of each case.
+OF_EFFICIENCY = ("efficiency", "conveying_speed_", "mass_flow_")
+WHOLE = {"efficiency": "efficiency_whole_half_width"}
+MOST_SERIES = 24
+
+
+@dataclasses.dataclass
+class Shown:
+    """A column and how its numbers are shown."""
+
+    column: Mapping[str, Any]
+    unit: str
+    factor: float
+
+    @property
+    def name(self) -> str:
+        return str(self.column["name"])
+
+    @property
+    def is_number(self) -> bool:
+        return self.column["type"] == "number"
+
+    @property
+    def title(self) -> str:
+        if self.name == "efficiency":
+            return EFFICIENCY
+        symbol = SYMBOLS.get(str(self.column.get("key") or ""))
+        if symbol and self.factor == 1 and f"[{'-' if self.unit == '1' else self.unit}]" in symbol[0]:
+            return symbol[0]
+        return f"{plain(base_name(self.column))}  [{'-' if self.unit == '1' else self.unit}]" if self.is_number else plain(self.name)
+
+    def of(self, row: Row) -> float:
+        value = row.get(self.name)
+        return math.nan if not isinstance(value, (int, float)) else self.factor * value
+
+
+def suffix_of(column: Mapping[str, Any]) -> str:
+    """The unit at the end of a column's name, "_m_per_s"."""
+    words = {"/": "_per_", "degree": "deg", "minute": "min", " ": "_"}
+    unit = str(column["unit"]).lower()
+    for old, new in words.items():
+        unit = unit.replace(old, new)
+    return "" if unit == "1" else f"_{unit}"
+
+
+def base_name(column: Mapping[str, Any]) -> str:
+    """The name of a column without its unit."""
+    return str(column["name"]).removesuffix(suffix_of(column))
+
+
+def find_column(option: str, asked: str, columns: Iterable[Mapping[str, Any]]) -> Mapping[str, Any]:
+    """A column by its name, by its name without unit, by the key of the campaign file, or by the key's last word."""
+    wanted = {"speed": "conveying_speed"}.get(asked, asked)
+    columns = list(columns)
+    for names in (lambda one: {one["name"], one.get("key")}, lambda one: {base_name(one)}, lambda one: {str(one.get("key")).rpartition(".")[2]}):
+        found = [one for one in columns if wanted in names(one)]
+        if found:
+            return found[0]
+    some = ", ".join(base_name(one) for one in columns if one["type"] == "number" and "half_width" not in one["name"])
+    raise Problem(f"{option} {shown(asked)}: there is no such column; there are {some}")
+
+
+def shown_as(column: Mapping[str, Any], unit: str | None = None) -> Shown:
+    """A column in its own unit, in the one in which people read it, or in the one that is asked for."""
+    own = str(column["unit"])
+    if unit is None and own in UNITS and column["type"] == "number":
+        return Shown(column, *UNITS[own])
+    if unit is None or unit == own:
+        return Shown(column, "\u00b0" if own == "degree" else own, 1.0)
+    if (own, unit) not in CONVERSIONS:
+        known = [own, *(to for of, to in CONVERSIONS if of == own)]
+        raise Problem(f"--unit {shown(unit)}: {column['name']} can be shown in {', '.join(known)}")
+    return Shown(column, unit, CONVERSIONS[own, unit])
+
+
+@dataclasses.dataclass
+class Table:
+    """The rows of `compare` of one campaign."""
+
+    name: str
+    columns: list[Mapping[str, Any]]
+    rows: list[Row]
+    swept: list[str]  # names of the columns of swept keys
+    attributes: Mapping[str, Any]
+
+
+def read_table(output: pathlib.Path) -> Table:
+    """Of the folder with what the program wrote for the figures."""
+    path = output / "data" / "campaign.json"
+    try:
+        overview = json.loads(read_note(path))
+        return Table(shown(overview["campaign"]), overview["columns"], overview["cases"], [str(one["column"]) for one in overview["swept"]],
+                     {"campaign": overview["campaign"], "program_version": overview["program_version"]})
+    except Exception as error:  # whatever a file holds that this program did not write
+        raise Problem(f"cannot read {path} ({one_line(error)}); call it by 'vibrotrough plot DIR'") from error
+
+
+def half_width(y: Shown, row: Row) -> float:
+    """Half the interval of a number; NaN where the table has none."""
+    suffix = suffix_of(y.column)
+    name = WHOLE.get(y.name, f"{base_name(y.column)}_half_width{suffix}")
+    value = row.get(name)
+    return math.nan if not isinstance(value, (int, float)) else y.factor * value
+
+
+def grouping(table: Table, x: Shown, by: str | None) -> list[Mapping[str, Any]]:
+    """The columns that tell the series apart: the one that is asked for, or the swept keys that are not on the axis."""
+    if by is not None:
+        return [find_column("--by", by, table.columns)]
+    swept = [one for one in table.columns if one["name"] in table.swept]
+    return [one for one in swept if one["name"] != x.name and len({str(row.get(one["name"])) for row in table.rows}) > 1]
+
+
+def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
+    words = []
+    for column in columns:
+        one = shown_as(column)
+        value = f"{one.of(row):.4g}" if one.is_number else shown(row.get(one.name))
+        words.append(f"{plain(base_name(column))} {value}" + ("" if one.unit == "1" else f" {one.unit}"))
+    return ", ".join(words)
+
+
+def draw_models(axes: Axes, x: Shown, y: Shown, rows: list[Row], colour: str, dash: Any) -> set[str]:
+    """The theory and the law at the cases, joined by thin lines. The names of those that were drawn."""
+    drawn = set()
+    for width, (name, column) in zip((1.2, 0.7), MODELS.items()):
+        values = []
+        for row in rows:
+            model, known = row.get(column), row.get("efficiency")
+            # What a case's number is times its efficiency is the same for the model.
+            scale = 1.0 if y.name == "efficiency" else y.of(row) / known / y.factor if known else math.nan
+            values.append(math.nan if model is None else y.factor * scale * model)
+        if np.isfinite(values).any():
+            axes.plot([x.of(row) for row in rows], values, color=colour, linestyle=dash, linewidth=width, marker="x", markersize=3 + 2 * width)
+            drawn.add(name)
+    return drawn
+
+
+def series_of(tables: list[Table], x: Shown, by: str | None) -> dict[str, list[Row]]:
+    found: dict[str, list[Row]] = {}
+    for table in tables:
+        columns = grouping(table, x, by)
+        for row in table.rows:
+            words = [one for one in (table.name if len(tables) > 1 else "", label_of(row, columns)) if one]
+            found.setdefault(", ".join(words), []).append(row)
+    if len(found) > MOST_SERIES:
+        raise Problem(f"there are {len(found)} series, and {MOST_SERIES} can be told apart; choose with --by what tells them apart")
+    return found
+
+
+def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str, y_name: str, by: str | None,
+                 unit: str | None) -> list[pathlib.Path]:
+    """Draws the figure; returns the files. @raises Problem when a column is not there or holds no numbers"""
+    tables = [read_table(output) for output in outputs]
+    every = [column for table in tables for column in table.columns]
+    x, y = shown_as(find_column("--x", x_name, every)), shown_as(find_column("--y", y_name, every), unit)
+    for option, one in (("--x", x), ("--y", y)):
+        if not one.is_number:
+            raise Problem(f"{option} {shown(one.name)}: is no number; --by takes words")
+    figure, axes = new_figure()
+    plain_axes(axes)
+    models: set[str] = set()
+    left_out = drawn = 0
+    series = series_of(tables, x, by)
+    for number, (name, members) in enumerate(series.items()):
+        rows = sorted((row for row in members if math.isfinite(x.of(row)) and math.isfinite(y.of(row))), key=x.of)
+        left_out += len(members) - len(rows)
+        drawn += len(rows)
+        if not rows:
+            continue
+        colour, bars = COLOURS[number % len(COLOURS)], np.array([half_width(y, row) for row in rows])
+        axes.errorbar([x.of(row) for row in rows], [y.of(row) for row in rows], yerr=bars if np.isfinite(bars).any() else None, color=colour,
+                      marker=MARKERS[(number + number // len(COLOURS)) % len(MARKERS)], linestyle="none", capsize=3, label=name)
+        if y.name.startswith(OF_EFFICIENCY) and "per_width" not in y.name:
+            models |= draw_models(axes, x, y, rows, colour, DASHES[number % len(DASHES)])
+    if not drawn:
+        raise Problem(f"no case has both {x.name} and {y.name}")
+    axes.set_xlabel(x.title)
+    axes.set_ylabel(y.title)
+    lines = "; ".join(f"{'thick' if name == 'point-mass theory' and len(models) > 1 else 'thin'} lines: {name}" for name in MODELS if name in models)
+    if len(series) > 1:
+        axes.legend(frameon=False, fontsize=points(8), loc="best", title=lines or None, title_fontsize=points(8))
+    elif lines:
+        axes.set_title(lines, fontsize=points(8), color=GREY)
+    corner(figure, tables[0].attributes, f"{left_out} of {left_out + drawn} cases are not known" if left_out else "")
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
+    return save(figure, target / f"{base_name(y.column)}-over-{base_name(x.column).rpartition('.')[2]}")
