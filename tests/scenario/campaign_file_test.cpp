@@ -172,6 +172,8 @@ TEST(CampaignFile, EveryErrorIsOneLine) {
           with("throw_number = 2.0", "throw_number = [1]"),
           with("vibration_angle = \"30 deg\"", "vibration_angle = \"0 deg\""),
           with("height = \"12 mm\"", "height = \"1 mm\""),
+          with("height = \"12 mm\"", "diameters = 0.5"),
+          with("height = \"12 mm\"", "height = \"12 mm\"\ndiameters = 4"),
           with("height = \"12 mm\"", "grains = 150", with("diameter = \"3 mm\"", "diameter = \"3 um\"")),
           with("amplitude = \"6 mm\"", "amplitude = \"6 mm; shell\""),
           sweep("\"trough.friction\" = []"),

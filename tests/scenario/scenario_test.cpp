@@ -45,6 +45,10 @@ TEST(Scenario, GrainsFromHeight) {
     EXPECT_EQ(s.layer.grains, std::lround(0.58 * 36 * 18 * 12 / volume));
     EXPECT_EQ(s.layer.height, 0.012);
     EXPECT_EQ(scenario(with("height = \"12 mm\"", "grains = 600")).layer.grains, 600);
+    // Four diameters of 3 mm: the same case, and written as such.
+    scenario::Scenario const in_diameters = scenario(with("height = \"12 mm\"", "diameters = 4"));
+    EXPECT_EQ(in_diameters.layer.grains, s.layer.grains);
+    EXPECT_EQ(to_toml(in_diameters), to_toml(s));
 }
 
 // The stored text of a case is the case: bit for bit.

@@ -85,11 +85,12 @@ std::string_view name_of(Block block);
 /// `height`, `grains` and `block` was given; `grains` is always set. Of an open trough it is what the feed
 /// will probably keep in it.
 struct Layer {
-    double length;                 ///< m, along x; of an open trough from the back wall to the edge
-    double width;                  ///< m, along y
-    std::optional<double> height;  ///< m, at rest, as asked for
-    int grains;                    ///< number of grains; 1 for a block
-    Block block = Block::none;     ///< what replaces the layer, if anything
+    double length;                         ///< m, along x; of an open trough from the back wall to the edge
+    double width;                          ///< m, along y
+    std::optional<double> height;          ///< m, at rest, as asked for
+    int grains;                            ///< number of grains; 1 for a block
+    Block block = Block::none;             ///< what replaces the layer, if anything
+    std::optional<double> diameters = {};  ///< height in mean diameters of the grains, where it was given so
 };
 
 /// What is measured, and how precisely.

@@ -93,6 +93,14 @@ constexpr std::array rows_of_grains{
         KeyAccess{[](Scenario const& s) { return content_of(layer_height(s)); },
                   [](Scenario& s, GivenValue const& v) { s.layer.height = v.number(); }}
             .written_if([](Scenario const& s) { return s.layer.block == Block::none && s.layer.height; })},
+    Key{"layer.diameters", number, "", 1, 1000, "1 to 1000", "height of the layer", required, "8",
+        "height of the layer at rest in mean diameters of the grains",
+        KeyAccess{[](Scenario const& s) -> std::optional<Content> {
+                      if (s.layer.diameters || !s.layer.height) return content_of(s.layer.diameters);
+                      return Content(*s.layer.height / mean_diameter(s));
+                  },
+                  [](Scenario& s, GivenValue const& v) { s.layer.diameters = v.number(); }}
+            .written_if(never)},
     Key{"layer.grains", integer, "", 1, 1e7, "1 to 10000000", "height of the layer", required, "600",
         "number of grains", field<&Scenario::layer, &Layer::grains>.written_if([](Scenario const& s) {
             return s.layer.block == Block::none && !s.layer.height && !is_open(s);

@@ -84,6 +84,11 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
                    "remove it or trough.mesh");
 }
 
+/// The key by which the height of the layer was given.
+char const* height_key(GivenKeys const& given) {
+    return given.has("layer.diameters") ? "layer.diameters" : "layer.height";
+}
+
 /// Volume between the mesh and a level above its lowest point, m^3.
 double space_below(double height, Scenario const& scenario) {
     double const unit = metres_in(scenario.trough.mesh_unit);
@@ -93,7 +98,7 @@ double space_below(double height, Scenario const& scenario) {
 int grains_for(double height, Scenario const& scenario, GivenKeys const& given) {
     double const diameter = mean_diameter(scenario);
     if (height < diameter) {
-        given.fail("layer.height", fmt::format("{:.6g} m is less than one grain diameter", height),
+        given.fail(height_key(given), fmt::format("{:.6g} m is less than one grain diameter", height),
                    fmt::format("write at least \"{:.6g} mm\"", 1e3 * diameter));
     }
     double const volume =
@@ -101,12 +106,12 @@ int grains_for(double height, Scenario const& scenario, GivenKeys const& given) 
                              : settled_solid_fraction * scenario.layer.length * scenario.layer.width * height;
     double const count = volume / mean_grain_volume(scenario);
     if (count < 1) {
-        given.fail("layer.height",
+        given.fail(height_key(given),
                    fmt::format("{:.6g} m leaves no room for a grain above the trough", height), "raise it");
     }
     Key const& key = *find_key("layer.grains");
     if (count > key.most) {
-        given.fail("layer.height",
+        given.fail(height_key(given),
                    fmt::format("the layer would need {:.3g} grains, more than {:.0f}", count, key.most),
                    "make the layer smaller or the grains larger");
     }
@@ -181,7 +186,7 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
 void check_counts(Scenario const& scenario, GivenKeys const& given) {
     for (Material const& material : materials(scenario)) {
         if (material.number_fraction * scenario.layer.grains >= 1) continue;
-        given.fail(given.has("layer.height") ? "layer.height" : "layer.grains",
+        given.fail(given.has("layer.grains") ? "layer.grains" : height_key(given),
                    fmt::format("the layer has {} grains, and fewer than one grain of '{}'",
                                scenario.layer.grains, material.name),
                    "take a larger layer or a larger share");
@@ -203,6 +208,7 @@ void complete_layer(Scenario& scenario, GivenKeys const& given) {
                    "write mesh = \"chute.stl\", or remove mesh_unit");
     }
     if (layer.block != Block::none) layer.grains = 1;
+    if (layer.diameters) layer.height = *layer.diameters * mean_diameter(scenario);
     if (layer.height) layer.grains = grains_for(*layer.height, scenario, given);
     complete_feed(scenario, given);
     check_counts(scenario, given);

@@ -58,6 +58,8 @@ constexpr std::array keys_of_words{
     Word{"stl", "trough.mesh"},
     Word{"depth", "layer.height"},
     Word{"thickness", "layer.height"},
+    Word{"depth_in_diameters", "layer.diameters"},
+    Word{"height_in_diameters", "layer.diameters"},
     Word{"count", "layer.grains"},
     Word{"number", "layer.grains"},
     Word{"particles", "layer.grains"},
