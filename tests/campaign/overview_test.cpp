@@ -22,6 +22,8 @@ class Overview : public CampaignFolder {
 TEST_F(Overview, OpenThenRunningThenInterrupted) {
     EXPECT_EQ(look().label(), "open");
     EXPECT_EQ(look().packings_done, 0);
+    fs::create_directories(planned.folder);
+    EXPECT_EQ(look().label(), "open") << "prepared, and not started";
     {
         FolderLock const driver(folder);
         EXPECT_EQ(look().label(), "open") << "a driver that has not come to this case";

@@ -113,6 +113,7 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
     if (!fs::is_directory(planned.folder, missing)) return overview;
     auto const finished = finished_packings(planned).size();
     overview.packings_done = static_cast<int>(finished);
+    std::string const fault = fault_of_result(planned);
     if (auto const failure = read_failure(planned)) {
         overview.status = CaseStatus::failed;
         overview.outcome = failure->outcome;
@@ -123,10 +124,10 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
             "failure.json is damaged or is not a file; remove it and run again";
     } else if (has_driver) {
         if (has_unfinished_packing(planned, finished)) overview.status = CaseStatus::running;
-    } else {
+    } else if (!fault.empty() || !started_packings(planned).empty()) {
         overview.status = CaseStatus::interrupted;
-    }
-    if (std::string const fault = fault_of_result(planned); !fault.empty()) {
+    }  // else its folder was only prepared
+    if (!fault.empty()) {
         overview.fault = fault;
         if (overview.status != CaseStatus::failed) overview.message = fault;
     }
