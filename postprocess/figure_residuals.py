@@ -35,7 +35,7 @@ def residuals(source: "Source") -> Floats:
 def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     over, others = split_inputs(source.campaign, source.inputs)
     values = residuals(source)
-    if not others:
+    if len({*zip(over.groups(), *(one.groups() for one in others))}) == len({*over.groups()}):  # nothing else tells cases apart
         figure = draw_line(source, over, values)
     else:
         figure = draw_maps(source, over, others, values)
