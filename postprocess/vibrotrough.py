@@ -11,6 +11,7 @@
     theory = vibrotrough.open_theory("map.h5")                  # of 'theory map', or of 'theory batch'
     table = campaign.to_dataframe()                             # pandas; table.attrs["units"]["conveying_speed"] is "m s-1"
 
+    vibrotrough.Campaign("pellets.toml").run()                  # plans and runs, by the program; see help(vibrotrough.Campaign)
     vibrotrough.theory.solve(rpm=960, stroke_mm=9.7, vibration_angle_deg=30, friction=0.3)      # see help(vibrotrough.theory)
 
 Everything is read at once, so files may be renewed meanwhile. A file whose bytes do not match the SHA-256 in its last line is refused with ValueError. `vibrotrough quantities` prints
@@ -35,10 +36,12 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def __getattr__(name: str) -> Any:
-    """The theory is loaded where it is first asked for, because results can be read without its compiled part."""
-    if name != "theory":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return importlib.import_module("vibrotrough_theory")
+    """The theory and the campaigns are loaded where they are first asked for: results can be read without compiled part and program."""
+    if name == "theory":
+        return importlib.import_module("vibrotrough_theory")
+    if name in ("Campaign", "ProgramError", "table"):
+        return getattr(importlib.import_module("vibrotrough_campaign"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 class Array(np.ndarray[Any, np.dtype[Any]]):
@@ -199,7 +202,7 @@ class File:
         return list(self._arrays)
 
 
-class Campaign(File):
+class CampaignFile(File):
     """campaign.h5: one array per column, one element per case with a result."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -236,10 +239,10 @@ class Campaign(File):
         return frame
 
 
-def open_campaign(path: str | os.PathLike[str]) -> Campaign:
+def open_campaign(path: str | os.PathLike[str]) -> CampaignFile:
     """A campaign from its folder or its campaign.h5."""
     path = pathlib.Path(path)
-    return Campaign(path / "campaign.h5" if path.is_dir() else path)
+    return CampaignFile(path / "campaign.h5" if path.is_dir() else path)
 
 
 def open_result(path: str | os.PathLike[str]) -> File:

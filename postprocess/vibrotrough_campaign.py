@@ -1,0 +1,190 @@
+"""A campaign from its file: plan, run, table, cases. Every number comes from the program, which this module starts.
+
+    import vibrotrough
+
+    campaign = vibrotrough.Campaign("pellets.toml")             # its results are in runs/pellets, or in the folder `output`
+    print(campaign.plan())                                      # the cases and what they will cost
+    campaign.run(jobs=2)                                        # simulates what is missing; shows how far it is
+    print(campaign.table()[["throw_number", "conveying_speed_m_per_s"]])
+    case = campaign.case(campaign.table().index[0])
+    print(case.result["packings/efficiency"], case.phases(1)["velocity_x"])
+
+    vibrotrough.table([campaign, "runs/demo"])                  # the rows of several campaigns, with their names
+
+Tables are pandas.DataFrame where pandas is installed, else lists of dicts.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import vibrotrough
+
+Progress = Callable[[dict[str, Any]], None]
+
+
+class ProgramError(Exception):
+    """The program refused or failed; the text is what it said, and `code` its exit code."""
+
+    def __init__(self, said: str, code: int) -> None:
+        super().__init__(said)
+        self.code = code
+
+
+def find_program(program: str | os.PathLike[str] | None = None) -> str:
+    """The program: the one that is given, that of the checkout in which this module lies, or `vibrotrough` on the PATH.
+    @raises FileNotFoundError when there is none"""
+    built = pathlib.Path(__file__).resolve().parent.parent / "build" / "release" / "src" / "app" / "vibrotrough"
+    found = shutil.which(os.fspath(program)) if program else str(built) if built.is_file() else shutil.which("vibrotrough")
+    if found is None:
+        raise FileNotFoundError(f"there is no program {program or 'vibrotrough'}; install it, or give its path as program=")
+    return found
+
+
+def as_table(rows: list[dict[str, Any]], index: str = "case") -> Any:
+    """A DataFrame, with the cases' ids as its index, where pandas is installed; else the rows."""
+    try:
+        import pandas
+    except ImportError:
+        return rows
+    frame = pandas.DataFrame(rows)
+    return frame.set_index(index) if index in frame else frame
+
+
+class Line:
+    """Shows how far a run is in one line, which a notebook or a terminal writes again and again."""
+
+    def __init__(self) -> None:
+        self._length = 0
+
+    def __call__(self, event: dict[str, Any]) -> None:
+        if event.get("event") != "progress":
+            return
+        text = f"{event['finished']} cases done, {event['running']} running, {event['left']} left"
+        if event["time_to_go_s"] is not None:
+            text += f"; about {event['time_to_go_s']:.0f} s to go"
+        print("\r" + text.ljust(self._length), end="", file=sys.stderr, flush=True)
+        self._length = len(text)
+
+    def close(self) -> None:
+        if self._length:
+            print(file=sys.stderr)
+
+
+class Case:
+    """One case: its result, and what its packings wrote."""
+
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder = folder
+
+    @property
+    def result(self) -> vibrotrough.File:
+        """result.h5, with the series of cycles of each packing. @raises OSError when the case has none yet"""
+        return vibrotrough.open_result(self.folder)
+
+    def phases(self, packing: int) -> dict[str, vibrotrough.Array]:
+        """The motion of layer and trough over the cycle, averaged over the cycles that count: the columns of the packing's phases.
+        @raises KeyError when the packing has none"""
+        result, start = self.result, f"phases/{packing}/"
+        found = {name.removeprefix(start): result[name] for name in result if name.startswith(start)}
+        if not found:
+            raise KeyError(f"{result.path} has no phases of packing {packing}")
+        return found
+
+
+class Campaign:
+    """A campaign file and the folder of its results."""
+
+    def __init__(self, file: str | os.PathLike[str], output: str | os.PathLike[str] | None = None,
+                 program: str | os.PathLike[str] | None = None) -> None:  # fmt: skip
+        self.file, self.program = pathlib.Path(file), find_program(program)
+        name = self._json("plan", self.file, "--json")["campaign"]  # which also says what is wrong with the file
+        self.folder = pathlib.Path(output) if output else pathlib.Path("runs") / str(name)
+
+    def _call(self, *words: str | os.PathLike[str], allowed: Sequence[int] = (0,)) -> str:
+        done = subprocess.run([self.program, *(os.fspath(word) for word in words)], capture_output=True, text=True, check=False)
+        if done.returncode not in allowed:
+            raise ProgramError(done.stderr.strip() or done.stdout.strip(), done.returncode)
+        return done.stdout
+
+    def _json(self, *words: str | os.PathLike[str], allowed: Sequence[int] = (0,)) -> Any:
+        return json.loads(self._call(*words, allowed=allowed))
+
+    def plan(self) -> Any:
+        """The cases, with the core time that each will probably take. @raises ProgramError when the file has a mistake"""
+        return as_table(self._json("plan", self.file, "--output", self.folder, "--json")["cases"])
+
+    def check(self) -> list[dict[str, Any]]:
+        """The findings of `vibrotrough check` that are not fine, each with the number of its case."""
+        answer = self._json("check", self.file, "--json", allowed=(0, 1, 2))
+        return [{"case": case["case"], **finding} for case in answer["cases"] for finding in case["findings"] if finding["severity"] != "fine"]
+
+    def run(self, jobs: int | None = None, progress: Progress | None = None, options: Sequence[str] = ()) -> bool:
+        """Simulates what is not finished. A stop, also by Ctrl-C, loses nothing: the next call continues.
+
+        @param progress  is called with each event of `run --progress json`; None shows one line
+        @param options   further options of `vibrotrough run`, such as "--accept-findings"
+        @returns whether all cases are finished; else the table says what is with the others
+        @raises ProgramError when nothing could be simulated
+        """
+        words = [self.program, "run", os.fspath(self.file), "--output", os.fspath(self.folder), "--progress", "json", *options]
+        words += ["--jobs", str(jobs)] if jobs else []
+        show, said = progress or Line(), []
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            assert process.stderr is not None
+            try:
+                for line in process.stderr:
+                    if line.startswith("{"):
+                        show(json.loads(line))
+                    else:
+                        said.append(line)
+            except BaseException:  # a notebook interrupts Python alone: the program ends its engines, too
+                process.terminate()
+                process.stderr.read()
+                raise
+        if isinstance(show, Line):
+            show.close()
+        if process.returncode not in (0, 1):
+            raise ProgramError("".join(said).strip(), process.returncode)
+        return process.returncode == 0
+
+    def status(self) -> dict[str, Any]:
+        """What `vibrotrough status` says: how many cases are finished, running and left, and each case. @raises ProgramError"""
+        answer: dict[str, Any] = self._json("status", self.folder, "--json")
+        return answer
+
+    def table(self) -> Any:
+        """The rows of `vibrotrough compare`: results beside the theory. @raises ProgramError when nothing was run"""
+        return as_table(self._json("compare", self.folder, "--json", allowed=(0, 1)))
+
+    def results(self) -> vibrotrough.CampaignFile:
+        """campaign.h5: all cases with results, with units. @raises OSError when there are none"""
+        return vibrotrough.open_campaign(self.folder)
+
+    def case(self, case: object) -> Case:
+        """A case by its id. @raises KeyError when the campaign has none of this id"""
+        folder = self.folder / "cases" / str(case)
+        if not folder.is_dir():
+            raise KeyError(f"{self.folder} has no case {case}")
+        return Case(folder)
+
+
+def table(campaigns: Iterable[Campaign | str | os.PathLike[str]], program: str | os.PathLike[str] | None = None) -> Any:
+    """The rows of several campaigns, of which each may be a Campaign or the folder of one, with the column `campaign`.
+    @raises ProgramError when one of them has no results"""
+    rows = []
+    for one in campaigns:
+        folder = one.folder if isinstance(one, Campaign) else pathlib.Path(one)
+        words = [one.program if isinstance(one, Campaign) else find_program(program), "compare", os.fspath(folder), "--json"]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode not in (0, 1):
+            raise ProgramError(done.stderr.strip(), done.returncode)
+        rows += [{"campaign": folder.name, **row} for row in json.loads(done.stdout)]
+    return as_table(rows)
