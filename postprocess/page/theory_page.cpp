@@ -3,6 +3,7 @@
 
 #include "page/machine.hpp"
 #include "theory/errors.hpp"
+#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -164,7 +165,8 @@ char const* page_names() {
     std::vector<std::string> const frame{"time",   "kind", "trough_x",     "trough_y",
                                          "travel", "gap",  "normal_force", "tangential_force"};
     text = "{\"settings\":" + json_list(page::setting_names()) + ",\"answer\":" + json_list(answer_names()) +
-           ",\"frame\":" + json_list(frame) + "}";
+           ",\"frame\":" + json_list(frame) +
+           ",\"largest_usual_machine_number\":" + json_number(theory::largest_usual_machine_number) + "}";
     return text.c_str();
 }
 
@@ -197,20 +199,21 @@ int page_curve(double const* settings, int axis, double from, double to, int cou
     });
 }
 
-/// One row of a map: efficiency, speed and mode at equally spaced values of one setting.
+/// One row of a map: efficiency, speed, mode and machine number at equally spaced values of one setting.
 int page_map_row(double const* settings, int axis, double from, double to, int count, int rolling,
                  double* numbers) {
     auto const setting = static_cast<page::Setting>(axis);
     return guarded([&] {
-        for (int i = 0; i < count; ++i, numbers += 3) {
+        for (int i = 0; i < count; ++i, numbers += 4) {
             double const value = count < 2 ? from : from + (to - from) * i / (count - 1);
-            std::fill_n(numbers, 3, std::nan(""));
+            std::fill_n(numbers, 4, std::nan(""));
             try {
                 theory::Inputs const inputs = settings_of(settings).with(setting, value).inputs();
                 theory::Efficiency const found = machines().efficiency(inputs.point(), rolling != 0);
                 numbers[0] = found.velocity_efficiency;
                 numbers[1] = found.velocity_efficiency * inputs.velocity_scale().value();
                 numbers[2] = number_of(found.mode);
+                numbers[3] = theory::machine_number(inputs.point());
             } catch (theory::PhaseError const&) {
             }
         }

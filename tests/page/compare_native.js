@@ -120,11 +120,11 @@ async function main() {
     compareNumbers(tallies[4], ours.numbers, theirs.numbers, () => false, () => 1, where);
     if (i % EVERY) continue;
     for (const rolling of [0, 1]) {
-      const from = (2 * i / EVERY + rolling) * 3 * ROW, row = rows.subarray(from, from + 3 * ROW);
-      const found = get(3 * ROW, () => theory._page_map_row(input, 0, 2, 14, ROW, rolling, output));
-      const none = (k) => found[k - k % 3 + 2] === 0 && row[k - k % 3 + 2] === 0;
-      compareNumbers(tallies[2], found, row, (k) => k % 3 === 2 || none(k), () => 1, where);
-      sameModes(found, row, modePositions(3 * ROW, (k) => k % 3 === 2), where);
+      const from = (2 * i / EVERY + rolling) * 4 * ROW, row = rows.subarray(from, from + 4 * ROW);
+      const found = get(4 * ROW, () => theory._page_map_row(input, 0, 2, 14, ROW, rolling, output));
+      const none = (k) => k % 4 < 2 && found[k - k % 4 + 2] === 0 && row[k - k % 4 + 2] === 0;
+      compareNumbers(tallies[2], found, row, (k) => k % 4 === 2 || none(k), () => 1, where);
+      sameModes(found, row, modePositions(4 * ROW, (k) => k % 4 === 2), where);
     }
     const from = i / EVERY * width * CURVE;
     const curve = get(width * CURVE, () => theory._page_curve(input, 1, 500, 1500, CURVE, output));

@@ -67,7 +67,7 @@ int main(int, char** files) {
         words << page_words(one) << '\n';
         if (i % every != 0) continue;
         for (int const rolling : {0, 1})
-            append(files[4], found(3 * row_count, [&](double* to) {
+            append(files[4], found(4 * row_count, [&](double* to) {
                        return page_map_row(one, 0, 2, 14, row_count, rolling, to);
                    }));
         append(files[5], found(answer_width * curve_count,
