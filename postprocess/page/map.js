@@ -6,7 +6,7 @@ const usualColours = { R: "#9aa5b1", PN: "#009E73", RP: "#8fd3b6", RPRN: "#b8e0a
   FRP: "#CC79A7", "FP'": "#D55E00", F: "#8c6bb1" };
 const freeColours = ["#b15928", "#4d6dd1", "#c9a0dc", "#7a9e9f", "#e78ac3"];
 const otherColour = "#6b7078";
-const map = { key: "", row: 0, rows: [], colours: new Map() };
+const map = { key: "", row: 0, rows: [], colours: new Map(), cells: document.createElement("canvas") };
 
 function mapKey() {
   return JSON.stringify([page.mapX, page.mapY, page.mapModel, axisRange(page.mapX), axisRange(page.mapY), { ...machine(), [page.mapX]: 0, [page.mapY]: 0 }, page.active]);
@@ -61,19 +61,30 @@ const mapFrame = { left: 52, right: 10, above: 8, below: 40 };
 function drawMap() {
   const { context, width, height, colour } = sharpCanvas("map", 0.62, 420), { left, right, above, below } = mapFrame;
   const inner = width - left - right, tall = height - above - below;
-  const cell = [inner / mapSize.columns, tall / mapSize.rows], counts = new Map(), fills = { "": colour("line"), violent: colour("back"), other: otherColour };
+  const fills = { "": colour("line"), violent: colour("back"), other: otherColour };
+  if (map.painted !== `${map.key}${map.row}${fills[""]}`) paintCells(fills);
+  context.imageSmoothingEnabled = false;
+  context.drawImage(map.cells, left, above, inner, tall);
+  drawMapAxes(context, { width, height, inner, tall, colour });
+  page.machines.forEach((one, k) => drawMapPoint(context, one, k, inner, tall));
+  showMapLegend();
+}
+
+/// One pixel for each point, which drawMap() enlarges; and how many points each mode has.
+function paintCells(fills) {
+  Object.assign(map.cells, { width: mapSize.columns, height: mapSize.rows });
+  const context = map.cells.getContext("2d");
+  map.counts = new Map();
   map.rows.forEach((row, j) => {
     const filled = row || nearestRow(j);
     if (filled) filled.forEach(({ mode }, i) => {
       const kind = classOf(mode);
-      counts.set(kind, (counts.get(kind) || 0) + 1);
+      map.counts.set(kind, (map.counts.get(kind) || 0) + 1);
       context.fillStyle = fills[kind] || colourOf(kind);
-      context.fillRect(left + i * cell[0], above + tall - (j + 1) * cell[1], cell[0] + 0.6, cell[1] + 0.6);
+      context.fillRect(i, mapSize.rows - 1 - j, 1, 1);
     });
   });
-  drawMapAxes(context, { width, height, inner, tall, colour });
-  page.machines.forEach((one, k) => drawMapPoint(context, one, k, inner, tall));
-  showMapLegend(counts);
+  map.painted = `${map.key}${map.row}${fills[""]}`;
 }
 
 function nearestRow(j) {
@@ -129,8 +140,8 @@ function modeWords(mode) {
   return letters.slice(0, 5).map((letter) => say(letterWords[letter])).join(", ") + (letters.length > 5 ? " \u2026" : "");
 }
 
-function showMapLegend(counts) {
-  const shown = [...counts].sort((a, b) => b[1] - a[1]).slice(0, 9);
+function showMapLegend() {
+  const shown = [...map.counts].sort((a, b) => b[1] - a[1]).slice(0, 9);
   document.getElementById("map-legend").replaceChildren(...shown.map(([mode]) => {
     const key = make("span", { class: "key fill", "aria-hidden": "true" });
     const special = { "": "var(--line)", violent: "var(--back)", other: otherColour };

@@ -1,8 +1,8 @@
 // All functions of the page, compiled for browsers, against the same functions compiled for this machine.
-// usage: node compare_native.js THEORY_JS NATIVE_ANSWERS WORK
+// usage: node compare_native.js THEORY_JS NATIVE_ANSWERS WORK PARTS
 "use strict";
-const fs = require("fs"), path = require("path"), assert = require("assert"), { execFileSync } = require("child_process");
-const [script, native, work] = process.argv.slice(2);
+const fs = require("fs"), path = require("path"), vm = require("vm"), assert = require("assert"), { execFileSync } = require("child_process");
+const [script, native, work, parts] = process.argv.slice(2);
 const COUNT = 10000, FRAMES = 9, ROW = 20, CURVE = 10, EVERY = 100;
 // musl and glibc round sines, tangents and square roots of sums differently in the last bit, and the solver's Newton steps
 // carry that on: its own error is below 1e-9 (src/theory/point_mass.hpp).
@@ -73,8 +73,14 @@ function takenApart(json) {
   return { text, numbers };
 }
 
-module.exports = { makeRandom };
-if (require.main === module) main().catch((error) => { console.error(error.message); process.exit(1); });
+/// What the page says for a sentence of the theory, in German.
+function germanSpeaker() {
+  const scope = vm.createContext({ page: { language: "de" } });
+  const source = ["german", "words", "numbers"].map((name) => fs.readFileSync(path.join(parts, `${name}.js`), "utf8")).join("\n");
+  return vm.runInContext(`${source}\nsayTheory`, scope);
+}
+
+main().catch((error) => { console.error(error.message); process.exit(1); });
 
 async function main() {
   const file = (name) => path.join(work, name), files = ["settings", "answers", "frames", "rows", "curves", "words", "modes"].map(file);
@@ -92,6 +98,7 @@ async function main() {
   assert.strictEqual(width, 30, "native_answers.cpp has this number, too");
   const input = theory._malloc(8 * count), output = theory._malloc(8 * width * CURVE * 10);
   const isMode = (i) => names.answer[i % width].endsWith("_mode");
+  const inGerman = germanSpeaker(), said = new Set();
   let unsettled = 0;
   const tallies = ["answers", "frames", "rows of maps", "curves", "numbers in words"].map((name) => new Tally(name));
   const sameModes = (ours, theirs, positions, where) => positions.forEach((i) => {
@@ -117,6 +124,11 @@ async function main() {
     theory.HEAPF64.set(one, input / 8);
     const ours = takenApart(text(theory._page_words(input))), theirs = takenApart(words[i]);
     assert.strictEqual(ours.text, theirs.text);
+    const { untested, unusual } = JSON.parse(words[i]);
+    for (const sentence of [...(untested ? [untested] : []), ...unusual]) {
+      assert.notStrictEqual(inGerman(sentence), sentence, "the page knows every sentence of the theory");
+      said.add(inGerman(sentence).replace(/[\d,]+/g, "#"));
+    }
     compareNumbers(tallies[4], ours.numbers, theirs.numbers, () => false, () => 1, where);
     if (i % EVERY) continue;
     for (const rolling of [0, 1]) {
@@ -133,5 +145,6 @@ async function main() {
   }
   console.log(`${unsettled} of ${2 * COUNT} motions have no period on either side and are not compared`);
   assert(unsettled < 0.1 * 2 * COUNT);
+  assert(said.size >= 6, [...said].join("\n"));
   tallies.forEach((tally) => console.log(`${tally}`));
 }
