@@ -111,6 +111,8 @@ const germanWords = {
   copied_link: "Der Link ist kopiert; er enthält alle Eingaben.",
   copied_campaign: "Die Kampagnendatei ist kopiert: als machine.toml speichern und \u201evibrotrough check machine.toml\u201c aufrufen.",
   copy_failed: "Dieser Browser erlaubt das Kopieren nicht; bitte den Text unten markieren.",
+  copied_text: "Kopierter Text",
+  measured_outside: "{0} davon liegen außerhalb der Achse.",
   close: "Schließen",
   thin_layer: "Eine Schicht dünner als ein Korn kann nicht simuliert werden.",
   unit: "Einheit",

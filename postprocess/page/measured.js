@@ -48,6 +48,8 @@ function showMeasuredNote() {
   const { measured } = page;
   const notes = measured ? [...measured.problems, say("measured_count", measured.points.length)] : [];
   if (measured && measured.axis !== page.curveAxis) notes.push(say("measured_axis", say(measured.axis)));
+  const [from, to] = axisRange(page.curveAxis), outside = measuredPoints().filter(({ x }) => x < from || x > to).length;
+  if (outside > 0) notes.push(say("measured_outside", outside));
   put("measured-note", notes.join(" "));
   document.getElementById("measured-note").classList.toggle("wrong", Boolean(measured && measured.problems.length > 0));
   put("measured-help", say("measured_help", page.curveQuantity === "speed" ? page.speedUnit : "t/h"));

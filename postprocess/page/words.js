@@ -111,6 +111,8 @@ const englishWords = {
   copied_link: "The link is copied; it holds all inputs.",
   copied_campaign: "The campaign file is copied: save it as machine.toml and run \u201cvibrotrough check machine.toml\u201d.",
   copy_failed: "This browser does not allow copying; select the text below.",
+  copied_text: "Copied text",
+  measured_outside: "{0} of them lie outside of the axis.",
   close: "Close",
   thin_layer: "A layer thinner than one grain cannot be simulated.",
   unit: "Unit",

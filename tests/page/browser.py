@@ -55,7 +55,7 @@ class Browser:
 
     def _start_chromium(self) -> None:
         self.process = subprocess.Popen(["chromedriver", "--port=0"], stdout=self.log, stderr=self.log)
-        port = self._waited(lambda: re.search(r"on port (\d+)", self._log_text().split("started", 1)[-1]))[1]
+        port = self._waited(lambda: re.search(r"started successfully on port (\d+)", self._log_text()))[1]
         arguments = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars", "--force-prefers-reduced-motion", "--lang=en-US", "--disable-gpu",
                      f"--user-data-dir={self.profile.resolve()}"] + (["--blink-settings=preferredColorScheme=0"] if self.dark else [])
         wanted = {"capabilities": {"alwaysMatch": {"browserName": "chrome", "webSocketUrl": True, "goog:chromeOptions": {"args": arguments, "binary": shutil.which("chromium")}}}}
@@ -96,6 +96,7 @@ class Browser:
 
     def open(self, page: pathlib.Path, part: str = "") -> None:
         self.call("browsingContext.navigate", context=self.context, url=page.resolve().as_uri() + part, wait="complete")
+        self.call("browsingContext.activate", context=self.context)
 
     def size(self, width: int, height: int) -> None:
         self.call("browsingContext.setViewport", context=self.context, viewport={"width": width, "height": height})
