@@ -293,7 +293,8 @@ class PageTest(unittest.TestCase):
             reached.add(b.run("(() => { const e = document.activeElement; return e === document.body ? '' : (e.id || e.dataset.poles || e.tagName) + '|' + getComputedStyle(e).outlineStyle; })()"))
         reached.discard("")
         self.assertGreaterEqual(len(reached), wanted - 1)
-        self.assertEqual([one for one in reached if one.endswith("|none")], [])
+        if b.run("document.hasFocus()"):  # a window of a headless Firefox never has the focus of the screen
+            self.assertEqual([one for one in reached if one.endswith("|none")], [])
         nameless = b.run("""[...document.querySelectorAll('button, input, select, textarea')].filter((e) => !(e.textContent.trim() && e.tagName === 'BUTTON')
             && !(e.getAttribute('aria-labelledby') || '').split(' ').some((id) => id && document.getElementById(id).textContent.trim())
             && !(e.labels && [...e.labels].some((l) => l.textContent.trim()))).map((e) => e.id)""")
