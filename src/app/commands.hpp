@@ -58,6 +58,8 @@ void add_predict(CLI::App& program, int& exit_code);
 void add_export(CLI::App& program, int& exit_code);
 /// Draws figures.
 void add_plot(CLI::App& program, int& exit_code);
+/// Writes the page for browsers.
+void add_page(CLI::App& program, int& exit_code);
 /// Writes the HTML report; defined in plot.cpp, because it draws the same figures.
 void add_report(CLI::App& program, int& exit_code);
 /// Tests a LIGGGHTS binary.

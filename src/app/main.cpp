@@ -82,6 +82,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_export(program, exit_code);
     add_plot(program, exit_code);
     add_report(program, exit_code);
+    add_page(program, exit_code);
     add_check(program, exit_code);
     add_probe_engine(program, exit_code);
     add_validate(program, exit_code);

@@ -302,8 +302,8 @@ ConveyorMotion Solver::average(int cycles) {
     // times.)
     double const downhill = -std::copysign(1.0, model_->gravity());
     bool const fast = downhill * state_.v > 10 * (1 + model_->trough_vx_bound());
-    runs_away_ =
-        fast && !stopped && std::ranges::is_sorted(means, {}, [&](double m) { return downhill * m; });
+    auto const is_slower = [&](double p, double q) { return downhill * p < downhill * q; };
+    runs_away_ = fast && !stopped && std::is_sorted(means.begin(), means.end(), is_slower);
     double mean = 0, square = 0;
     for (double const m : means) mean += m / batches;
     for (double const m : means) square += (m - mean) * (m - mean) / (batches - 1);

@@ -54,7 +54,8 @@ std::optional<Input> input_named(std::string_view name) {
 }
 
 std::optional<InputColumn> input_column_named(std::string_view name) {
-    auto const other = std::ranges::find(other_units, name, &OtherUnit::name);
+    auto const other = std::find_if(other_units.begin(), other_units.end(),
+                                    [&](OtherUnit const& other_unit) { return other_unit.name == name; });
     if (other != other_units.end()) return other->column;
     auto const input = input_named(name);
     return input ? std::optional(InputColumn{*input, 1}) : std::nullopt;

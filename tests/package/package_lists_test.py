@@ -14,7 +14,7 @@ SETUP = Path(os.environ["VIBROTROUGH_SOURCE"]) / "setup"
 SKIPPED = 77
 ENGINE = re.compile(r"liggghts$")
 # What only tests need, and nobody who wants a first table should have on the machine: services, a second compiler, a browser.
-ONLY_FOR_TESTS = re.compile(r"slurm|mariadb-server|mysql-server|munge$|clang|llvm-\d+$|faketime|valgrind|doxygen|chromium|paraview$|xvfb|googletest|libgtest")
+ONLY_FOR_TESTS = re.compile(r"slurm|mariadb-server|mysql-server|munge$|clang|llvm-\d+$|faketime|valgrind|doxygen|chromium|firefox|emscripten|paraview$|xvfb|googletest|libgtest")
 
 
 def installed_for(command):
@@ -42,7 +42,7 @@ class PackageLists(unittest.TestCase):
         installed, wanted = installed_for("test")
         self.assertLessEqual(wanted, installed)
         found = [one for one in installed if ONLY_FOR_TESTS.match(one)]
-        for service in ("slurmctld", "mariadb-server-core", "munge", "clang", "faketime", "valgrind"):
+        for service in ("slurmctld", "mariadb-server-core", "munge", "clang", "faketime", "valgrind", "emscripten", "firefox-esr"):
             self.assertTrue(any(one.startswith(service) for one in found), service)
 
 

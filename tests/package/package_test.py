@@ -65,6 +65,20 @@ class Package(Unpacked):
                     cwd="/", env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(modules)})  # fmt: skip
         self.assertEqual(done.stdout.split(), [f"{modules}/vibrotrough.py", "open_campaign", "FN'"], done.stderr)
 
+    def test_the_page_for_browsers(self):
+        """Where the package has the page, the program writes it; without it, one line says what to install."""
+        installed = self.root / "usr/share/vibrotrough/postprocess/page.html"
+        page = self.folder / "page.html"
+        if installed.is_file():
+            done = call(self.program, "page", "--output", page)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(page.read_bytes(), installed.read_bytes())
+            self.assertLess(page.stat().st_size, 3_000_000)
+            installed.unlink()
+        done = call(self.program, "page", "--output", page)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
+        self.assertIn("emscripten", done.stderr)
+
     def test_the_manual_page_is_sound_and_complete(self):
         page = self.root / "usr/share/man/man1/vibrotrough.1"
         shown = call("groff", "-man", "-ww", "-Tutf8", "-P-cbou", "-rLL=100n", page)

@@ -16,7 +16,7 @@ void put(Wave& wave, std::size_t i, int order, double sine, double cosine) {
 }
 
 bool same(std::vector<Harmonic> const& a, std::vector<Harmonic> const& b) {
-    return std::ranges::equal(a, b, [](Harmonic const& p, Harmonic const& q) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](Harmonic const& p, Harmonic const& q) {
         return p.order == q.order && p.amplitude == q.amplitude && p.phase == q.phase;
     });
 }
@@ -68,7 +68,7 @@ void ConveyorWaves::collect(Conveyor const& c) {
         p.y_sine += size * std::cos(h.phase);
         p.y_cosine += size * std::sin(h.phase);
     }
-    std::ranges::sort(parts_, {}, &Part::order);
+    std::sort(parts_.begin(), parts_.end(), [](Part const& p, Part const& q) { return p.order < q.order; });
 }
 
 void ConveyorWaves::set(Conveyor const& c) {

@@ -2,13 +2,25 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace vibrotrough::theory::detail {
 
 std::string number_text(double value) {
     char text[32];
+#ifdef __cpp_lib_to_chars
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
+#else
+    // The library of clang 14, with which the page is compiled for browsers, has no to_chars of a double.
+    for (int digits = 1; digits < 17; ++digits) {
+        std::snprintf(text, sizeof text, "%.*g", digits, value);
+        if (std::strtod(text, nullptr) == value) return text;
+    }
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+#endif
 }
 
 void require_range(bool good, char const* name, double value, char const* range) {

@@ -1,0 +1,223 @@
+#include "page/machine.hpp"
+
+#include "learn/model_errors.hpp"
+#include "theory/plastic_quantities.hpp"
+#include "theory/quantities.hpp"
+#include "theory/tested_range.hpp"
+#include "theory/unusual.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace vibrotrough::page {
+namespace {
+
+using theory::Input;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double normal_quantile = 1.959964;  // of 97.5 %: a band of 95 %
+
+// validation/rolling_layer: layers of spheres with rolling friction up to 0.03 roll as free ones do; at 0.2
+// they are conveyed as if they could not roll. Nothing was simulated between.
+constexpr double rolls_freely = 0.03;
+constexpr double hardly_rolls = 0.2;
+
+Model model_of(double rolling_friction) {
+    if (rolling_friction <= rolls_freely) return Model::rolling_layer;
+    return rolling_friction >= hardly_rolls ? Model::point_mass : Model::between;
+}
+
+std::optional<double> known_depth(Settings const& settings) {
+    double const depth = settings.depth_in_grains();
+    return std::isfinite(depth) ? std::optional(depth) : std::nullopt;
+}
+
+/// What a model misses at such a point, in velocity efficiency; NaN where no layer says it.
+double missed(theory::PointMass const& point, std::optional<double> depth, bool rolling) {
+    auto const errors = rolling ? learn::rolling_layer_errors() : learn::point_mass_errors();
+    return learn::known_error(errors, point.throw_number, point.tan_inclination, depth).value_or(unknown);
+}
+
+/// From a speed to the mass that the whole trough conveys in an hour.
+void add_flow(Speed& speed, Settings const& settings) {
+    double const factor = 3.6 * settings.mass_per_length();
+    speed.flow = factor * speed.speed;
+    speed.flow_low = factor * speed.low;
+    speed.flow_high = factor * speed.high;
+}
+
+/// The middle of two speeds, and a band that holds both.
+Speed spanning(Speed const& a, Speed const& b, Settings const& settings) {
+    Speed both{};
+    both.efficiency = (a.efficiency + b.efficiency) / 2;
+    both.speed = (a.speed + b.speed) / 2;
+    bool const known = !std::isnan(a.low) && !std::isnan(b.low);
+    both.low = known ? std::min(a.low, b.low) : unknown;
+    both.high = known ? std::max(a.high, b.high) : unknown;
+    add_flow(both, settings);
+    return both;
+}
+
+Trust trust_in(Answer const& answer, theory::PointMass const& point, std::optional<double> depth) {
+    if (std::isnan(answer.best.low)) return Trust::unknown;
+    if (answer.model == Model::between) return Trust::reaching;
+    bool const outside =
+        answer.model == Model::rolling_layer && theory::outside_tested_range(point, depth).has_value();
+    return outside ? Trust::reaching : Trust::tested;
+}
+
+theory::Machine machine_of(Settings const& settings) {
+    return {.amplitude = settings.inputs().amplitude().value()};
+}
+
+}  // namespace
+
+std::array<char const*, setting_count> const& setting_names() {
+    static constexpr std::array<char const*, setting_count> names{
+        "stroke_mm", "rpm",           "vibration_angle_deg", "inclination_deg",
+        "friction",  "friction_band", "rolling_friction",    "grain_mm",
+        "depth_mm",  "width_mm",      "bulk_density"};
+    return names;
+}
+
+Settings Settings::with(Setting setting, double other) const {
+    Settings changed = *this;
+    changed.value[static_cast<std::size_t>(setting)] = other;
+    return changed;
+}
+
+theory::Inputs Settings::inputs() const {
+    return inputs((*this)[Setting::friction]);
+}
+
+theory::Inputs Settings::inputs(double friction) const {
+    theory::Inputs inputs;
+    inputs.set(Input::frequency_hz, (*this)[Setting::rpm] / 60);
+    inputs.set(Input::stroke_mm, (*this)[Setting::stroke_mm]);
+    inputs.set(Input::vibration_angle_deg, (*this)[Setting::vibration_angle_deg]);
+    inputs.set(Input::inclination_deg, (*this)[Setting::inclination_deg]);
+    inputs.set(Input::friction, friction);
+    return inputs;
+}
+
+double Settings::depth_in_grains() const {
+    return (*this)[Setting::depth_mm] / (*this)[Setting::grain_mm];
+}
+
+double Settings::mass_per_length() const {
+    return 1e-6 * (*this)[Setting::depth_mm] * (*this)[Setting::width_mm] * (*this)[Setting::bulk_density];
+}
+
+theory::Efficiency Machines::efficiency(theory::PointMass const& point, bool rolling) {
+    if (!rolling) return mass_(point);
+    theory::Motion const motion = layer_(point).motion;
+    return {motion.velocity_efficiency, theory::mode_code(motion), motion.period_cycles, motion.outcome};
+}
+
+/// Ends and middle of the friction's band; the speed hardly bends between them.
+Speed Machines::speed(Settings const& settings, bool rolling) {
+    double const middle = settings[Setting::friction], band = settings[Setting::friction_band];
+    double const scale = settings.inputs().velocity_scale().value();
+    Speed speed{};
+    theory::Efficiency const at_middle = efficiency(settings.inputs().point(), rolling);
+    speed.efficiency = at_middle.velocity_efficiency;
+    speed.mode = at_middle.mode;
+    double low = speed.efficiency, high = speed.efficiency;
+    for (double const friction : {std::max(middle - band, 0.0), middle + band}) {
+        if (!(band > 0)) break;
+        double const eta = efficiency(settings.inputs(friction).point(), rolling).velocity_efficiency;
+        low = std::min(low, eta);
+        high = std::max(high, eta);
+    }
+    double const error = normal_quantile * missed(settings.inputs().point(), known_depth(settings), rolling);
+    bool const runs_away = !std::isfinite(low) || !std::isfinite(high);
+    speed.speed = std::isfinite(speed.efficiency) ? scale * speed.efficiency : unknown;
+    speed.low = runs_away ? unknown : scale * (low - error);
+    speed.high = runs_away ? unknown : scale * (high + error);
+    add_flow(speed, settings);
+    return speed;
+}
+
+Answer Machines::operator()(Settings const& settings) {
+    theory::Inputs const inputs = settings.inputs();
+    theory::PointMass const point = inputs.point();
+    Answer answer{};
+    answer.throw_number = point.throw_number;
+    answer.machine_number = theory::machine_number(point);
+    answer.trough_speed = inputs.velocity_scale().value();
+    answer.depth_in_grains = settings.depth_in_grains();
+    answer.mass = speed(settings, false);
+    answer.layer = speed(settings, true);
+    answer.model = model_of(settings[Setting::rolling_friction]);
+    answer.best = answer.model == Model::rolling_layer ? answer.layer
+                  : answer.model == Model::point_mass  ? answer.mass
+                                                       : spanning(answer.mass, answer.layer, settings);
+    answer.trust = trust_in(answer, point, known_depth(settings));
+    return answer;
+}
+
+Landing landing(Settings const& settings) {
+    theory::PointMass const point = settings.inputs().point();
+    auto const found = theory::plastic_quantities(theory::solve(point), point, machine_of(settings));
+    double const mass_per_area = 1e-3 * settings[Setting::depth_mm] * settings[Setting::bulk_density];
+    return {found.impact_speed, found.mean_power * mass_per_area};
+}
+
+std::vector<Frame> frames(Settings const& settings, bool rolling, int count) {
+    theory::PointMass const point = settings.inputs().point();
+    theory::Machine const machine = machine_of(settings);
+    double const omega = theory::angular_frequency(point, machine),
+                 beta = std::atan(point.tan_vibration_angle);
+    double const along = machine.amplitude * std::cos(beta), normal = machine.amplitude * std::sin(beta);
+    std::vector<Frame> list;
+    auto const add = [&](double t, theory::PhaseKind kind, double travel, double gap, double push,
+                         double drag) {
+        list.push_back({t / omega, static_cast<double>(kind), along * std::sin(t), normal * std::sin(t),
+                        travel * along, gap * normal, push * omega * omega * normal,
+                        drag * omega * omega * along});
+    };
+    if (rolling) {
+        double travel = 0;
+        auto const samples = theory::trace(theory::solve(theory::RollingLayer{point, {}}), count);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            theory::RollingSample const& s = samples[i];
+            // The trapezoidal rule: the sum is only drawn.
+            if (i > 0) travel += (s.t - samples[i - 1].t) * (s.velocity + samples[i - 1].velocity) / 2;
+            add(s.t, s.kind, travel, s.gap, s.normal_force, s.tangential_force);
+        }
+    } else {
+        auto const motion = theory::solve_plastic(settings.inputs().conveyor(), theory::Detail::pieces);
+        if (motion.motion.outcome != theory::Outcome::periodic)
+            throw std::invalid_argument(theory::to_string(motion.motion.outcome));
+        auto const samples = theory::trace(motion, count);
+        // The solver may have followed many cycles before it found the period.
+        double const cycles = std::floor(samples.front().t / (2 * std::numbers::pi));
+        for (theory::TraceSample const& s : samples) {
+            add(s.t - 2 * std::numbers::pi * cycles, s.kind, s.displacement, s.gap, s.normal_force,
+                s.tangential_force);
+        }
+    }
+    return list;
+}
+
+std::optional<std::string> untested(Settings const& settings, Answer const& answer) {
+    theory::PointMass const point = settings.inputs().point();
+    auto const depth = known_depth(settings);
+    if (answer.trust == Trust::tested) return {};
+    if (std::isnan(answer.best.speed)) return "the material runs away";
+    if (answer.model != Model::point_mass) {
+        if (auto why = theory::outside_tested_range(point, depth)) return why;
+    }
+    if (answer.trust == Trust::unknown) return "no simulated layer tells what the model misses here";
+    return "no layer was simulated with a rolling friction between 0.03 and 0.2";
+}
+
+std::vector<std::string> unusual(Settings const& settings, Answer const& answer) {
+    return theory::unusual_numbers({settings[Setting::rpm] / 60, settings[Setting::stroke_mm] / 2000,
+                                    answer.machine_number, settings[Setting::friction]});
+}
+
+}  // namespace vibrotrough::page

@@ -1,0 +1,130 @@
+#include "app/commands.hpp"
+#include "app/exit_code.hpp"
+#include "app/script_folder.hpp"
+#include "archive/open_bundle.hpp"
+#include "campaign/execute/executors.hpp"
+#include "campaign/state/campaign_folder.hpp"
+#include "compare/compared_cases.hpp"
+#include "compare/exports.hpp"
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PageArguments {
+    std::string folder;
+    std::string output = "vibrotrough.html";
+};
+
+/// The columns of compare that the page draws or lists.
+constexpr std::array<std::string_view, 16> page_columns{"case",
+                                                        "throw_number",
+                                                        "machine_number",
+                                                        "stroke_mm",
+                                                        "turns_per_minute",
+                                                        "vibration_angle_deg",
+                                                        "inclination_deg",
+                                                        "friction",
+                                                        "efficiency",
+                                                        "efficiency_whole_half_width",
+                                                        "conveying_speed_m_per_s",
+                                                        "conveying_speed_half_width_m_per_s",
+                                                        "mass_flow_t_per_h",
+                                                        "mass_flow_half_width_t_per_h",
+                                                        "layer_mode",
+                                                        "outcome"};
+
+/// The page as it was built: installed with the program, or beside it in its build tree.
+fs::path built_page() {
+    std::error_code failure;
+    fs::path const program = fs::read_symlink("/proc/self/exe", failure).parent_path();
+    fs::path const installed = program.parent_path() / installed_scripts / "page.html";
+    for (fs::path const& file : {installed, (program / page_of_build).lexically_normal()})
+        if (fs::is_regular_file(file, failure)) return file;
+    throw core::MissingError(
+        "the page was not built with this program: install emscripten (Debian: apt-get install "
+        "--no-install-recommends "
+        "emscripten), configure and build all of Vibrotrough again, or install its Debian package");
+}
+
+/// The rows of compare, as far as the page shows them.
+Json cases_of(std::string const& folder) {
+    auto const bundle = archive::open_bundle(folder);
+    campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(folder));
+    compare::ComparedCases const compared =
+        compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    Json cases = Json::array();
+    for (compare::Row const& row : compared.rows) {
+        Json const all = compare::to_object(row, compared.columns);
+        Json one;
+        for (std::string_view const column : page_columns)
+            if (all.contains(column)) one[std::string(column)] = all.at(std::string(column));
+        cases.push_back(std::move(one));
+    }
+    return {{"name", fs::path(folder).lexically_normal().filename().string()}, {"cases", cases}};
+}
+
+/// Text that can stand within a script: no name may end it.
+std::string for_script(Json const& json) {
+    std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+        text.replace(at, 1, "\\u003c");
+    return text;
+}
+
+int run_page(PageArguments const& options) {
+    std::string page = core::read_file(built_page());
+    if (!options.folder.empty()) {
+        std::string const place = R"(<script type="application/json" id="campaign">null</script>)";
+        auto const at = page.find(place);
+        if (at == std::string::npos)
+            throw core::MissingError("the installed page is damaged; install Vibrotrough again");
+        page.replace(at + place.find("null"), 4, for_script(cases_of(options.folder)));
+    }
+    core::write_file_atomically(options.output, page);
+    fmt::print("{}\n", options.output);
+    return all_well;
+}
+
+}  // namespace
+
+void add_page(CLI::App& program, int& exit_code) {
+    auto const options = std::make_shared<PageArguments>();
+    CLI::App* const command = program.add_subcommand(
+        "page", "Write a page for browsers that computes speed and mass flow while you change the machine");
+    command->add_option("CAMPAIGN_DIR", options->folder,
+                        "Folder of a campaign's results, or a bundle of 'vibrotrough archive': its cases are "
+                        "drawn as points with bars");
+    command->add_option("--output", options->output, "The file that is written")
+        ->type_name("FILE.html")
+        ->capture_default_str();
+    command->footer(
+        R"(The page is one file that needs neither a network nor a server: open it in a browser, send it to colleagues. It computes
+with the theory of this program, compiled for browsers: the point mass and the rolling-layer law, with what both missed in
+simulated layers. A link holds all inputs, and 'Copy as campaign file' gives what 'vibrotrough run' simulates.
+
+Exit codes:
+    0  the file is written
+    2  the input is wrong
+    3  the page was not built, because emscripten was missing
+
+Examples:
+  vibrotrough page
+  vibrotrough page runs/demo --output demo.html)");
+    command->callback([options, &exit_code] { exit_code = run_page(*options); });
+}
+
+}  // namespace vibrotrough::app

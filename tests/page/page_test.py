@@ -1,0 +1,350 @@
+"""The page of `vibrotrough page` in a headless browser, with real clicks and keys.
+
+usage: page_test.py BROWSER PROGRAM WORK      BROWSER is chromium or firefox
+"""
+
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+import zlib
+
+try:
+    from browser import Browser
+except ImportError:
+    print("SKIPPED: python3-websocket is not installed")
+    sys.exit(77)
+
+NAME, PROGRAM, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+os.environ["VIBROTROUGH_PROGRAM"] = PROGRAM
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "end_to_end"))
+from trough_program import campaign_text  # noqa: E402
+NEEDS = {"chromium": ["chromium", "chromedriver"], "firefox": ["firefox-esr"]}
+ANSWERED = "document.documentElement.dataset.answered"
+
+
+def program(*words, **options):
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False, **options)
+
+
+def number(text):
+    """The number that a text begins with, and half of its last digit."""
+    found = re.match(r"[−-]?\d+(?:[.,](\d+))?", text)
+    assert found, text
+    return float(found[0].replace("−", "-").replace(",", ".")), 0.5 * 10 ** -len(found[1] or "") * (1 + 1e-9)
+
+
+def pages_in(pdf):
+    """How many pages a PDF file has; Firefox packs their list."""
+    def unpacked(stream):
+        try:
+            return zlib.decompressobj().decompress(stream)
+        except zlib.error:
+            return b""
+    whole = pdf + b"".join(unpacked(found[1]) for found in re.finditer(rb"stream\r?\n(.*?)endstream", pdf, re.DOTALL))
+    return len(re.findall(rb"/Type\s*/Page\b", whole))
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        cls.page = WORK / "page.html"
+        done = program("page", "--output", cls.page)
+        assert done.returncode == 0, done.stderr
+        cls.browser = Browser(NAME, WORK)
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        self.browser.size(1280, 900)
+        self.browser.requests.clear()
+        self.browser.console.clear()
+        self.browser.open(self.page, f"?{self.id()}")  # a page of its own: only '#' would keep the old one
+        self.browser.wait(ANSWERED)
+
+    def tearDown(self):
+        asked = [one for one in self.browser.requests if not one.startswith(("file:", "data:", "about:", "chrome:", "resource:", "moz-"))]
+        self.assertEqual(asked, [], "the page asks no network for anything")
+        self.assertEqual(self.browser.console, [])
+
+    def drawn(self):
+        """Waits until everything is drawn that the last action changed."""
+        self.browser.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))")
+
+    def assert_shows(self, identity, value):
+        shown, half = number(self.browser.text(identity))
+        self.assertLessEqual(abs(shown - value), half + 1e-9 * abs(value), f"{identity} shows {shown}, the program says {value}")
+
+    def go(self, part):
+        self.browser.run(f"new Promise((done) => {{ addEventListener('hashchange', () => done(1), {{once: true}}); location.hash = {json.dumps('#' + part)}; }})")
+        self.drawn()
+
+    def test_answers_are_those_of_the_program(self):
+        draw = random.Random(50)
+        for _ in range(50):
+            stroke, machine_number = round(draw.uniform(2, 16), 1), draw.uniform(1, 5)
+            one = {"stroke_mm": stroke, "rpm": round(945.8 * (machine_number / (stroke / 2)) ** 0.5), "vibration_angle_deg": round(draw.uniform(18, 40)),
+                   "inclination_deg": round(draw.uniform(-3, 3), 1), "friction": round(draw.uniform(0.2, 0.6), 2), "rolling_friction": draw.choice([0, 0.3]),
+                   "depth_mm": round(draw.uniform(8, 40)), "width_mm": round(draw.uniform(100, 900)), "bulk_density": round(draw.uniform(300, 1800))}
+            self.go("&".join(f"{name}={value}" for name, value in one.items()))
+            words = ["theory", "point", "--json", "--stroke", f"{stroke} mm", "--rpm", one["rpm"], "--vibration-angle", f"{one['vibration_angle_deg']} deg",
+                     "--inclination", f"{one['inclination_deg']} deg", "--friction", one["friction"], "--layer-height", f"{one['depth_mm']} mm",
+                     "--layer-width", f"{one['width_mm']} mm", "--bulk-density", f"{one['bulk_density']} kg/m3"]
+            mass = json.loads(program(*words).stdout)
+            layer = json.loads(program(*words, "--rolling-layer", "--accept-untested").stdout)
+            best = mass if one["rolling_friction"] else layer
+            with self.subTest(one):
+                self.assert_shows("throw-number", mass["throw_number"])
+                self.assert_shows("machine-number", mass["machine_number"])
+                self.assert_shows("mass-speed", mass["quantities"]["conveying_speed"]["value"])
+                self.assert_shows("layer-speed", layer["quantities"]["conveying_speed"]["value"])
+                self.assert_shows("speed", best["quantities"]["conveying_speed"]["value"])
+                self.assert_shows("flow", best["quantities"]["mass_flow_per_hour"]["value"])
+                self.assert_shows("efficiency", best["velocity_efficiency"])
+                self.assertEqual(self.browser.text("mode"), best["mode"])
+                landing = mass["quantities"]["impact_speed"]["value"]
+                self.assertEqual(self.browser.text("landing-speed"), "none") if landing == 0 else self.assert_shows("landing-speed", landing)
+                self.assert_shows("power", mass["quantities"]["power_per_area"]["value"])
+                if not one["rolling_friction"] and layer["outside_tested_range"]:
+                    self.assertIn(self.browser.text("trust-word"), ("at the edge of what was tested", "not tested"))
+                    self.assertIn("tested", self.browser.text("reason"))
+
+    def test_keys_and_clicks_change_the_answer(self):
+        b = self.browser
+        b.type_into("#stroke_mm", "8,4")
+        self.drawn()
+        self.assertEqual(b.run("document.getElementById('amplitude_mm').value"), "4.2")
+        b.type_into("#amplitude_mm", "4.9")
+        self.drawn()
+        self.assertEqual(b.run("document.getElementById('stroke_mm').value"), "9.8")
+        b.click("[data-poles='6,50']")
+        self.drawn()
+        self.assertEqual(b.run("document.getElementById('rpm').value"), "1000")
+        self.assertEqual(b.run("document.querySelector(\"[data-poles='6,50']\").getAttribute('aria-pressed')"), "true")
+        said = json.loads(program("theory", "point", "--json", "--stroke", "9.8 mm", "--rpm", 1000, "--vibration-angle", "30 deg", "--friction", 0.3, "--rolling-layer",
+                                  "--accept-untested").stdout)
+        self.assert_shows("speed", said["quantities"]["conveying_speed"]["value"])
+        before = b.text("speed")
+        b.run("(document.getElementById('slide-vibration_angle_deg').focus(), 1)")
+        b.press("Right", "Right")
+        self.drawn()
+        self.assertEqual(b.run("document.getElementById('vibration_angle_deg').value"), "31")
+        self.assertNotEqual(b.text("speed"), before)
+
+    def test_wrong_inputs_are_named_and_the_old_answer_is_marked(self):
+        b = self.browser
+        for text, expected in (("nine", "“nine” is not a number; write for example 9.7."), ("", "is not a number"), ("970", "970 is outside 0.1 to 100; write for example 9.7."),
+                               ("-3", "outside"), ("1e999", "outside")):
+            b.type_into("#stroke_mm", text or "\ue017")
+            self.drawn()
+            self.assertIn(expected, b.text("stroke_mm-wrong"))
+            self.assertEqual(b.run("document.getElementById('stroke_mm').getAttribute('aria-invalid')"), "true")
+            self.assertEqual(b.text("trust-word"), "check the inputs")
+            self.assertIn("last inputs that were complete", b.text("reason"))
+        b.type_into("#stroke_mm", "9.7")
+        self.drawn()
+        self.assertEqual((b.text("stroke_mm-wrong"), b.text("trust-word")), ("", "tested"))
+        b.type_into("#rpm", "6000")
+        self.drawn()
+        self.assertEqual(b.text("trust-word"), "not tested")
+        self.assertIn("machine number of 195 is unusual", b.text("reason"))
+        self.go("inclination_deg=25&friction=0.2&rpm=960")
+        self.assertEqual(b.text("speed"), "none")
+        self.assertIn("runs away", b.text("reason"))
+
+    def test_words_and_units(self):
+        b = self.browser
+        b.run("(document.getElementById('language').focus(), 1)")
+        self.go("lang=de&unit=m/min")
+        self.assertEqual(b.run("document.documentElement.lang"), "de")
+        self.assertEqual(b.text("speed"), "23,8 m/min")
+        self.assertIn("Grad des Zyklus im Wurf, landet vorwärts gleitend", b.text("sentence"))
+        self.assertEqual(b.run("document.getElementById('stroke_mm').value"), "9,7")
+        left = b.run("[...document.querySelectorAll('[data-word]')].filter((e) => !e.textContent && e.dataset.word !== 'unit_1').map((e) => e.dataset.word)")
+        self.assertEqual(left, [])
+
+    def test_first_answer_and_redraws(self):
+        b = self.browser
+        first = float(b.run(ANSWERED))
+        frames = b.run("""new Promise((done) => {
+            const slider = document.getElementById('slide-stroke_mm'), times = [], worked = []; let k = 0;
+            const step = (now) => {
+              times.push(now); worked.push(Number(document.documentElement.dataset.worked));
+              slider.value = 5 + (k++ % 80) / 10; slider.dispatchEvent(new Event('input', {bubbles: true}));
+              if (k < 90) requestAnimationFrame(step); else done({seconds: (times[89] - times[9]) / 1000, worked: worked.slice(9).sort((a, b) => a - b)});
+            }; requestAnimationFrame(step); })""")
+        per_second, typical = 80 / frames["seconds"], frames["worked"][40]
+        print(f"{NAME}: first answer {first:.0f} ms after opening, {per_second:.0f} redraws a second while a slider moves, {typical:.1f} ms of work in each", flush=True)
+        # Other tests may keep the cores busy: what is held is far from what is measured on a quiet machine (60 redraws, 0.2 s).
+        self.assertLess(first, 3000)
+        self.assertLess(typical, 50)
+
+    def test_two_machines_and_the_link(self):
+        b = self.browser
+        b.click("#compare")
+        self.drawn()
+        b.type_into("#stroke_mm", "6")
+        b.type_into("#friction", "0,4")
+        self.drawn()
+        table = b.text("comparison-table")
+        for expected in ("Stroke, peak to peak [mm]9.706.00−38.1 %", "Friction on the trough0.3000.400+33.3 %", "Conveying speed [m/s]0.397"):
+            self.assertIn(expected, table)
+        speed = b.text("speed")
+        b.click("#edit-a")
+        self.drawn()
+        self.assertEqual((b.run("document.getElementById('stroke_mm').value"), b.text("speed")), ("9.7", "0.397 m/s"))
+        b.click("#copy-link")
+        b.wait("!document.getElementById('copied').hidden")
+        link = b.run("document.getElementById('copied-text').value")
+        self.assertTrue(link.startswith(self.page.resolve().as_uri()))
+        self.browser.open(self.page, "?another#" + link.split("#", 1)[1])
+        b.wait(ANSWERED)
+        b.click("#edit-b")
+        self.drawn()
+        self.assertEqual((b.run("document.getElementById('friction').value"), b.text("speed")), ("0.4", speed))
+        b.click("#compare")
+        self.drawn()
+        self.assertTrue(b.run("document.getElementById('comparison').hidden"))
+        self.browser.open(self.page, "?broken#stroke_mm=1e9&friction=x&x=nothing&rpm=800")
+        b.wait(ANSWERED)
+        self.assertEqual(b.run("['stroke_mm', 'friction', 'rpm', 'curve-axis'].map((name) => document.getElementById(name).value)"), ["9.7", "0.3", "800", "stroke_mm"])
+
+    def test_check_accepts_the_campaign_file(self):
+        for i, part in enumerate(("stroke_mm=9.7", "stroke_mm=7.35&rpm=1450&inclination_deg=-2.5&rolling_friction=0.05&grain_mm=2.2&depth_mm=9&width_mm=450&bulk_density=1380")):
+            self.go(part)
+            self.browser.click("#copy-campaign")
+            self.browser.wait("!document.getElementById('copied').hidden")
+            file = WORK / f"machine-{i}.toml"
+            file.write_text(self.browser.run("document.getElementById('copied-text').value"), encoding="utf-8")
+            done = program("check", file)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            planned = program("plan", file, "--json")
+            self.assertIn(done.returncode, (0,), planned.stderr)
+            self.assertIn("vibrotrough check machine.toml", self.browser.text("message"))
+            self.browser.click("#copied-close")
+        self.assertIn('rolling_friction = 0.05', file.read_text(encoding="utf-8"))
+
+    def paste(self, text):
+        """As the clipboard's paste: the browser inserts the text into the field that has the focus."""
+        self.browser.run("(document.getElementById('measured-section').open = true, document.getElementById('measured').focus(), document.getElementById('measured').select(), 1)")
+        self.browser.run(f"document.execCommand('insertText', false, {json.dumps(text)})")
+        self.drawn()
+
+    def test_pasted_points(self):
+        b = self.browser
+        drawn = "document.querySelectorAll('#curve .mark.measured').length"
+        self.paste("8\t0,25\n9,7\t0,38\t0,02\n")
+        self.assertEqual((b.run(drawn), b.text("measured-note")), (2, "2 points are drawn."))
+        self.assertEqual(b.run("document.querySelectorAll('#curve .mark.measured .bar').length"), 1)
+        self.paste("rpm;speed_m_per_min\n900;20,5\n1000;24,1\n")
+        self.assertEqual((b.run(drawn), b.run("document.getElementById('curve-axis').value")), (2, "rpm"))
+        self.assertIn("0.342", b.text("curve"))
+        self.paste("8 0.25\n")
+        self.assertIn("1 of them lie outside of the axis", b.text("measured-note"))
+        self.paste("stroke_mm speed_m_per_s\n9.7 fast\n8 0.25\n")
+        self.assertIn("Line 2: “9.7 fast” is not two or three numbers", b.text("measured-note"))
+        self.assertEqual(b.run(drawn), 1)
+        self.paste("colour speed\n1 2\n")
+        self.assertIn("“colour” is not a column that is known", b.text("measured-note"))
+        self.paste("<img src=x onerror=alert(1)> 3\n")
+        self.assertEqual(b.run("document.querySelectorAll('img').length"), 0)
+
+    def test_pictures_follow(self):
+        b = self.browser
+        b.click("#map", 0.6, 0.4)
+        self.drawn()
+        values = b.run("['stroke_mm', 'vibration_angle_deg'].map((name) => Number(document.getElementById(name).value))")
+        self.assertTrue(11 < values[0] < 14 and 35 < values[1] < 45, values)
+        b.wait("document.documentElement.dataset.complete === 'true'")
+        self.assertGreaterEqual(b.run("document.querySelectorAll('#map-legend li').length"), 3)
+        b.run("(document.getElementById('phase').focus(), 1)")
+        b.press("End")
+        self.drawn()
+        self.assertIn("Place in the cycle", b.text("motion-text"))
+        b.click("#play")
+        before = b.run("document.getElementById('phase').value")
+        b.wait(f"document.getElementById('phase').value !== '{before}'")
+        self.assertEqual(b.text("play"), "Pause")
+        b.click("#play")
+        self.go("inclination_deg=25&friction=0.2")
+        self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
+
+    def test_printed_on_one_sheet(self):
+        for part in ("rpm=960", "b.stroke_mm=6&b.friction=0.35"):
+            self.go(part)
+            self.browser.wait("document.documentElement.dataset.complete === 'true'")
+            printed = self.browser.printed()
+            (WORK / "printed.pdf").write_bytes(printed)
+            self.assertEqual(pages_in(printed), 1)
+
+    def test_keyboard_and_names(self):
+        """Tab reaches every control, each of which has a name for screen readers, and the focus can be seen."""
+        b = self.browser
+        wanted = b.run("[...document.querySelectorAll('a[href], button, input, select, textarea, summary')].filter((e) => e.checkVisibility()).length")
+        reached = set()
+        b.run("(document.body.tabIndex = -1, document.body.focus(), 1)")
+        for _ in range(wanted + 5):
+            b.press("Tab")
+            reached.add(b.run("(() => { const e = document.activeElement; return e === document.body ? '' : (e.id || e.dataset.poles || e.tagName) + '|' + getComputedStyle(e).outlineStyle; })()"))
+        reached.discard("")
+        self.assertGreaterEqual(len(reached), wanted - 1)
+        if b.run("document.hasFocus()"):  # a window of a headless Firefox never has the focus of the screen
+            self.assertEqual([one for one in reached if one.endswith("|none")], [])
+        nameless = b.run("""[...document.querySelectorAll('button, input, select, textarea')].filter((e) => !(e.textContent.trim() && e.tagName === 'BUTTON')
+            && !(e.getAttribute('aria-labelledby') || '').split(' ').some((id) => id && document.getElementById(id).textContent.trim())
+            && !(e.labels && [...e.labels].some((l) => l.textContent.trim()))).map((e) => e.id)""")
+        self.assertEqual([one for one in nameless if one not in ("edit-a", "edit-b")], [])
+
+    def test_nothing_is_wider_than_a_telephone(self):
+        for width in (360, 800, 1280):
+            self.browser.size(width, 740)
+            self.drawn()
+            wide, inner = self.browser.run("[document.documentElement.scrollWidth, innerWidth]")
+            self.assertLessEqual(wide, inner)
+
+
+class CampaignTest(unittest.TestCase):
+    def test_simulated_cases(self):
+        """A campaign of two small cases: the points and bars of the page are the numbers of compare."""
+        if not shutil.which("liggghts"):
+            self.skipTest("liggghts is not installed")
+        file, runs = WORK / "small.toml", WORK / "<b>runs"
+        file.write_text(campaign_text({"trough.width": "300 mm"}, {"trough.throw_number": [1.7, 2.2]}), encoding="utf-8")
+        done = program("run", file, "--output", runs, "--jobs", 1)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        rows = json.loads(program("compare", runs, "--json").stdout)
+        page = WORK / "campaign.html"
+        done = program("page", runs, "--output", page)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        browser = Browser(NAME, WORK / "campaign")
+        self.addCleanup(browser.close)
+        browser.open(page)
+        browser.wait(ANSWERED)
+        self.assertIn("<b>runs", browser.text("campaign-title"))
+        browser.click("#campaign-table tbody tr:nth-child(2) button")
+        browser.wait("document.querySelectorAll('#curve .mark.simulated:not(.other)').length === 1")
+        self.assertEqual(browser.run("document.querySelectorAll('#curve .mark.simulated .bar').length"), 2)
+        table = browser.text("campaign-table")
+        for row in rows:
+            for column in ("conveying_speed_m_per_s", "mass_flow_t_per_h"):
+                shown = f"{row[column]:.3g}"
+                self.assertIn(shown, table)
+        self.assertAlmostEqual(float(browser.text("throw-number")), rows[1]["throw_number"], places=2)
+        self.assertEqual(browser.console, [])
+
+
+def main():
+    missing = [one for one in NEEDS[NAME] if not shutil.which(one)]
+    if missing:
+        print(f"SKIPPED: {' and '.join(missing)} not installed")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], "--verbose"])
+
+
+if __name__ == "__main__":
+    main()
