@@ -43,7 +43,7 @@ def _shared_arguments(commands: Sequence[list[str]]) -> list[str]:
     return [*first, *folders_and_macros]
 
 
-class RoomTidy:
+class Tidy:
     """Runs clang-tidy (`program`) on sources of the project at `root` that lie in one file."""
 
     def __init__(self, program: str, root: pathlib.Path, folder: pathlib.Path) -> None:
@@ -79,9 +79,9 @@ class RoomTidy:
         return answer
 
 
-def violations_of_room(program: str, root: pathlib.Path, build: pathlib.Path, sources: Sequence[str]) -> list[str]:
+def violations_of_rooms(program: str, root: pathlib.Path, build: pathlib.Path, sources: Sequence[str]) -> list[str]:
     """What clang-tidy says of `sources` (whole paths); a source that compile_commands.json of `build` does not compile is one line."""
     commands = _commands(build, set(sources))
     left_out = [f"{path} is not compiled" for path in sources if path not in commands]
     with tempfile.TemporaryDirectory() as folder:
-        return left_out + RoomTidy(program, root, pathlib.Path(folder)).violations(commands)
+        return left_out + Tidy(program, root, pathlib.Path(folder)).violations(commands)
