@@ -3,8 +3,7 @@
 usage: style.py CHECK ROOT [ARGUMENT...]
 
 format          clang-format leaves every C++ file of src/ and tests/ as it is (.clang-format)
-tidy BUILD ROOM ...
-                clang-tidy reports nothing for src/ROOM, of several rooms together (.clang-tidy); BUILD holds compile_commands.json
+tidy BUILD ROOM clang-tidy reports nothing for src/ROOM (.clang-tidy); BUILD holds compile_commands.json
 spelling        codespell finds no misspelt word in code and prose (.codespellrc)
 lint            pyflakes finds nothing in the Python files
 types CACHE     mypy finds nothing in the Python of postprocess/, validation/, tests/style/ and tests/architecture/ (.mypy.ini);
@@ -22,7 +21,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 
-from tidy import violations_of_rooms
+from tidy import violations_of_room
 
 MOST_LINES = 400
 SKIPPED = 77
@@ -60,11 +59,10 @@ def check_format(root: pathlib.Path) -> list[str]:
     return run([program, "--dry-run", "--Werror", *map(str, files(root, ("src", "tests"), (".hpp", ".cpp")))], root)
 
 
-def check_tidy(root: pathlib.Path, build: str, *rooms: str) -> list[str]:
+def check_tidy(root: pathlib.Path, build: str, room: str) -> list[str]:
     program = tool("clang-tidy-14", "clang-tidy", version=CLANG_VERSION)
-    of_rooms = {room: [str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))] for room in rooms}
-    empty = [f"src/{room} has no sources" for room, sources in of_rooms.items() if not sources]
-    return empty or violations_of_rooms(program, root, pathlib.Path(build), [path for sources in of_rooms.values() for path in sources])
+    sources = [str(root / path) for path in files(root, (f"src/{room}",), (".cpp",))]
+    return violations_of_room(program, root, pathlib.Path(build), sources) if sources else [f"src/{room} has no sources"]
 
 
 def check_spelling(root: pathlib.Path) -> list[str]:
