@@ -14,19 +14,23 @@ from collections.abc import Sequence
 CHEAP_CHECK = "-*,misc-throw-by-value-catch-by-reference"
 
 
-def _commands(build: pathlib.Path, sources: set[str]) -> dict[str, list[str]]:
-    """The compiler's arguments for each of `sources`, those that are compiled in batches (UNITY_BUILD) first."""
+def _commands(build: pathlib.Path, sources: set[str]) -> tuple[dict[str, list[str]], list[str]]:
+    """The compiler's arguments for each of `sources`, those that are compiled in batches (UNITY_BUILD) first; and if there is one batch of
+    them, what it holds."""
     batched: dict[str, list[str]] = {}
+    batches: list[list[str]] = []
     alone: dict[str, list[str]] = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         file = pathlib.Path(entry["file"])
         arguments = shlex.split(entry["command"])
         if file.parent.name == "Unity":
             content = re.findall(r'^#include "(.*)"', file.read_text(encoding="utf-8"), flags=re.MULTILINE)
-            batched.update((str(pathlib.Path(path).resolve()), arguments) for path in content)
+            batch = [path for path in (str(pathlib.Path(path).resolve()) for path in content) if path in sources]
+            batched.update((path, arguments) for path in batch)
+            batches += [batch] if batch else []
         else:
             alone[str(file.resolve())] = arguments
-    return {path: arguments for path, arguments in (batched | alone).items() if path in sources}
+    return {path: arguments for path, arguments in (batched | alone).items() if path in sources}, batches[0] if len(batches) == 1 else []
 
 
 def _shared_arguments(commands: Sequence[list[str]]) -> list[str]:
@@ -64,24 +68,29 @@ class RoomTidy:
         wrong = {str(pathlib.Path(path).resolve()) for path in re.findall(r"^(/[^:]*):\d+:\d+: error: .*clang-diagnostic", said, flags=re.MULTILINE)}
         return [path for path in list(commands)[1:] if path in wrong]
 
-    def violations(self, commands: dict[str, list[str]]) -> list[str]:
-        """What clang-tidy says of the sources, line by line."""
+    def violations(self, commands: dict[str, list[str]], batch: Sequence[str]) -> list[str]:
+        """What clang-tidy says of the sources, line by line. Names within `batch` do not meet, as the compiler has seen."""
         answer: list[str] = []
+        if batch:
+            answer += self._said({path: commands[path] for path in batch})
+            commands = {path: arguments for path, arguments in commands.items() if path not in batch}
         while commands:
             together, later = commands, list[str]()
             while wait := self._meeting_names(together):
                 later += wait
                 together = {path: arguments for path, arguments in together.items() if path not in wait}
-            done = self._run(together, [])
-            if done.returncode:
-                answer += (done.stdout + done.stderr).splitlines() or [f"{self._program} ended with {done.returncode}"]
+            answer += self._said(together)
             commands = {path: arguments for path, arguments in commands.items() if path in later}
         return answer
+
+    def _said(self, commands: dict[str, list[str]]) -> list[str]:
+        done = self._run(commands, [])
+        return ((done.stdout + done.stderr).splitlines() or [f"{self._program} ended with {done.returncode}"]) if done.returncode else []
 
 
 def violations_of_room(program: str, root: pathlib.Path, build: pathlib.Path, sources: Sequence[str]) -> list[str]:
     """What clang-tidy says of `sources` (whole paths); a source that compile_commands.json of `build` does not compile is one line."""
-    commands = _commands(build, set(sources))
+    commands, batch = _commands(build, set(sources))
     left_out = [f"{path} is not compiled" for path in sources if path not in commands]
     with tempfile.TemporaryDirectory() as folder:
-        return left_out + RoomTidy(program, root, pathlib.Path(folder)).violations(commands)
+        return left_out + RoomTidy(program, root, pathlib.Path(folder)).violations(commands, batch)

@@ -1,0 +1,166 @@
+"""What the tests are worth: makes the small mistakes (mutants) of mutants.toml and notes which test finds each.
+
+usage: mutants.py WORK [--only TEXT] [--rooms | --then] [--jobs N] [--table FILE]
+
+WORK      a folder for a copy of the sources, its build and the answers so far; a second call goes on where the first one stopped
+--only    mutants whose file contains TEXT
+--rooms   runs the tests of the mutant's room alone; by default the tests of `then` follow where these find nothing
+--then    runs the tests of `then` alone: what they are worth by themselves
+--table   writes the answers as a table of Markdown
+
+All mutants are compiled into one program; the environment variable VIBROTROUGH_MUTANT chooses the one that is alive. So sixty mutants cost
+one build. The work tree stays as it is.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+from typing import Any
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+# The room app has no tests of its own: `then` names those of its commands.
+WITHOUT_TESTS = {"app"}
+# Tests of a room that compare pages or start ParaView find no mistake of arithmetic, and take long.
+LEFT_OUT = "InTheDocs|InParaView|RenderCase"
+PATIENCE = 1200  # s, after which a mutant counts as found, by a test that stands still
+
+HEADER = """#ifdef __cplusplus
+#include <cstdlib>
+inline bool vibrotrough_mutant(int number) {
+    static int const alive = [] { char const* const text = std::getenv("VIBROTROUGH_MUTANT"); return text ? std::atoi(text) : -1; }();
+    return alive == number;
+}
+#endif
+"""
+
+
+def with_choice(mutant: dict[str, Any], number: int) -> str:
+    """The line of a mutant, which is as before unless the mutant with this number is alive."""
+    line, expression, becomes = mutant["line"], mutant["expression"], mutant["becomes"]
+    if not becomes:
+        return f"if (!vibrotrough_mutant({number})) {line}"
+    return line.replace(expression, f"(vibrotrough_mutant({number}) ? ({becomes}) : ({expression}))")
+
+
+def bring(name: pathlib.Path, content: bytes) -> None:
+    """Writes a file unless it has this content: then its time stays, and it is not compiled again."""
+    if not (name.is_file() and name.read_bytes() == content):
+        name.parent.mkdir(parents=True, exist_ok=True)
+        name.write_bytes(content)
+
+
+def copy_sources(target: pathlib.Path, mutants: list[dict[str, Any]]) -> None:
+    """The files of the work tree, with all mutants in them."""
+    listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-co", "--exclude-standard", "-z"], stdout=subprocess.PIPE, text=True, check=True)
+    names = {name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()}
+    of_file: dict[str, list[int]] = {}
+    for number, mutant in enumerate(mutants):
+        of_file.setdefault("src/" + mutant["file"], []).append(number)
+    for name in sorted(names):
+        content = (ROOT / name).read_bytes()
+        if name in of_file:
+            lines = content.decode().split("\n")
+            for number in of_file[name]:
+                places = [i for i, line in enumerate(lines) if line.strip() == mutants[number]["line"]]
+                if len(places) != 1:
+                    sys.exit(f"{name} has this line {len(places)} times; write the mutant again: {mutants[number]['line']}")
+                lines[places[0]] = with_choice(mutants[number], number)
+            content = "\n".join(lines).encode()
+        bring(target / name, content)
+        shutil.copymode(ROOT / name, target / name)
+
+
+def build(work: pathlib.Path, jobs: int, targets: list[str]) -> pathlib.Path:
+    bring(work / "mutant.hpp", HEADER.encode())
+    folder = work / "build"
+    # Optimised less than a release: most of the time goes into compiling.
+    for command in (["cmake", "-G", "Ninja", "-S", str(work / "source"), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release",
+                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-include {work / 'mutant.hpp'}"],
+                    ["cmake", "--build", str(folder), "--parallel", str(jobs), "--target", *targets, "--", "-k", "0"]):
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode:
+            sys.exit(done.stdout)
+    return folder
+
+
+def first_failure(folder: pathlib.Path, jobs: int, number: int, tests: str) -> str:
+    """Runs the tests that match `tests` with a mutant alive until one fails: its name, or nothing."""
+    command = ["ctest", "--test-dir", str(folder), "--parallel", str(jobs), "--stop-on-failure", "--no-tests=error", "--timeout", "120", "-R", tests, "-E", LEFT_OUT]
+    environment = {**os.environ, "VIBROTROUGH_MUTANT": str(number)}
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, timeout=PATIENCE, check=False)
+    except subprocess.TimeoutExpired:
+        return "a test that stood still"
+    failed = re.search(r"Test +#\d+: (\S+) \.+\**(?:Failed|Timeout|Exception|Not Run|\*\*\*)", done.stdout)
+    return "" if done.returncode == 0 else failed[1] if failed else "ctest: " + done.stdout[-200:]
+
+
+def examine(folder: pathlib.Path, jobs: int, number: int, mutant: dict[str, Any], stages: set[str]) -> dict[str, Any]:
+    start = time.monotonic()
+    room = mutant["file"].split("/")[0]
+    found = ""
+    if "rooms" in stages and room not in WITHOUT_TESTS:
+        found = first_failure(folder, jobs, number, rf"^{room}\.")
+    if not found and "then" in stages and "then" in mutant:
+        found = first_failure(folder, jobs, number, "^(" + "|".join(map(re.escape, mutant["then"])) + ")$")
+    return {"by": found, "seconds": round(time.monotonic() - start)}
+
+
+def key(mutant: dict[str, Any]) -> str:
+    return " ~ ".join(mutant[name] for name in ("file", "line", "expression", "becomes"))
+
+
+def write_table(path: pathlib.Path, mutants: list[dict[str, Any]], answers: dict[str, Any]) -> None:
+    rows = ["| file | expression | becomes | found by | s |", "|---|---|---|---|--:|"]
+    for mutant in mutants:
+        if answer := answers.get(key(mutant)):
+            cells = [mutant["file"], f"`{mutant['expression']}`", f"`{mutant['becomes']}`" if mutant["becomes"] else "(dropped)",
+                     answer["by"] or "**nothing**", str(answer["seconds"])]
+            rows.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    path.write_text("\n".join(rows) + "\n")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--rooms", action="store_true")
+    parser.add_argument("--then", action="store_true")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--table", type=pathlib.Path)
+    chosen = parser.parse_args()
+    stages = {"rooms"} if chosen.rooms else {"then"} if chosen.then else {"rooms", "then"}
+    os.nice(10)
+    work = chosen.work.resolve()
+    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
+    copy_sources(work / "source", mutants)
+    rooms = sorted({mutant["file"].split("/")[0] for mutant in mutants} - WITHOUT_TESTS)
+    folder = build(work, chosen.jobs, ["vibrotrough", *(f"{room}_tests" for room in rooms)] if stages == {"rooms"} else ["all"])
+    notes = work / f"answers-{'-'.join(sorted(stages))}.json"
+    answers: dict[str, Any] = json.loads(notes.read_text()) if notes.exists() else {}
+    missed = []
+    for number, mutant in enumerate(mutants):
+        if chosen.only not in mutant["file"] or (chosen.then and "then" not in mutant):
+            continue
+        if key(mutant) not in answers:
+            answers[key(mutant)] = examine(folder, chosen.jobs, number, mutant, stages)
+            notes.write_text(json.dumps(answers, indent=1) + "\n")
+            print(f"{number} {mutant['file']}: {mutant['expression']} -> {mutant['becomes']}: {answers[key(mutant)]}", flush=True)
+        if not answers[key(mutant)]["by"]:
+            missed.append(key(mutant))
+    if chosen.table:
+        write_table(chosen.table, mutants, answers)
+    print(f"{len(missed)} mutants were found by nothing", *missed, sep="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
