@@ -320,6 +320,11 @@ int cycles_from(std::vector<Hop> const& hops, std::size_t first) {
 
 }  // namespace
 
+FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number) {
+    if (start.zero >= 0) start.at.t += rounding * static_cast<double>(number);
+    return start;
+}
+
 void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
     orbit.hops.clear();
     orbit.first = 0;
@@ -350,9 +355,8 @@ void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
             orbit.in_doubt = returns && peak < hopeless_growth;
             if (orbit.in_doubt) break;
             before = since = orbit.hops.size();
-            // Rounding decides what happens after such a growth: the next flight is to have a rounding error
-            // of its own, so that a motion that ends elsewhere is found.
-            if (returns) next.at.t += rounding * static_cast<double>(orbit.hops.size());
+            // Rounding decides what happens after such a growth: a motion that ends elsewhere is to be found.
+            if (returns) next = with_rounding(next, orbit.hops.size());
             irregular = irregular || returns;
             growth = {};
             peak = 1;

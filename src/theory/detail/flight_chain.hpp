@@ -73,6 +73,12 @@ struct NormalOrbit {
     std::vector<bool> seen;            ///< of their rebounds (memory)
 };
 
+/// A take-off from contact with a rounding error of its own, as on a machine; others are as they were. Where
+/// small changes grow by more than rounding allows for between two contacts, the calculation would otherwise
+/// repeat a cycle of rounding errors for ever.
+/// @param number  of the flight
+FlightChain::Start with_rounding(FlightChain::Start start, std::size_t number);
+
 /// Sets `orbit` for a conveyor, reusing its memory.
 ///
 /// A motion counts as one without a period after 3000 cycles, or after 1000 if it is chaotic: if small
