@@ -43,6 +43,7 @@ class BouncingMass {
             Real const end = take_off();
             while (t < end) touch(end);
             leaves_ = weight_ < 1;
+            starts_ = 0;
             if (leaves_) t += noise_ * chance_(random_);
         } else {
             fly();
@@ -53,11 +54,13 @@ class BouncingMass {
         t -= whole;
         past_ += whole;
     }
+    /// Time since the beginning, rad.
+    Real elapsed() const { return past_ + t; }
     /// Follows at least so many cycles. @return the mean slip velocity
     Real follow(Real cycles) {
-        Real const begin = past_ + t, before = displacement;
-        while (past_ + t - begin < turn * cycles) step();
-        return (displacement - before) / (past_ + t - begin);
+        Real const begin = elapsed(), before = displacement;
+        while (elapsed() - begin < turn * cycles) step();
+        return (displacement - before) / (elapsed() - begin);
     }
 
   private:
@@ -102,19 +105,19 @@ class BouncingMass {
     /// One slide or rest. The slip speed w = sign v obeys w' = a sin t - c.
     void touch(Real end) {
         Real sign = v > 0 ? 1 : -1;
-        if (v == 0) {
+        if (v == 0 && starts_ != 0) {
+            sign = starts_;
+        } else if (v == 0) {
             Real const needed = gravity_ - std::sin(t), most = holding_ * (weight_ - std::sin(t));
             if (std::abs(needed) <= most) return rest(end);
             sign = needed < 0 ? 1 : -1;
         }
+        starts_ = 0;
         Real const a = sign + sliding_, c = sign * gravity_ + sliding_ * weight_, start = t, w = sign * v;
         Real const bound = std::abs(a), cosine = std::cos(start);
         // From rest the speed grows up to where the acceleration is zero.
         Real h = 0;
-        if (w == 0) {
-            if (a * std::sin(start) - c <= 0) return rest(end);  // it starts to slide only by rounding
-            h = acceleration_end(a, c) - start;
-        }
+        if (w == 0) h = acceleration_end(a, c) - start;
         while (start + h < end) {
             Real const speed = w - a * (std::cos(start + h) - cosine) - c * h;
             Real const rate_now = a * std::sin(start + h) - c;
@@ -131,7 +134,8 @@ class BouncingMass {
         displacement += sign * ((w + a * cosine) * h - a * (std::sin(t + h) - std::sin(t)) - c * h * h / 2);
         Real const speed = std::max(w - a * (std::cos(t + h) - cosine) - c * h, Real(0));
         v = stops ? Real(0) : sign * speed;
-        t += h;
+        // At the end of what could set it in motion rounding must not start it again and again.
+        t += std::max(h, stops ? 4 * std::numeric_limits<Real>::epsilon() * (1 + std::abs(t)) : Real(0));
     }
     Real acceleration_end(Real a, Real c) const {
         Real const ratio = std::clamp(c / a, Real(-1), Real(1));
@@ -146,12 +150,12 @@ class BouncingMass {
             if (!(std::abs(c) < std::abs(a))) continue;
             Real const zero = a > 0 ? std::asin(c / a) : std::numbers::pi_v<Real> - std::asin(c / a);
             Real const at = zero + turn * (std::floor((t - zero) / turn) + 1);
-            first = std::min(first, at);
+            if (at < first) first = at, starts_ = sign;
         }
-        // Rounding must not leave it resting where it just started to slide.
-        t = first < end ? first + 4 * std::numeric_limits<Real>::epsilon() * (1 + std::abs(first)) : end;
+        t = first;
     }
 
+    Real starts_ = 0;      // the direction in which a slide from rest starts at t
     Real past_ = 0;        // whole cycles taken off t
     bool leaves_ = false;  // the trough at t
     std::mt19937_64 random_{1};
