@@ -48,9 +48,22 @@ Inputs one_motion(Constants const& values) {
     return inputs;
 }
 
+/// Efficiency, half-width, mode, period and fraction of the starts of each motion of each point.
+py::list motion_tuples(std::vector<std::vector<CoexistingMotion>> const& motions) {
+    py::list answer;
+    for (auto const& of_one : motions) {
+        py::list list;
+        for (auto const& [motion, share] : of_one)
+            list.append(py::make_tuple(motion.velocity_efficiency, motion.half_width, to_string(motion.mode),
+                                       motion.period_cycles, share));
+        answer.append(list);
+    }
+    return answer;
+}
+
 /// @param columns  of the same length; NaN where a motion does not have that input
 py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t count, int jobs,
-                       std::optional<Constants> const& rolling, bool accept_untested) {
+                       std::optional<Constants> const& rolling, bool accept_untested, int starts) {
     std::vector<std::pair<Input, double const*>> given;
     for (auto const& [name, column] : columns) given.emplace_back(input_of(name), column.data());
     auto const law = law_of(rolling);
@@ -64,6 +77,7 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
     int* const periods = period.mutable_data();
     bool* const settled = converged.mutable_data();
     double seconds = 0;
+    std::vector<std::vector<CoexistingMotion>> motions;
     {
         py::gil_scoped_release const others_may_run;
         for (std::size_t begin = 0; begin < count; begin += points_at_once) {
@@ -72,9 +86,10 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
                 for (std::size_t i = 0; i < inputs.size(); ++i)
                     if (!std::isnan(values[begin + i])) inputs[i].set(input, values[begin + i]);
             }
-            BatchResult answer = solve_batch(inputs, jobs, law, begin + 1);
+            BatchResult answer = solve_batch(inputs, jobs, law, begin + 1, starts);
             if (law && !accept_untested) withhold_untested(inputs, answer.points);
             seconds += answer.cpu_seconds_per_solution * static_cast<double>(inputs.size());
+            for (auto& of_one : answer.motions) motions.push_back(std::move(of_one));
             for (std::size_t i = 0; i < inputs.size(); ++i) {
                 MapPoint const& point = answer.points[i];
                 eta[begin + i] = point.velocity_efficiency;
@@ -95,6 +110,7 @@ py::dict solve_columns(std::map<std::string, Column> const& columns, std::size_t
     answer["period_cycles"] = period;
     answer["converged"] = converged;
     answer["cpu_seconds"] = seconds;
+    answer["motions"] = motion_tuples(motions);
     return answer;
 }
 

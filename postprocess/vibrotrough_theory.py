@@ -20,6 +20,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +29,16 @@ try:
     import _vibrotrough_theory as _library
 except ImportError as error:
     raise ImportError(f"the compiled theory is missing ({error}); in a checkout of Vibrotrough: pip install --no-build-isolation ./postprocess") from error
+
+
+class CoexistingMotion(NamedTuple):
+    """One of the motions to which different starts lead."""
+
+    velocity_efficiency: float  #: as of a Solution
+    half_width: float  #: of its 95 % confidence interval if it has no period, else 0
+    mode: str  #: phases of one period in order; "" if it has none
+    period_cycles: int  #: cycles after which it repeats; 0 if it does not
+    fraction: float  #: of the starts that lead to it
 
 
 @dataclass(frozen=True)
@@ -40,6 +51,7 @@ class Solution:
     period_cycles: NDArray[np.int32]  #: cycles after which the motion repeats; 0 if it does not
     converged: NDArray[np.bool_]  #: whether a period was found
     mode_code: NDArray[np.uint64]  #: a number for each mode; equal modes have equal numbers
+    motions: NDArray[np.object_] | None  #: with `starts`: a tuple of CoexistingMotion for each motion, that of the standard start first; else None
     cpu_seconds: float  #: processor time of all threads within the library
 
     @property
@@ -49,10 +61,11 @@ class Solution:
         return np.array([_library.mode(int(code)) for code in codes])[where].reshape(self.mode_code.shape)
 
 
-def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, accept_untested: bool = False, **inputs: ArrayLike) -> Solution:
+def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, accept_untested: bool = False, starts: int = 0, **inputs: ArrayLike) -> Solution:
     """Solves all motions, on `jobs` threads (0: all cores).
 
     rolling_layer: a layer of grains that roll on the trough in place of a point mass; a mapping replaces constants of its law (torque, dry_torque, spin_inertia, stiffness, damping).
+    starts: so many starts of each motion are followed, for example 64, and `motions` says to which motions they lead; 0: the standard start alone, at rest at t = 0.
     accept_untested: also answers where that law has not been tested.
     Raises ValueError for a value out of range (with the number of the motion, in the order of the flattened arrays), TypeError for an unknown name.
     """
@@ -60,10 +73,10 @@ def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, a
     shape = np.broadcast_shapes(*(column.shape for column in columns.values()))
     flat = {name: np.broadcast_to(column, shape).ravel() for name, column in columns.items()}
     law = dict(rolling_layer) if isinstance(rolling_layer, Mapping) else {} if rolling_layer else None
-    found = _library.solve(flat, int(np.prod(shape)), jobs, law, accept_untested)
+    found = _library.solve(flat, int(np.prod(shape)), jobs, law, accept_untested, starts)
     arrays = {name: found[name].reshape(shape) for name in ("velocity_efficiency", "half_width", "period_cycles", "converged")}
     scale = found["velocity_scale"].reshape(shape)
-    return Solution(**arrays, conveying_speed=np.asarray(arrays["velocity_efficiency"] * scale), mode_code=found["mode"].reshape(shape), cpu_seconds=found["cpu_seconds"])
+    return Solution(**arrays, conveying_speed=np.asarray(arrays["velocity_efficiency"] * scale), mode_code=found["mode"].reshape(shape), motions=_motions(found["motions"], shape) if starts else None, cpu_seconds=found["cpu_seconds"])
 
 
 def trace(*, samples: int = 721, **inputs: float) -> dict[str, NDArray[np.float64] | NDArray[np.str_]]:
@@ -76,6 +89,13 @@ def quantities(*, bulk_density: float = 0, layer_height: float = 0, layer_width:
     """What an engineer needs of one motion, by name: value and unit, as 'vibrotrough theory point' prints them. Mass flow and power need bulk density (kg/m3), height and width of the layer (m)."""
     rows: list[tuple[str, float, str]] = _library.quantities(_numbers(inputs), bulk_density, layer_height, layer_width)
     return {name: (value, unit) for name, value, unit in rows}
+
+
+def _motions(found: list[list[tuple[float, float, str, int, float]]], shape: tuple[int, ...]) -> NDArray[np.object_]:
+    motions = np.empty(len(found), dtype=object)
+    for i, of_one in enumerate(found):
+        motions[i] = tuple(CoexistingMotion(*one) for one in of_one)
+    return motions.reshape(shape)
 
 
 def _in_base_units(inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:

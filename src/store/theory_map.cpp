@@ -67,6 +67,25 @@ void write_boundaries(Hdf5MemoryFileWriter& file, theory::Map const& map, ModeIn
     write("mode_b", b, "1", "Mode on the other side, row of modes");
 }
 
+/// What a survey of starts says of each point.
+template <class Write>
+void write_motions(theory::Map const& map, Write const& write) {
+    std::vector<int> count;
+    std::vector<double> fraction, lowest, highest;
+    for (auto const& all : map.motions) {
+        auto const efficiency = [](auto const& one) { return one.motion.velocity_efficiency; };
+        auto const [low, high] = std::ranges::minmax_element(all, {}, efficiency);
+        count.push_back(static_cast<int>(all.size()));
+        fraction.push_back(all.front().share);
+        lowest.push_back(efficiency(*low));
+        highest.push_back(efficiency(*high));
+    }
+    write("motions", count, "Number of motions to which different starts lead");
+    write("fraction", fraction, "Fraction of the starts that lead to the motion of the standard start");
+    write("lowest_efficiency", lowest, "Lowest velocity efficiency of these motions");
+    write("highest_efficiency", highest, "Highest velocity efficiency of these motions");
+}
+
 }  // namespace
 
 std::string units_of(theory::Input input) {
@@ -111,6 +130,7 @@ void write_theory_map(std::filesystem::path const& path, theory::Map const& map,
     write("mode", mode, "Mode, row of modes");
     write("period_cycles", period, "Cycles after which the motion repeats; 0 when it does not");
     write("outcome", outcome, "0 periodic, 1 runs away, 2 indifferent, 3 no period found");
+    if (!map.motions.empty()) write_motions(map, write);
     write_boundaries(file, map, modes);
     file.dataset("modes", modes.names(), Rank::array, "1", "Phases of each mode in order");
     file.dataset("cpu_time_per_solution", std::vector<double>{map.cpu_seconds_per_solution}, Rank::scalar,

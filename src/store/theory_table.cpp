@@ -79,6 +79,34 @@ bool has_speeds(TheoryPoints const& table) {
     return std::ranges::any_of(table.points, [](auto const& point) { return point.amplitude().has_value(); });
 }
 
+/// The columns of a survey; none without one. NaN where a point has fewer motions than others.
+std::vector<TheoryColumn> motion_columns(Motions const& motions) {
+    std::vector<TheoryColumn> columns;
+    if (motions.empty()) return columns;
+    auto const add = [&](std::string const& name, std::string const& description, auto const& value) {
+        TheoryColumn column{name, "1", description, {}, {}};
+        for (auto const& all : motions) column.numbers.push_back(value(all));
+        columns.push_back(std::move(column));
+    };
+    std::size_t most = 0;
+    for (auto const& all : motions) most = std::max(most, all.size());
+    add("motions", "Number of motions to which different starts lead",
+        [](auto const& all) { return static_cast<double>(all.size()); });
+    for (std::size_t k = 0; k < most; ++k) {
+        auto const add_of_one = [&](char const* name, char const* description, auto const& value) {
+            add(fmt::format("{}_{}", name, k + 1), fmt::format("{} of motion {}", description, k + 1),
+                [&](auto const& all) { return k < all.size() ? value(all[k]) : std::nan(""); });
+        };
+        add_of_one("efficiency", "Velocity efficiency",
+                   [](theory::CoexistingMotion const& m) { return m.motion.velocity_efficiency; });
+        add_of_one("fraction", "Fraction of the starts",
+                   [](theory::CoexistingMotion const& m) { return m.share; });
+        add_of_one("period_cycles", "Period",
+                   [](theory::CoexistingMotion const& m) { return double(m.motion.period_cycles); });
+    }
+    return columns;
+}
+
 }  // namespace
 
 TheoryPoints read_theory_points(std::filesystem::path const& path) {
@@ -117,13 +145,17 @@ TheoryPoints parse_theory_points(core::TextFile const& file) {
     return result;
 }
 
-std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers) {
+std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers,
+                               Motions const& motions) {
     std::string text;
     for (std::string const& name : table.names) text += name + ",";
     for (AnswerColumn const& column : answer_columns)
         text += fmt::format("{}{}", &column == &answer_columns.front() ? "" : ",", column.name);
     bool const with_speed = has_speeds(table);
-    text += with_speed ? ",conveying_speed_m_per_s\n" : "\n";
+    if (with_speed) text += ",conveying_speed_m_per_s";
+    auto const of_motions = motion_columns(motions);
+    for (TheoryColumn const& column : of_motions) text += "," + column.name;
+    text += '\n';
     for (std::size_t r = 0; r < answers.size(); ++r) {
         for (std::string const& cell : table.cells[r]) text += core::csv_cell(cell) + ",";
         for (AnswerColumn const& column : answer_columns) {
@@ -134,13 +166,17 @@ std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::Ma
             auto const known = speed(table.points[r], answers[r]);
             text += known ? fmt::format(",{}", *known) : ",";
         }
+        for (TheoryColumn const& column : of_motions) {
+            double const number = column.numbers[r];
+            text += std::isnan(number) ? "," : fmt::format(",{}", number);
+        }
         text += '\n';
     }
     return text;
 }
 
 void write_theory_answers(std::filesystem::path const& path, TheoryPoints const& table,
-                          std::vector<theory::MapPoint> const& answers) {
+                          std::vector<theory::MapPoint> const& answers, Motions const& motions) {
     std::vector<TheoryColumn> columns;
     for (theory::Input const input : table.columns) {
         TheoryColumn column{std::string(theory::name_of(input)), units_of(input), "Input", {}, {}};
@@ -165,6 +201,7 @@ void write_theory_answers(std::filesystem::path const& path, TheoryPoints const&
             column.numbers.push_back(speed(table.points[r], answers[r]).value_or(std::nan("")));
         columns.push_back(std::move(column));
     }
+    for (TheoryColumn& column : motion_columns(motions)) columns.push_back(std::move(column));
     write_theory_table(path, columns);
 }
 

@@ -26,13 +26,19 @@ TheoryPoints read_theory_points(std::filesystem::path const& path);
 /// Reads the content of such a file. @throws core::InputError as read_theory_points()
 TheoryPoints parse_theory_points(core::TextFile const& file);
 
+/// The motions to which different starts of each point lead.
+using Motions = std::vector<std::vector<theory::CoexistingMotion>>;
+
 /// The points as they were written, with the answers of the theory beside them, as CSV: velocity_efficiency,
 /// half_width, mode, period_cycles, converged, and conveying_speed_m_per_s when a point has an amplitude.
-std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers);
+/// @param motions  of each point, from a MotionSurvey; empty when there was none. Then motions (their
+/// number), and efficiency_1, fraction_1 and period_cycles_1, efficiency_2 and so on follow.
+std::string theory_answers_csv(TheoryPoints const& table, std::vector<theory::MapPoint> const& answers,
+                               Motions const& motions = {});
 
 /// Writes the same table as HDF5, one dataset per column. An input that a point does not have is NaN.
 /// @throws core::MissingError when it cannot be written
 void write_theory_answers(std::filesystem::path const& path, TheoryPoints const& table,
-                          std::vector<theory::MapPoint> const& answers);
+                          std::vector<theory::MapPoint> const& answers, Motions const& motions = {});
 
 }  // namespace vibrotrough::store

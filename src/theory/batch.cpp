@@ -39,18 +39,24 @@ class FirstError {
 }  // namespace
 
 BatchResult solve_batch(std::vector<Inputs> const& inputs, int jobs, std::optional<RollingLaw> const& rolling,
-                        std::size_t first) {
+                        std::size_t first, int starts) {
     static_cast<void>(PointSolver(rolling));  // its constants are checked once, not in a thread
-    BatchResult answer{std::vector<MapPoint>(inputs.size()), 0};
+    check_starts(starts, rolling);
+    BatchResult answer{std::vector<MapPoint>(inputs.size()), {}, 0};
+    if (starts > 0) answer.motions.resize(inputs.size());
     FirstError first_error;
     tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, inputs.size(), 64), [&](auto const& range) {
             PointSolver solver(rolling);
+            MotionSurvey survey;
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 try {
                     answer.points[i] = solver(inputs[i]);
+                    if (starts > 0)
+                        answer.motions[i] =
+                            survey(inputs[i].conveyor(), efficiency_of(answer.points[i]), starts);
                 } catch (PhaseError const&) {
                     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
                     answer.points[i] = {unknown, unknown, 0, 0, Outcome::unsettled};

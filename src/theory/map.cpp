@@ -50,15 +50,23 @@ class Grid {
         if (inputs.get(Input::restitution).value_or(0) > 0) point.mode = with_chains_joined(point.mode);
         return point;
     }
-    MapPoint& at(int i, int j) const {
-        return map_.points[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.x.count) +
-                           static_cast<std::size_t>(i)];
+    std::size_t number(int i, int j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.x.count) +
+               static_cast<std::size_t>(i);
     }
-    void solve_line(int line, bool along_y, PointSolver& solver) const {
+    MapPoint& at(int i, int j) const { return map_.points[number(i, j)]; }
+    void solve_line(int line, bool along_y, int starts, PointSolver& solver) const {
         int const length = along_y ? map_.y.count : map_.x.count;
+        MotionSurvey survey;
         for (int k = 0; k < length; ++k) {
             int const i = along_y ? line : k, j = along_y ? k : line;
-            at(i, j) = solve(map_.x.value(i), map_.y.value(j), solver);
+            double const x = map_.x.value(i), y = map_.y.value(j);
+            at(i, j) = solve(x, y, solver);
+            if (starts == 0) continue;
+            Inputs inputs = fixed_;
+            inputs.set(map_.x.input, x);
+            inputs.set(map_.y.input, y);
+            map_.motions[number(i, j)] = survey(inputs.conveyor(), efficiency_of(at(i, j)), starts);
         }
     }
     struct Crossing {
@@ -181,6 +189,17 @@ MapPoint PointSolver::operator()(Inputs const& inputs) {
     return {e.velocity_efficiency, e.half_width, e.mode, e.period_cycles, e.outcome};
 }
 
+Efficiency efficiency_of(MapPoint const& point) {
+    return {point.velocity_efficiency, point.mode, point.period_cycles, point.outcome, point.half_width};
+}
+
+void check_starts(int starts, std::optional<RollingLaw> const& rolling) {
+    if (starts < 0) throw std::invalid_argument("the number of starts is negative");
+    if (starts > 0 && rolling)
+        throw std::invalid_argument(
+            "different starts are followed for a point mass only, not for a rolling layer");
+}
+
 namespace {
 
 constexpr MapPoint withheld{std::numeric_limits<double>::quiet_NaN(),
@@ -230,16 +249,19 @@ Map solve_map(Inputs const& fixed, MapAxis const& x, MapAxis const& y, MapOption
         }
     }
     static_cast<void>(PointSolver(options.rolling));  // its constants are checked once, not in a thread
-    Map map{x, y, {}, {}, 0};
+    check_starts(options.starts, options.rolling);
+    Map map{x, y, {}, {}, {}, 0};
     map.points.resize(static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count));
+    if (options.starts > 0) map.motions.resize(map.points.size());
     Grid const grid(fixed, map);
     // The solver is fastest when the throw number, which determines the flight, is the outermost loop.
     bool const along_y = x.input == Input::throw_number;
     tbb::task_arena arena(options.jobs > 0 ? options.jobs : tbb::task_arena::automatic);
     std::clock_t const start = std::clock();
     arena.execute([&] {
-        for_lines(along_y ? x.count : y.count, options.rolling,
-                  [&](int line, Worker& worker) { grid.solve_line(line, along_y, worker.solver); });
+        for_lines(along_y ? x.count : y.count, options.rolling, [&](int line, Worker& worker) {
+            grid.solve_line(line, along_y, options.starts, worker.solver);
+        });
     });
     map.cpu_seconds_per_solution =
         static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(map.points.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "theory/coexisting.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/inputs.hpp"
 #include "theory/rolling_layer.hpp"
@@ -38,8 +39,10 @@ struct BoundaryPiece {
 
 /// Velocity efficiency and mode over a grid of two inputs.
 struct Map {
-    MapAxis x, y;                           ///< the two inputs
-    std::vector<MapPoint> points;           ///< points[j * x.count + i]
+    MapAxis x, y;                  ///< the two inputs
+    std::vector<MapPoint> points;  ///< points[j * x.count + i]
+    /// The motions of each point to which different starts lead; empty when not asked for.
+    std::vector<std::vector<CoexistingMotion>> motions;
     std::vector<BoundaryPiece> boundaries;  ///< boundaries between modes; empty unless requested
     double cpu_seconds_per_solution;  ///< CPU time of all threads divided by the number of points, without
                                       ///< the boundaries
@@ -48,6 +51,7 @@ struct Map {
 /// How a map is computed.
 struct MapOptions {
     int jobs = 0;                            ///< threads; 0: all cores
+    int starts = 0;                          ///< for a MotionSurvey of each point; 0: none
     bool boundaries = true;                  ///< whether to locate the boundaries between modes
     std::optional<RollingLaw> rolling = {};  ///< solves rolling layers with this law instead of point masses
     /// Is called once, when all points are there and while the boundaries are still being located, in one of
@@ -84,6 +88,13 @@ class PointSolver {
     EfficiencySolver point_mass_;
     std::optional<RollingLayerSolver> rolling_;
 };
+
+/// The efficiency of a point with what belongs to it.
+Efficiency efficiency_of(MapPoint const& point);
+
+/// @throws std::invalid_argument for a negative number of starts, and for starts with a law: a survey is of
+/// point masses
+void check_starts(int starts, std::optional<RollingLaw> const& rolling);
 
 /// Replaces the efficiencies at which the rolling-layer law has not been tested by NaN, and the modes by
 /// none.

@@ -68,6 +68,13 @@ def check_against_batch():
         speed = row["conveying_speed_m_per_s"]
         assert np.isnan(found.conveying_speed[i]) if speed in ("", "nan") else float(speed) == found.conveying_speed[i], (i, row)
     assert [row["mode"] for row in csv.DictReader(answers.open())] == found.mode.tolist()
+    assert found.motions is None
+    # Where the motion depends on its start, each motion with its share of the starts; that of the standard start first.
+    several = theory.solve(throw_number=[2, 1.5176], tan_vibration_angle=0.6, friction=0.3, restitution=[0, 0.5], starts=64)
+    assert [len(motions) for motions in several.motions][0] == 1 < len(several.motions[1])
+    for motions, efficiency in zip(several.motions, several.velocity_efficiency, strict=True):
+        assert motions[0].velocity_efficiency == efficiency
+        assert abs(sum(motion.fraction for motion in motions) - 1) < 1e-12  # rounding of a sum
     # A few columns over each other give what they give spread out, in parts as well as at once.
     gammas, frictions = np.linspace(1, 3, 400), np.linspace(0.1, 0.6, 300)[:, None]
     grid = theory.solve(throw_number=gammas, tan_vibration_angle=0.5, friction=frictions)

@@ -314,6 +314,45 @@ TEST_F(TheoryFiles, BatchGivesWhatPointGives) {
     }
 }
 
+// A mass that rebounds at half its speed can bounce once a cycle or come to rest between: `point` prints the
+// motions, and `batch` and `map` write the same numbers where they are asked for.
+TEST_F(TheoryFiles, SeveralMotionsAreSaid) {
+    std::string const inputs =
+        " --throw-number 1.5176 --tan-vibration-angle 0.6 --friction 0.3 --restitution 0.5";
+    Answer const text = run_program("theory point" + inputs);
+    EXPECT_NE(text.text.find("several motions"), std::string::npos) << text.text;
+    auto const point = nlohmann::json::parse(run_program("theory point --json" + inputs).text);
+    auto const& motions = point.at("motions");
+    ASSERT_GE(motions.size(), 2u);
+    EXPECT_EQ(motions[0].at("velocity_efficiency"), point.at("velocity_efficiency"));
+    std::ofstream(path("in.csv"))
+        << "throw_number,tan_vibration_angle,friction,restitution\n2,0.5,0.23,\n1.5176,0.6,0.3,0.5\n";
+    std::string const batch = "theory batch " + path("in.csv") + " --output " + path("out.csv");
+    ASSERT_EQ(run_program(batch + " --starts 64").exit_code, 0);
+    auto const rows = read_csv(path("out.csv"));
+    ASSERT_EQ(rows[0][9], "motions");
+    EXPECT_EQ(rows[0][10] + rows[0][11] + rows[0][12], "efficiency_1fraction_1period_cycles_1");
+    EXPECT_EQ(rows[1][9], "1");
+    EXPECT_EQ(rows[2][9], std::to_string(motions.size()));
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+        EXPECT_EQ(std::stod(rows[2][10 + 3 * k]), motions[k].at("velocity_efficiency").get<double>());
+        EXPECT_EQ(std::stod(rows[2][11 + 3 * k]), motions[k].at("fraction").get<double>());
+    }
+    ASSERT_EQ(run_program(batch).exit_code, 0);
+    EXPECT_EQ(read_csv(path("out.csv"))[0].back(), "converged") << "nothing more is done without the option";
+    EXPECT_EQ(run_program(batch + " --starts 1").exit_code, 2);
+    EXPECT_EQ(run_program("theory batch " + path("in.csv") + " --rolling-layer --starts 64 --output " +
+                          path("out.csv"))
+                  .exit_code,
+              2);
+    Answer const map = run_program(
+        "theory map --x throw_number=1:2:5 --y friction=0.2:0.4:3 --tan-vibration-angle 0.6 --restitution "
+        "0.5 "
+        "--starts 16 --output " +
+        path("map.h5"));
+    EXPECT_EQ(map.exit_code, 0) << map.text;
+}
+
 // An engineer's columns: f = n / 60, r = stroke / 2, v = eta omega r cos(beta). Tolerance: rounding.
 TEST_F(TheoryFiles, BatchTakesTurnsAndStrokes) {
     auto const answer_to = [&](std::string const& text) {

@@ -1,6 +1,5 @@
 #include "theory/detail/conveyor_efficiency.hpp"
 
-#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/periodic.hpp"
 
 #include <algorithm>
@@ -24,9 +23,18 @@ constexpr int settling = 100, shortest_batch = 16, longest_batch = 128;  // cycl
 constexpr std::size_t batch_count = 20;
 constexpr int flights_per_batch = 8;
 constexpr double wanted_half_width = 0.01;
+// One motion in ten without a period changes its manner over thousands of cycles, which batches do not show:
+// with this factor the intervals held 95 % of 500 means over 200,000 cycles, and without it 92 %.
+constexpr double slow_changes = 1.5;
 constexpr std::size_t most_notes = 20000;  // kept of a motion without a period, beside its last batch
 constexpr int most_periods = 3000;         // from rest
 constexpr double all_but_one = 1 - 1e-9;   // share of mu up to which gravity is plainly weaker than friction
+
+constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, period to period
+
+bool is_standard(MotionStart const& start) {
+    return start.at.t == 0 && start.rebound == 0 && start.v == 0;
+}
 
 bool within(double x, double low, double high) {
     return x >= low && x <= high;
@@ -78,12 +86,17 @@ Tangent ConveyorEfficiency::follow_period(double v) {
     return s;
 }
 
-/// From rest at t = 0 to the start of the period.
-Tangent ConveyorEfficiency::follow_from_rest() {
-    if (orbit_.in_contact) return {0, 0};
+/// From the start of the motion to that of the period.
+Tangent ConveyorEfficiency::follow_from_start() {
     auto const ignore = [](PhaseKind, double, double, double, double, double) {};
     ContactLaw const law(waves_);
-    Tangent s = follow_contact(law, {0, 0}, {0, 0, 1}, orbit_.hops.front().start, false, hints_, ignore);
+    Tangent s{from_.v, 0};
+    if (orbit_.in_contact && orbit_.hops.empty()) {
+        if (from_.at.t == 0) return s;
+        return follow_contact(law, s, from_.at, {two_pi, 0, 1}, false, hints_, ignore);
+    }
+    if (from_.rebound == 0)
+        s = follow_contact(law, s, orbit_.begin, orbit_.hops.front().start, false, hints_, ignore);
     for (std::size_t i = 0; i < orbit_.first; ++i)
         s = follow_hop(law, orbit_.hops[i], leaps_[i], s, hints_, ignore);
     return s;
@@ -120,9 +133,9 @@ ConveyorEfficiency::Search ConveyorEfficiency::find_fixed_point() {
 
 /// With a larger static friction there can be several periodic motions. The map of the velocity is monotone:
 /// from rest it goes to the nearest one.
-ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_rest() {
+ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_start() {
     start_ = {0, 0, 1};
-    double v = follow_from_rest().v;
+    double v = follow_from_start().v;
     ModeCode before = 0;
     double stride = 1, last = v, last_drift = 0;
     for (int i = 0; i < most_periods; ++i) {
@@ -182,7 +195,7 @@ double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycle
     };
     for (; elapsed < two_pi * cycles; ++hop) {
         if (hop == orbit_.hops.size()) {
-            FlightChain::Start const start = orbit_.next;
+            FlightChain::Start const start = with_rounding(orbit_.next, orbit_.hops.size());
             orbit_.hops.push_back(chain.fly(start, orbit_.next));
         }
         Hop const& now = orbit_.hops[hop];
@@ -229,14 +242,34 @@ double half_width_of(std::vector<double> batches) {
         for (double const one : batches) squares += (one - mean) * (one - mean);
         largest = std::max(largest, student[batches.size()] * std::sqrt(squares / (n - 1) / n));
     }
-    return largest;
+    return slow_changes * largest;
 }
 
 }  // namespace
 
-std::optional<Efficiency> ConveyorEfficiency::average() {
-    Tangent s = follow_from_rest();
-    std::size_t hop = orbit_.first;
+/// Whether the next period, with rounding errors of its own, agrees with the one that was found last.
+bool ConveyorEfficiency::repeats() const {
+    double moved = 0, impacts = 0;  // energy of the impacts of this period minus that of the next
+    auto const add = [&](PhaseKind, double, double, double, double distance, double) { moved += distance; };
+    ContactLaw const law(waves_);
+    Hints hints;
+    Tangent s{v_, 1};
+    for (Hop const& hop : orbit_.again) {
+        s = follow_hop(law, hop, leap(waves_, hop), s, hints, add);
+        impacts -= hop.approach * hop.approach;
+    }
+    for (std::size_t i = orbit_.first; i < orbit_.hops.size(); ++i)
+        impacts += orbit_.hops[i].approach * orbit_.hops[i].approach;
+    double const most = repeat_match * two_pi * orbit_.cycles;
+    return !orbit_.again.empty() && std::abs(moved - displacement_) < most && std::abs(impacts) < most;
+}
+
+/// @param first  hop from which the cycles are followed; the leaps before it are known
+std::optional<Efficiency> ConveyorEfficiency::average(std::size_t first) {
+    if (mean_ == Mean::left_out) return Efficiency{0, 0, 0, Outcome::unsettled};
+    orbit_.first = first;
+    Tangent s = follow_from_start();
+    std::size_t hop = first;
     longest_flight_ = 0;
     follow_cycles(s, hop, settling);
     batches_.clear();
@@ -261,33 +294,27 @@ std::optional<Efficiency> ConveyorEfficiency::average() {
 std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
     waves_.set(c);
     hints_ = {};  // those of another point would change the last bit
-    walked_.reset();
     if (!waves_.same_normal() || !orbit_known_) {
         orbit_known_ = false;
-        find_normal_orbit(waves_, orbit_);
-        orbit_known_ = true;
+        find_normal_orbit(waves_, from_, orbit_, after_zero_);
+        // Its first hop is another one when a mean was wanted; and a later point may have another start.
+        orbit_known_ = is_standard(from_) && !orbit_.in_doubt;
+        if (orbit_.joined != never) return Efficiency{0, 0, 0, Outcome::unsettled};
     }
     // Landings that hold exactly what gravity pulls leave any velocity as it is.
     double const pull = std::abs(waves_.gravity()), held = waves_.landing_tangent() * waves_.weight();
     if (!orbit_.in_contact && std::abs(pull - held) <= 1e-9 * pull) return std::nullopt;
-    if (orbit_.in_doubt) {
-        // solve() decides whether the period counts, but need not follow its 3000 cycles for a mean.
-        walked_ = motion_with_period(c);
-        if (!walked_) return average();
-        Motion const& motion = walked_->motion;
-        return Efficiency{motion.velocity_efficiency, mode_code(motion), motion.period_cycles,
-                          motion.outcome};
-    }
     bool const has_period = orbit_.cycles > 0 && orbit_.cycles <= 64;
     bool const one_friction = waves_.one_friction();
     leaps_.resize(orbit_.hops.size());
     if (!has_period) {
         for (std::size_t i = 0; i < orbit_.first; ++i) leaps_[i] = leap(waves_, orbit_.hops[i]);
-        return average();
+        return average(orbit_.first);
     }
     for (std::size_t i = one_friction ? orbit_.first : 0; i < orbit_.hops.size(); ++i)
         leaps_[i] = leap(waves_, orbit_.hops[i]);
-    Search const search = one_friction ? find_fixed_point() : iterate_from_rest();
+    Search const search = one_friction ? find_fixed_point() : iterate_from_start();
+    if (search == Search::found && orbit_.in_doubt && !repeats()) return average(0);
     if (search == Search::failed) return std::nullopt;
     if (search == Search::runs_away) {
         double const infinity = std::numeric_limits<double>::infinity();
@@ -299,8 +326,14 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
     return Efficiency{eta, notes_.mode(orbit_), orbit_.cycles, Outcome::periodic};
 }
 
-std::optional<Efficiency> ConveyorEfficiency::operator()(Conveyor const& conveyor) {
+std::optional<Efficiency> ConveyorEfficiency::operator()(Conveyor const& conveyor, MotionStart const& start,
+                                                         Mean mean,
+                                                         std::vector<std::size_t> const* after_zero) {
     if (!ordinary(conveyor)) return std::nullopt;
+    orbit_known_ = orbit_known_ && is_standard(start);
+    from_ = start;
+    mean_ = mean;
+    after_zero_ = after_zero;
     try {
         return solve(conveyor);
     } catch (PhaseError const&) {
@@ -312,7 +345,7 @@ std::optional<ConveyorMotion> ConveyorEfficiency::motion(Conveyor const& conveyo
     keep_ = true;
     auto const found = (*this)(conveyor);
     keep_ = false;
-    if (!found || walked_) return std::move(walked_);
+    if (!found) return std::nullopt;
     ConveyorMotion answer;
     answer.motion = {.velocity_efficiency = found->velocity_efficiency,
                      .mode = "",

@@ -12,13 +12,26 @@ namespace vibrotrough::theory::detail {
 /// The efficiency of many conveyors, one after another; memory is reused, and so is what they share.
 class ConveyorEfficiency {
   public:
+    /// Whether a motion without a period is followed for its mean, which takes the longest; 0 is given
+    /// otherwise.
+    enum class Mean { wanted, left_out };
+
     /// Efficiency and mode, or nothing for inputs and motions that are left to walked_motion(): extreme
     /// values and marginal motions. What was solved before does not change a bit of the answer.
     ///
     /// Without a period it is the mean over 20 batches, after 100 cycles. They have 16 cycles each at first,
     /// and twice as many until the half-width of the 95 % confidence interval is 0.01, at most 128.
     /// @param conveyor  its forces are noticeable (see weak_forces.hpp) and its values within their ranges
-    std::optional<Efficiency> operator()(Conveyor const& conveyor);
+    /// @param start       the standard start, or another one
+    /// @param after_zero  as in find_normal_orbit(); where the motion joins a known one, joined() says which,
+    ///                    and the answer is empty
+    std::optional<Efficiency> operator()(Conveyor const& conveyor, MotionStart const& start = {},
+                                         Mean mean = Mean::wanted,
+                                         std::vector<std::size_t> const* after_zero = nullptr);
+    std::size_t joined() const { return orbit_.joined; }
+    /// The flights of the motion that was solved last.
+    NormalOrbit const& orbit() const { return orbit_; }
+    ConveyorWaves const& waves() const { return waves_; }
     /// The same answer with its phases; without a model.
     std::optional<ConveyorMotion> motion(Conveyor const& conveyor);
 
@@ -26,22 +39,25 @@ class ConveyorEfficiency {
     enum class Search { found, runs_away, failed };
 
     Tangent follow_period(double v);
-    Tangent follow_from_rest();
+    Tangent follow_from_start();
     Search find_fixed_point();
-    Search iterate_from_rest();
+    Search iterate_from_start();
     std::optional<Efficiency> solve(Conveyor const& conveyor);
-    std::optional<Efficiency> average();
+    bool repeats() const;
+    std::optional<Efficiency> average(std::size_t first);
     double follow_cycles(Tangent& s, std::size_t& hop, int cycles);
 
     ConveyorWaves waves_;
     NormalOrbit orbit_;
     bool orbit_known_ = false;
+    MotionStart from_;
+    Mean mean_ = Mean::wanted;
+    std::vector<std::size_t> const* after_zero_ = nullptr;
     std::vector<Leap> leaps_;
     Instant start_{0, 0, 1};  // of the period of a motion without flights
     Hints hints_;
-    PhaseNotes notes_;                      // of the last period, or of the cycles followed
-    bool keep_ = false;                     // whether those of a motion without a period are wanted
-    std::optional<ConveyorMotion> walked_;  // the motion that answered instead
+    PhaseNotes notes_;   // of the last period, or of the cycles followed
+    bool keep_ = false;  // whether those of a motion without a period are wanted
     double displacement_ = 0, derivative_ = 0;
     double v_ = 0, error_ = 0, slope_ = 0;  // of the last period: velocity at its start, Newton's step, f'
     std::vector<double> batches_;           // means of a motion without a period

@@ -1,23 +1,12 @@
 #include "theory/detail/flight_chain.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace vibrotrough::theory::detail {
 namespace {
 
 constexpr int most_sections = 2000;    // of one flight
 constexpr double series_range = 0.01;  // rad of the highest order, for flights that a series describes
-constexpr double state_match = 1e-11;  // of phase and rate, from period to period
-constexpr int longest_period = 64, most_cycles = 3000;
-// A motion is chaotic if small changes grow by this factor between these cycles.
-constexpr double chaotic_growth = 1e10;
-constexpr int chaos_from = 500, chaos_to = 1000;
-// A period within which small changes grow by the first factor is in doubt, because rounding errors grow as
-// well. From the second factor on there is none.
-constexpr double most_growth = 1e6, hopeless_growth = 1e11, rounding = 1e-16;
-constexpr std::size_t never = static_cast<std::size_t>(-1);
-
 /// Sine and cosine a step later, exact to rounding for |d| <= 0.01.
 Instant series_shifted(Instant const& a, double d) {
     double const q = d * d, sine = d * (1 - q / 6 * (1 - q / 20)), less = q / 2 * (1 - q / 12 * (1 - q / 30));
@@ -51,8 +40,8 @@ FlightChain::Start FlightChain::from_contact(Instant const& at) const {
     return {section.end, 0, static_cast<int>(section.next)};
 }
 
-FlightChain::Start FlightChain::first() const {
-    return from_contact({0, 0, 1});
+FlightChain::Start FlightChain::from(MotionStart const& start) const {
+    return start.rebound > 0 ? Start{start.at, start.rebound, -1} : from_contact(start.at);
 }
 
 Hop FlightChain::fly(Start const& start, Start& next) const {
@@ -61,6 +50,7 @@ Hop FlightChain::fly(Start const& start, Start& next) const {
     hop.rebound = bounce > waves_.slowest_rebound() ? bounce : 0;
     next = hop.rebound > 0 ? Start{hop.end, hop.rebound, -1} : from_contact(hop.end);
     hop.leave = next.at;
+    if (!std::isfinite(next.at.t)) return hop;
     next.at.t -= two_pi * std::floor(next.at.t * (1 / two_pi));
     return hop;
 }
@@ -153,6 +143,11 @@ Hop FlightChain::flight(Start const& start) const {
         auto section = waves_.presses().at(start.at.t);
         if (start.rate == 0 && section.positive) throw PhaseError("a flight starts in contact");
         double from = start.at.t, gap = 0, rate = start.rate;
+        if (waves_.presses().none()) {  // the rate only falls
+            double to = from + two_pi;
+            while (path.gap(Instant::at(to), path.decayed(to)) > 0) to += to - from;
+            return landing(start, path, from, to);
+        }
         for (int i = 0; !found; ++i) {
             if (i > most_sections || !std::isfinite(section.end.t))
                 throw PhaseError("the flight does not end");
@@ -203,180 +198,6 @@ Sensitivity FlightChain::sensitivity(Hop const& hop, double start_rate) const {
     double const e = hop.rebound > 0 ? waves_.restitution() : 0;
     return {phase_phase, phase_rate, e * (slowing * phase_phase - d.decay * push),
             e * (slowing * phase_rate - d.decay)};
-}
-
-namespace {
-
-/// The difference of the states at two landings; multiples of a cycle do not count.
-double difference(Hop const& a, Hop const& b) {
-    double const turns = (a.end.t - b.end.t) * (1 / two_pi);
-    return std::max(std::abs(a.rebound - b.rebound), two_pi * std::abs(turns - std::round(turns)));
-}
-
-double duration(Hop const& hop) {
-    return hop.leave.t - hop.start.t;
-}
-
-constexpr double longest_return = two_pi * (longest_period + 0.5);
-
-/// The number of hops after which the phase of the landing and the rebound repeat; 0 when they do not.
-/// @param since  the first hop after the last contact
-std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since) {
-    Hop const& now = hops.back();
-    double elapsed = 0;
-    for (std::size_t k = 1; k + since < hops.size() && elapsed < longest_return; ++k) {
-        Hop const& earlier = hops[hops.size() - 1 - k];
-        elapsed += duration(earlier);
-        if (!(std::abs(now.rebound - earlier.rebound) < state_match)) continue;
-        if (!(difference(now, earlier) < state_match)) continue;
-        for (std::size_t shorter = 1; shorter < k; ++shorter) {
-            // An alternating approach meets the tolerance for 2 before it does for 1.
-            if (k % shorter == 0 && difference(now, hops[hops.size() - 1 - shorter]) < 1e3 * state_match)
-                return shorter;
-        }
-        return k;
-    }
-    return 0;
-}
-
-/// Whether a rebound is that of an earlier hop, as in nearly no hop of a motion without a period: only then
-/// is hops_to_return() worth its cost. The rebounds lie side by side, so that the compiler compares several
-/// at once. Where they are many, a bit for each 1e-9 (by its remainder) says that most have no equal.
-class Rebounds {
-  public:
-    /// @param memory, seen  for the rebounds of all hops
-    Rebounds(std::vector<double>& memory, std::vector<bool>& seen) : all_(memory), seen_(seen) {
-        all_.clear();
-    }
-
-    /// Adds the last of the hops. @param since  the first hop after the last contact
-    bool repeat(std::vector<Hop> const& hops, std::size_t since) {
-        double const now = hops.back().rebound;
-        std::size_t const count = all_.size();
-        for (; oldest_ < count; ++oldest_) {
-            double const after = elapsed_ - duration(hops[oldest_]);
-            if (after < longest_return + 1) break;
-            elapsed_ = after;
-        }
-        if (count == few) {
-            seen_.assign(places, false);
-            for (double const earlier : all_) seen_[place(step(earlier))] = true;
-        }
-        std::int64_t near = 0;
-        if (count < few || may_repeat(step(now))) {
-            for (std::size_t i = std::max(oldest_, since); i < count; ++i)
-                near += static_cast<std::int64_t>(std::abs(all_[i] - now) < state_match);
-        }
-        if (count >= few) seen_[place(step(now))] = true;
-        all_.push_back(now);
-        elapsed_ += duration(hops.back());
-        return near > 0;
-    }
-
-  private:
-    static constexpr std::size_t few = 500;  // so few are compared faster than the bits are cleared
-    static constexpr std::size_t places = std::size_t{1} << 20;
-    static std::int64_t step(double rebound) {
-        return static_cast<std::int64_t>(std::min(rebound, 1e9) * 1e9);
-    }
-    static std::size_t place(std::int64_t k) {
-        return (static_cast<std::uint64_t>(k) * 0x9E3779B97F4A7C15U >> 32U) % places;
-    }
-    bool may_repeat(std::int64_t k) const {
-        return seen_[place(k)] || seen_[place(k - 1)] || seen_[place(k + 1)];
-    }
-
-    std::vector<double>& all_;
-    std::vector<bool>& seen_;
-    std::size_t oldest_ = 0;  ///< that counts
-    double elapsed_ = 0;      ///< from its start to the end of the last one
-};
-
-/// The growth of small changes, which may exceed the range of numbers.
-class Growth {
-  public:
-    void multiply(Sensitivity const& s) {
-        product_ = s.after(product_);
-        double const size = product_.size();
-        if (within_range(size)) return;
-        logarithm_ += std::log(size);
-        product_ = {product_.phase_phase / size, product_.phase_rate / size, product_.rate_phase / size,
-                    product_.rate_rate / size};
-    }
-    double logarithm() const { return logarithm_ + std::log(product_.size()); }
-    double factor() const { return logarithm_ == 0 ? product_.size() : std::exp(logarithm()); }
-
-  private:
-    static bool within_range(double x) { return (x > 1e-100 && x < 1e100) || !(x > 0) || !std::isfinite(x); }
-    Sensitivity product_;
-    double logarithm_ = 0;
-};
-
-int cycles_from(std::vector<Hop> const& hops, std::size_t first) {
-    double length = 0;
-    for (std::size_t i = first; i < hops.size(); ++i) length += duration(hops[i]);
-    return static_cast<int>(std::lround(length / two_pi));
-}
-
-}  // namespace
-
-void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit) {
-    orbit.hops.clear();
-    orbit.first = 0;
-    orbit.cycles = 0;
-    orbit.in_doubt = false;
-    orbit.in_contact = waves.presses().none();
-    if (orbit.in_contact) {
-        orbit.cycles = 1;
-        return;
-    }
-    FlightChain const chain(waves);
-    FlightChain::Start next = chain.first();
-    Growth growth;
-    double chaos_start = HUGE_VAL, peak = 1;  // of the growth since the last contact
-    bool irregular = false;
-    std::size_t since = 0;  // the last contact
-    Rebounds rebounds(orbit.rebounds, orbit.seen);
-    orbit.left_at.assign(waves.presses().count(), never);
-    for (double elapsed = next.at.t; elapsed < two_pi * most_cycles;) {
-        if (next.zero >= 0) {
-            std::size_t& before = orbit.left_at[static_cast<std::size_t>(next.zero)];
-            bool const returns = before != never;
-            if (returns && peak < most_growth) {
-                orbit.first = before;
-                orbit.cycles = cycles_from(orbit.hops, before);
-                break;
-            }
-            orbit.in_doubt = returns && peak < hopeless_growth;
-            if (orbit.in_doubt) break;
-            before = since = orbit.hops.size();
-            // Rounding decides what happens after such a growth: the next flight is to have a rounding error
-            // of its own, so that a motion that ends elsewhere is found.
-            if (returns) next.at.t += rounding * static_cast<double>(orbit.hops.size());
-            irregular = irregular || returns;
-            growth = {};
-            peak = 1;
-            chaos_start = std::min(chaos_start, 0.0);
-        }
-        FlightChain::Start const start = next;
-        Hop const hop = chain.fly(start, next);
-        orbit.hops.push_back(hop);
-        elapsed += duration(hop);
-        growth.multiply(chain.sensitivity(hop, start.rate));
-        if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
-        if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from) chaos_start = growth.logarithm();
-        if (elapsed > two_pi * chaos_to &&
-            (irregular || growth.logarithm() - chaos_start > std::log(chaotic_growth)))
-            break;
-        bool const returned = rebounds.repeat(orbit.hops, since);
-        std::size_t const k = next.zero >= 0 || !returned ? 0 : hops_to_return(orbit.hops, since);
-        if (k > 0) {
-            orbit.first = orbit.hops.size() - k;
-            orbit.cycles = cycles_from(orbit.hops, orbit.first);
-            break;
-        }
-    }
-    orbit.next = next;
 }
 
 }  // namespace vibrotrough::theory::detail

@@ -26,6 +26,13 @@ struct Sensitivity {
     double size() const;
 };
 
+/// How a motion begins: on the trough, with a rebound and a slip velocity. The default is the standard start.
+struct MotionStart {
+    Instant at{0, 0, 1};
+    double rebound = 0;  ///< rate of the gap, upwards; 0: in contact, or taking off with the trough
+    double v = 0;        ///< slip velocity
+};
+
 /// Finds the flights of a conveyor one after another, in the order in which they happen.
 class FlightChain {
   public:
@@ -40,9 +47,9 @@ class FlightChain {
 
     explicit FlightChain(ConveyorWaves const& waves) : waves_(waves) {}
 
-    /// The first flight of a mass that is at rest at t = 0. The normal force has zeros.
-    Start first() const;
-    /// The flight from there; `next` is set to where the flight after it starts.
+    /// Where the first flight starts; at infinity when the mass stays in contact.
+    Start from(MotionStart const& start) const;
+    /// The flight from there; `next` is set to where the flight after it starts, which may be at infinity.
     /// @throws PhaseError when it does not end
     Hop fly(Start const& start, Start& next) const;
 
@@ -59,26 +66,5 @@ class FlightChain {
 
     ConveyorWaves const& waves_;
 };
-
-/// The flights of the periodic motion that develops from rest.
-struct NormalOrbit {
-    std::vector<Hop> hops;             ///< from rest on; those of the period come last
-    std::size_t first = 0;             ///< of the period
-    int cycles = 0;                    ///< of the period; 0 when none was found
-    bool in_doubt = false;             ///< whether rounding errors may decide if there is a period
-    bool in_contact = false;           ///< whether the mass never leaves the trough
-    FlightChain::Start next;           ///< where the flight after the last one starts
-    std::vector<std::size_t> left_at;  ///< hop that began at each zero of the normal force (memory)
-    std::vector<double> rebounds;      ///< of all hops (memory)
-    std::vector<bool> seen;            ///< of their rebounds (memory)
-};
-
-/// Sets `orbit` for a conveyor, reusing its memory.
-///
-/// A motion counts as one without a period after 3000 cycles, or after 1000 if it is chaotic: if small
-/// changes have grown by a factor of 1e10 in the last 500 of them, or if they grow by more than 1e11 from one
-/// contact to the next, so that rounding decides what follows.
-/// @throws PhaseError when a flight does not end
-void find_normal_orbit(ConveyorWaves const& waves, NormalOrbit& orbit);
 
 }  // namespace vibrotrough::theory::detail

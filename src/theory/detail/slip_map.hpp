@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/flight_chain.hpp"
+#include "theory/detail/normal_orbit.hpp"
 #include "theory/detail/periodic.hpp"
 
 #include <vector>

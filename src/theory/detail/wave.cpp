@@ -71,6 +71,12 @@ template double Wave::sum<0>(Instant const&) const;
 template double Wave::sum<1>(Instant const&) const;
 template double Wave::sum<2>(Instant const&) const;
 
+double Wave::bound() const {
+    double bound = std::hypot(sine, cosine);
+    for (Overtone const& o : overtones) bound += std::hypot(o.sine, o.cosine);
+    return bound;
+}
+
 double Wave::bend_bound() const {
     double bound = std::hypot(sine, cosine);
     for (Overtone const& o : overtones) bound += std::hypot(o.sine, o.cosine) * o.order * o.order;

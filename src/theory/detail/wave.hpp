@@ -35,6 +35,8 @@ class Wave {
         double const fundamental = -sine * i.sine - cosine * i.cosine;
         return overtones.empty() ? fundamental : fundamental + sum<2>(i);
     }
+    /// An upper bound of what is added to the constant.
+    double bound() const;
     /// An upper bound of |second derivative|.
     double bend_bound() const;
     int highest_order() const { return overtones.empty() ? 1 : overtones.back().order; }

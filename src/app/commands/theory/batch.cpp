@@ -20,6 +20,7 @@ namespace {
 struct TheoryBatchArguments {
     std::string input;
     RollingOption rolling;
+    StartsOption starts;
     Text output, jobs;
 };
 
@@ -33,18 +34,19 @@ void run_theory_batch(TheoryBatchArguments const& options) {
     int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
     store::TheoryPoints const table = store::read_theory_points(options.input);
     auto const law = options.rolling.law();
+    int const starts = options.starts.count(law.has_value());
     theory::BatchResult answer;
     try {
-        answer = theory::solve_batch(table.points, jobs, law);
+        answer = theory::solve_batch(table.points, jobs, law, 1, starts);
     } catch (std::invalid_argument const& error) {
         throw core::InputError(fmt::format("{}: {}; write a value within", options.input, error.what()));
     }
     if (law && !options.rolling.accepts_untested())
         tell_withheld(theory::withhold_untested(table.points, answer.points), table.points.size());
     if (extension == ".csv") {
-        core::write_file_atomically(output, store::theory_answers_csv(table, answer.points));
+        core::write_file_atomically(output, store::theory_answers_csv(table, answer.points, answer.motions));
     } else {
-        store::write_theory_answers(output, table, answer.points);
+        store::write_theory_answers(output, table, answer.points, answer.motions);
     }
     fmt::print("{} points, {:.3f} microseconds of CPU per solution, written to {}\n", table.points.size(),
                1e6 * answer.cpu_seconds_per_solution, core::harmless(output));
@@ -58,6 +60,7 @@ void add_theory_batch(CLI::App& theory, int& exit_code) {
     command->add_option("input", options->input, "CSV file to read")->required();
     command->add_option("--output", options->output, "File to write, .csv or .h5");
     options->rolling.add_to(*command);
+    options->starts.add_to(*command);
     command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     command->footer(
         std::string(
@@ -68,7 +71,9 @@ Each further line is one motion. An empty cell means that this motion does not h
 
 The output repeats the inputs and adds the columns velocity_efficiency, half_width (of its 95 % confidence interval when
 the motion has no period, else 0), mode, period_cycles, converged and, when a motion has an amplitude,
-conveying_speed_m_per_s.
+conveying_speed_m_per_s. With --starts it also has the number of motions to which they lead, and for each of them
+efficiency_1, fraction_1 (of the starts) and period_cycles_1, efficiency_2 and so on; number 1 is the motion of the
+standard start.
 
 )") + mode_letters +
         R"(

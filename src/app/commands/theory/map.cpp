@@ -22,6 +22,7 @@ namespace {
 struct TheoryMapArguments {
     TheoryOptions motion;
     RollingOption rolling;
+    StartsOption starts;
     Text x, y, output, jobs;
 };
 
@@ -94,6 +95,7 @@ void run_theory_map(TheoryMapArguments const& options) {
     complete.set(y.input, y.from);
     require_complete(complete);
     auto const law = options.rolling.law();
+    int const starts = options.starts.count(law.has_value());
     auto const stem = output.parent_path() / output.stem();
     std::filesystem::path const image = stem.string() + ".vti", lines = stem.string() + "_modes.vtp";
     theory::Map map;
@@ -104,7 +106,8 @@ void run_theory_map(TheoryMapArguments const& options) {
     try {
         // The image of a rolling layer is written when what was not tested has been removed from it.
         map = law ? theory::solve_map(fixed, x, y, {.jobs = jobs, .rolling = law})
-                  : theory::solve_map(fixed, x, y, {.jobs = jobs, .with_points = write_image});
+                  : theory::solve_map(fixed, x, y,
+                                      {.jobs = jobs, .starts = starts, .with_points = write_image});
     } catch (std::invalid_argument const& error) {
         throw core::InputError(
             fmt::format("the map leaves the range of the theory: {}; write other axes", error.what()));
@@ -137,11 +140,13 @@ void add_theory_map(CLI::App& theory, int& exit_code) {
     command->add_option("--jobs", options->jobs, "Number of threads; default: all cores");
     options->motion.add_to(*command);
     options->rolling.add_to(*command);
+    options->starts.add_to(*command);
     command->footer(
         view::vtk_help() +
         std::string(
             R"(Writes the velocity efficiency and the mode at each point of the grid, and the lines between modes. The
-inputs that are not axes are given as options.
+inputs that are not axes are given as options. With --starts it also writes how many motions there are at each
+point, the fraction of starts that lead to that of the standard start, and the lowest and highest efficiency.
 
 )") + mode_letters +
         R"(

@@ -232,6 +232,22 @@ theory::Inputs TheoryOptions::given() const {
     return inputs;
 }
 
+void StartsOption::add_to(CLI::App& command) {
+    command.add_option(
+        "--starts", text_,
+        "Follow so many starts of each motion, for example 64, and write to which motions they lead: with "
+        "rebounds there can be several. Default: the standard start alone, at rest at t = 0");
+}
+
+int StartsOption::count(bool rolling_layer) const {
+    if (!text_) return 0;
+    if (rolling_layer) {
+        throw core::InputError(
+            fmt::format("--starts {}: a rolling layer has one start; leave the option out", *text_));
+    }
+    return read_count("--starts", *text_, "64", 2, 1000000);
+}
+
 void require_complete(theory::Inputs const& inputs) {
     auto const missing = [](char const* option, char const* example) {
         throw core::InputError(

@@ -123,6 +123,19 @@ class RollingOption {
     CLI::Option* option_ = nullptr;
 };
 
+/// The option --starts of the commands that solve many motions.
+class StartsOption {
+  public:
+    /// Declares the option of a command.
+    void add_to(CLI::App& command);
+    /// How many starts to follow; 0 without the option. @throws core::InputError when it is wrong, or given
+    /// for a rolling layer
+    int count(bool rolling_layer) const;
+
+  private:
+    Text text_;
+};
+
 /// Says on standard error that `count` of `all` points are outside the tested range and withheld; nothing
 /// when none is.
 void tell_withheld(std::size_t count, std::size_t all);

@@ -2,6 +2,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
+#include "theory/coexisting.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
 
@@ -58,7 +59,41 @@ Json as_json(theory::Conveyor const& input, theory::ConveyorMotion const& answer
             {"friction", input.point.friction}};
 }
 
-void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer,
+using Motions = std::vector<theory::CoexistingMotion>;
+
+Json motions_as_json(Motions const& motions) {
+    Json list = Json::array();
+    for (auto const& [motion, share] : motions) {
+        list.push_back({{"velocity_efficiency", finite_or_null(motion.velocity_efficiency)},
+                        {"half_width", motion.half_width},
+                        {"mode", theory::to_string(motion.mode)},
+                        {"period_cycles", motion.period_cycles},
+                        {"fraction", share}});
+    }
+    return list;
+}
+
+/// Says to which motions different starts lead where these are several.
+void print_motions(Motions const& motions) {
+    if (motions.size() < 2) return;
+    fmt::print(
+        "several motions      the motion depends on its start; the rest of this answer is that of the "
+        "standard "
+        "start, at rest at t = 0\n");
+    fmt::print("  of {} starts   velocity efficiency   period   mode\n", theory::usual_starts);
+    for (auto const& [motion, share] : motions) {
+        bool const periodic = motion.outcome == theory::Outcome::periodic;
+        std::string const interval =
+            motion.half_width > 0 ? fmt::format(" +- {:.6f}", motion.half_width) : "";
+        fmt::print("{:>12.0f} %   {:>19}   {:>6}   {}\n", 100 * share,
+                   std::isfinite(motion.velocity_efficiency)
+                       ? fmt::format("{:.6f}{}", motion.velocity_efficiency, interval)
+                       : "runs away",
+                   periodic ? std::to_string(motion.period_cycles) : "none", theory::to_string(motion.mode));
+    }
+}
+
+void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& answer, Motions const& motions,
                 std::optional<std::string> const& untested) {
     theory::Motion const& motion = answer.motion;
     fmt::print("throw number         {:.6g}\n", input.point.throw_number);
@@ -71,6 +106,7 @@ void print_text(theory::Conveyor const& input, theory::ConveyorMotion const& ans
                                   : "none";
     fmt::print("velocity efficiency  {}   mean relative velocity / (omega r cos(beta))\n", speed);
     fmt::print("outcome              {}\n", theory::to_string(motion.outcome));
+    print_motions(motions);
     if (!motion.converged) return;
     fmt::print("mode                 {}\n", motion.mode);
     fmt::print("period               {} cycle{}\n", motion.period_cycles,
@@ -180,9 +216,14 @@ int run_theory_point(TheoryPointArguments const& options) {
     theory::ConveyorMotion const answer = law                        ? solve_rolling(options, input, *law)
                                           : options.motion.plastic() ? theory::solve_plastic(input, detail)
                                                                      : theory::solve(input);
+    Motions const motions = law ? Motions{} : theory::MotionSurvey()(input, theory::efficiency_of(answer));
     Json json = as_json(input, answer);
-    if (law) json["outside_tested_range"] = untested.has_value();
-    if (!options.json) print_text(input, answer, untested);
+    if (law) {
+        json["outside_tested_range"] = untested.has_value();
+    } else {
+        json["motions"] = motions_as_json(motions);
+    }
+    if (!options.json) print_text(input, answer, motions, untested);
     bool const settled = law ? answer.motion.converged : !answer.pieces.empty();
     if (machine && settled) {
         if (!options.json) fmt::print("\n");
@@ -221,6 +262,10 @@ void add_theory_point(CLI::App& theory, int& exit_code) {
 velocity of the mass relative to the trough over omega r cos(beta)), the mode, and a table of its phases. When the
 machine's frequency and stroke are known (both, or one of them and --throw-number), it also prints speed, impacts,
 energies and forces, with the size and bulk density of the layer the mass flow in kg/s and t/h, and the power per area.
+
+With rebounds the long-term motion can depend on the start. 64 starts are followed: at rest at t = 0 (the standard
+start), and with rebounds and slip velocities within what the trough can give. Where they lead to several motions, each
+is listed with its velocity efficiency and the fraction of the starts that lead to it.
 
 )") + mode_letters +
         R"(
