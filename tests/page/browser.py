@@ -36,7 +36,11 @@ class Browser:
         shutil.rmtree(self.profile, ignore_errors=True)
         self.profile.mkdir()
         self.log = open(work / f"{name}.log", "wb")  # noqa: SIM115
-        {"firefox": self._start_firefox, "chromium": self._start_chromium}[name]()
+        try:
+            {"firefox": self._start_firefox, "chromium": self._start_chromium}[name]()
+        except BaseException:
+            self.process.terminate()
+            raise
         self.call("session.subscribe", events=["network.beforeRequestSent", "log.entryAdded"])
         self.context = self.call("browsingContext.getTree")["contexts"][0]["context"]
 
