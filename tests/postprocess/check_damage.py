@@ -9,6 +9,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -57,8 +58,16 @@ def named(text):
     return change
 
 
-def changes(folder):
+def apart(names, source):
+    """Names that the scripts write down, with what belongs to them, each alone, and the others together: no script tells them from each
+    other."""
+    known = [name for name in names if re.search(rf"\b{re.escape(name.removesuffix('_half_width'))}\b", source)]
+    return [*([name] for name in known), [name for name in names if name not in known]]
+
+
+def changes(folder, scripts):
     """(what happens, the file, a function that does it and returns what undoes it)"""
+    source = "".join(path.read_text(encoding="utf-8") for path in pathlib.Path(scripts).iterdir() if path.suffix in (".py", ".html"))
     result, table = folder / "cases" / CASE / "result.h5", folder / "campaign.h5"
     overview, numerics = folder / "report" / "data" / "campaign.json", folder / "numerics.json"
     with h5py.File(result) as file:
@@ -68,8 +77,8 @@ def changes(folder):
             yield f"result.h5 {name}", lambda change=change: changed_file(result, change)
     with h5py.File(table) as file:
         columns = [name for name in file if isinstance(file[name], h5py.Dataset)]
-    for name in columns:
-        yield f"campaign.h5 {name}", lambda name=name: changed_file(table, deleted(name))
+    for names in apart(columns, source):
+        yield f"campaign.h5 {names}", lambda names=names: changed_file(table, lambda file: [deleted(name)(file) for name in names])
     for attribute in ("campaign", "program_version", "swept_keys"):
         yield f"campaign.h5 @{attribute}", lambda attribute=attribute: changed_file(table, lambda file: file.attrs.pop(attribute, None))
     for text in ("$\\frac{", "a$b", "$$", "\\text{", "^_{}$x", "name\x1b[31m\u202e"):
@@ -111,9 +120,12 @@ def main(scripts, sample, columns, work):
     described = json.loads(subprocess.run([columns], capture_output=True, text=True, check=True).stdout)
     folder = make_campaign(pathlib.Path(sample), described, work)
     tried = drawn = 0
-    for what, happen in changes(folder):
+    for what, happen in changes(folder, scripts):
         undo = happen()
-        kinds = figures.KINDS if what.startswith(("result.h5", "campaign named", "label ")) else ("efficiency", "residuals", "budget")
+        # Figures of the campaign read campaign.h5 and the notes, those of a case its result.h5, and both show names.
+        of_campaign = ("efficiency", "residuals", "budget")
+        of_case = tuple(kind for kind in figures.KINDS if kind not in of_campaign)
+        kinds = of_case if what.startswith("result.h5") else figures.KINDS if what.startswith(("campaign named", "label ")) else of_campaign
 
         def draw(kinds=kinds):
             for paths in figures.draw(figures.Source(folder, folder / "report"), kinds, [CASE]):
