@@ -146,37 +146,6 @@ TEST(TheoryLimits, PrintsTheClosedResults) {
     expect_refused("limits --friction 0.05 --tan-inclination -0.1", "runs away");
 }
 
-// Eq. 22 with a = 0 is the sinusoidal case; noise of 0.2 at order 25 moves eta by less than 10 % (the paper's
-// finding).
-TEST(TheoryPoint, TakesHarmonicsAndWhatIsBeyond) {
-    std::string const base = "point --throw-number 1.5 --tan-vibration-angle 0.5 --friction 0.3 ";
-    double const plain = ask(base).at("velocity_efficiency");
-    EXPECT_NEAR(ask(base + "--harmonic-normal '25,0,0 deg'").at("velocity_efficiency"), plain, 1e-9);
-    double const noisy = ask(base + "--harmonic-along '25,0.2,0 deg' --harmonic-normal '25,0.2,0 deg'")
-                             .at("velocity_efficiency");
-    EXPECT_NE(noisy, plain);
-    EXPECT_NEAR(noisy, plain, 0.1 * plain);
-    EXPECT_NEAR(ask(base + "--static-friction 0.3").at("velocity_efficiency"), plain, 1e-9);
-    EXPECT_NEAR(ask(base + "--along-ratio 1 --along-phase '0 deg'").at("velocity_efficiency"), plain, 1e-9);
-    // Side walls add k mu_w H / W = 0.1 to mu.
-    double const walls = ask(base + "--wall-friction 0.4 --height-over-width 0.5").at("velocity_efficiency");
-    double const stronger =
-        ask("point --throw-number 1.5 --tan-vibration-angle 0.5 --friction 0.4").at("velocity_efficiency");
-    EXPECT_NEAR(walls, stronger, 1e-9);
-    expect_refused(base + "--restitution 1.2", "--restitution 1.2");
-    expect_refused(base + "--harmonic-along 3", "order, amplitude and phase");
-    expect_refused(base + "--static-friction 0.1", "below --friction");
-}
-
-// Table 1 at Gamma = 2, tan(alpha) = 0, e = 0.2: the physics gives 0.495, the named rule the printed 0.838.
-// Tolerance: the table's third decimal, and the 0.002 of the issue.
-TEST(TheoryPoint, TakesTheRuleOfTable1ByName) {
-    std::string const base =
-        "point --throw-number 2 --tan-vibration-angle 0.25 --friction 0.23 --restitution 0.2 ";
-    EXPECT_NEAR(ask(base).at("velocity_efficiency"), 0.4952, 0.001);
-    EXPECT_NEAR(ask(base + "--table-1-rule").at("velocity_efficiency"), 0.838, 0.002);
-}
-
 // v = eta omega r cos(beta). Tolerance: rounding.
 TEST(TheoryPoint, PrintsAnEngineersQuantities) {
     auto const answer =
