@@ -28,6 +28,7 @@ SYMBOLS = {
     "trough.amplitude": ("amplitude r  [mm]", "r = {} mm"),
 }
 UNITS = {"m": ("mm", 1e3), "rad": ("\u00b0", math.degrees(1.0)), "Pa": ("MPa", 1e-6)}  # from SI to what people read
+STROKE = ("trough.amplitude", "trough.stroke")  # set it as well, where the frequency is the same
 DRIVE = ("trough.throw_number", "trough.machine_number", "trough.frequency")  # set the speed of the drive, that is, the throw number
 
 

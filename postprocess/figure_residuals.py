@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
-from figure_inputs import Input, panels, split_inputs
+from figure_inputs import STROKE, Input, panels, split_inputs
 from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
@@ -35,7 +35,8 @@ def residuals(source: "Source") -> Floats:
 def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     over, others = split_inputs(source.campaign, source.inputs)
     values = residuals(source)
-    if len({*zip(over.groups(), *(one.groups() for one in others))}) == len({*over.groups()}):  # nothing else tells cases apart
+    follows = len(others) == 1 and others[0].key in STROKE and over.key not in {one.key for one in source.inputs}
+    if not others or follows:
         figure = draw_line(source, over, values)
     else:
         figure = draw_maps(source, over, others, values)

@@ -56,7 +56,7 @@ TEST(Feed, IsWrittenAndReadBack) {
 TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\n", "")), HasSubstr("needs side walls"));
     EXPECT_THAT(error(fed("length = \"25 mm\"\n")),
-                HasSubstr("exactly one of height, grains, block, feed.mass_flow is needed"));
+                HasSubstr("exactly one of height, diameters, grains, block, feed.mass_flow is needed"));
     EXPECT_THAT(error(example_campaign + "[feed]\nlength = \"25 mm\"\n"), HasSubstr("nothing is fed"));
     EXPECT_THAT(error(example_campaign + "[feed]\nmass_flow = \"0.1 t/h\"\n"), HasSubstr("feed.mass_flow"));
     EXPECT_THAT(error(fed("mass_flow = \"3 t/h\"\n")),
