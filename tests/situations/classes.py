@@ -21,7 +21,7 @@ CLASSES = {
         "every_command_in_twelve_locales", "no_decimal_comma_reaches_engine_or_python", "signals_of_the_parent", "closed_streams", "homes_and_umasks", "open_files",
         "sizes_of_files", "an_engine_whose_path_is_not_utf8", "few_processes"]},
     "executes": {"foreign_files": ["no_command_of_a_campaign_file_reaches_the_engine_unasked", "no_command_of_an_added_case_reaches_the_engine_unasked",
-                                   "no_task_runs_commands_of_a_campaign_unasked"]},
+                                   "no_task_runs_commands_of_a_campaign_unasked", "no_library_of_the_current_folder_is_loaded"]},
     "destroys": {"foreign_files": ["devices_and_pipes_are_written_into", "a_private_file_stays_private"]},
     "believes": {"foreign_files": ["numbers_of_other_files_are_not_believed", "no_number_of_a_damaged_result_is_shown", "what_is_drawn_is_what_was_checked"]},
     "omits": {"foreign_files": ["what_is_left_aside_is_said", "a_folder_that_may_not_be_read_is_said"]},
