@@ -119,9 +119,16 @@ class Browser:
         return str(self.run(f"document.getElementById('{identity}').textContent"))
 
     def click(self, selector: str, x: float = 0.5, y: float = 0.5) -> None:
-        """A click of the mouse at a place of an element, as shares of its size."""
-        place = self.run(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect();"
-                         f" return [Math.round(b.left + {x} * b.width), Math.round(b.top + {y} * b.height)]; }})()")
+        """A click of the mouse at a place of an element, as shares of its size, when the element has stood still for two frames: an answer
+        that is drawn meanwhile may move it."""
+        place = self.run(f"""(async () => {{
+            const e = document.querySelector({json.dumps(selector)}), frame = () => new Promise(requestAnimationFrame);
+            let still = 0, before = "", b;
+            while (still < 2) {{
+              e.scrollIntoView({{block: 'center'}}); await frame(); b = e.getBoundingClientRect();
+              const now = [b.left, b.top, b.width, b.height].join(); still = now === before ? still + 1 : 0; before = now;
+            }}
+            return [Math.round(b.left + {x} * b.width), Math.round(b.top + {y} * b.height)]; }})()""")
         self.call("input.performActions", context=self.context, actions=[{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [
             {"type": "pointerMove", "x": place[0], "y": place[1]}, {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]}])
 
@@ -134,6 +141,7 @@ class Browser:
     def type_into(self, selector: str, text: str) -> None:
         """Clicks a field, selects what it holds and types over it."""
         self.click(selector)
+        self.wait(f"document.activeElement === document.querySelector({json.dumps(selector)})")
         control = [{"type": "keyDown", "value": KEYS["Control"]}, {"type": "keyDown", "value": "a"}, {"type": "keyUp", "value": "a"}, {"type": "keyUp", "value": KEYS["Control"]}]
         self.call("input.performActions", context=self.context, actions=[{"type": "key", "id": "keyboard", "actions": control}])
         self.press(text)

@@ -188,6 +188,7 @@ class PageTest(unittest.TestCase):
         b.click("#compare")
         self.drawn()
         b.type_into("#stroke_mm", "6")
+        self.drawn()
         b.type_into("#friction", "0,4")
         self.drawn()
         table = b.text("comparison-table")
