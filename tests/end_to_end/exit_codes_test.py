@@ -50,7 +50,7 @@ class WrongInput(EndToEndTest):
         self.refuse(campaign_text().replace("[trough]", "[through]"), "through", "unknown section", "trough, grains")
         # What is missing has no place of its own: its section's heading.
         self.refuse(campaign_text({"trough.friction": None}), "trough]", "trough.friction: is missing")
-        self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, grains, block, feed.mass_flow is needed")
+        self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, diameters, grains, block, feed.mass_flow is needed")
         both = campaign_text({"trough.frequency": "13 Hz"})
         self.refuse(both, "frequency", "trough.throw_number is also given, on line 7", "keep one of the two")
         self.refuse("[campaign\n", "\n", "TOML")
