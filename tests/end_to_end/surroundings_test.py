@@ -38,7 +38,7 @@ ARGUMENTS = {
     "theory limits": ("--friction", "0.35", "--tan-inclination", "-0.1", "--tan-vibration-angle", "0.5"),
     "theory friction": ("--machine-number", "1.5", "--max-relative-displacement", "1.9"),
     "theory design": ("--friction", "0.3", "--machine-number", "4", "--stroke", "nothing"), "theory batch": ("{s}", "--output", "{o}.csv"),
-    "theory calibrate": ("{s}", "--free", "friction"),
+    "theory calibrate": ("{s}", "--free", "friction"), "page": ("{r}", "--output", "{o}.html"),
 }  # fmt: skip
 
 
