@@ -130,7 +130,8 @@ function listen() {
   on("copied-close", "click", () => { document.getElementById("copied").hidden = true; showMessage(""); });
   window.addEventListener("resize", changed);
   window.addEventListener("scroll", wake, { passive: true });
-  window.addEventListener("hashchange", () => { readLink(location.hash); showMachines(); translate(); changed(); });
+  // The link that is kept may have taken the place of this one meanwhile.
+  window.addEventListener("hashchange", (event) => { readLink(new URL(event.newURL).hash); showMachines(); translate(); changed(); });
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
 }
 
