@@ -18,13 +18,10 @@ from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, co
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
 
-# Other units of a column: what a number in the unit of the table is multiplied with.
-CONVERSIONS = {("m/s", "m/min"): 60.0, ("m/s", "mm/s"): 1e3, ("t/h", "kg/s"): 1 / 3.6, ("t/h", "kg/h"): 1e3, ("m", "mm"): 1e3, ("mm", "m"): 1e-3,
-               ("kg/s", "t/h"): 3.6, ("Hz", "rpm"): 60.0, ("1", "%"): 100.0, ("Pa", "MPa"): 1e-6, ("s", "min"): 1 / 60, ("s", "h"): 1 / 3600}
 # What the theory says of the same case, as efficiencies of the table.
 MODELS = {"point-mass theory": "efficiency_theory", "rolling-layer law": "efficiency_rolling_layer"}
 # Quantities that are an efficiency times a number that is known of each case.
-OF_EFFICIENCY = ("efficiency", "conveying_speed_", "mass_flow_")
+OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow")
 WHOLE = {"efficiency": "efficiency_whole_half_width"}
 MOST_SERIES = 24
 
@@ -43,7 +40,7 @@ class Shown:
 
     @property
     def is_number(self) -> bool:
-        return self.column["type"] == "number"
+        return self.column["type"] != "text"
 
     @property
     def title(self) -> str:
@@ -73,29 +70,23 @@ def base_name(column: Mapping[str, Any]) -> str:
     return str(column["name"]).removesuffix(suffix_of(column))
 
 
-def find_column(option: str, asked: str, columns: Iterable[Mapping[str, Any]]) -> Mapping[str, Any]:
-    """A column by its name, by its name without unit, by the key of the campaign file, or by the key's last word."""
-    wanted = {"speed": "conveying_speed"}.get(asked, asked)
-    columns = list(columns)
-    for names in (lambda one: {one["name"], one.get("key")}, lambda one: {base_name(one)}, lambda one: {str(one.get("key")).rpartition(".")[2]}):
-        found = [one for one in columns if wanted in names(one)]
-        if found:
-            return found[0]
-    some = ", ".join(base_name(one) for one in columns if one["type"] == "number" and "half_width" not in one["name"])
-    raise Problem(f"{option} {shown(asked)}: there is no such column; there are {some}")
+def find_column(name: str, tables: Iterable["Table"]) -> Mapping[str, Any]:
+    """A column by the name that `compare` gives it."""
+    for table in tables:
+        for column in table.columns:
+            if column["name"] == name:
+                return column
+    raise Problem(f"no campaign has a column {shown(name)}; call this by 'vibrotrough plot DIR', which knows all names")
 
 
-def shown_as(column: Mapping[str, Any], unit: str | None = None) -> Shown:
-    """A column in its own unit, in the one in which people read it, or in the one that is asked for."""
+def shown_as(column: Mapping[str, Any], unit: str | None = None, factor: float = 1.0) -> Shown:
+    """A column in the unit that is asked for, with the factor to it, or in the one in which people read it."""
     own = str(column["unit"])
-    if unit is None and own in UNITS and column["type"] == "number":
+    if unit is not None:
+        return Shown(column, unit, factor)
+    if own in UNITS and column["type"] == "number":
         return Shown(column, *UNITS[own])
-    if unit is None or unit == own:
-        return Shown(column, "\u00b0" if own == "degree" else own, 1.0)
-    if (own, unit) not in CONVERSIONS:
-        known = [own, *(to for of, to in CONVERSIONS if of == own)]
-        raise Problem(f"--unit {shown(unit)}: {column['name']} can be shown in {', '.join(known)}")
-    return Shown(column, unit, CONVERSIONS[own, unit])
+    return Shown(column, "\u00b0" if own == "degree" else own, 1.0)
 
 
 @dataclasses.dataclass
@@ -131,7 +122,7 @@ def half_width(y: Shown, row: Row) -> float:
 def grouping(table: Table, x: Shown, by: str | None) -> list[Mapping[str, Any]]:
     """The columns that tell the series apart: the one that is asked for, or the swept keys that are not on the axis."""
     if by is not None:
-        return [find_column("--by", by, table.columns)]
+        return [find_column(by, [table])]
     swept = [one for one in table.columns if one["name"] in table.swept]
     return [one for one in swept if one["name"] != x.name and len({str(row.get(one["name"])) for row in table.rows}) > 1]
 
@@ -174,14 +165,10 @@ def series_of(tables: list[Table], x: Shown, by: str | None) -> dict[str, list[R
 
 
 def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str, y_name: str, by: str | None,
-                 unit: str | None) -> list[pathlib.Path]:
+                 unit: str | None, factor: float) -> list[pathlib.Path]:
     """Draws the figure; returns the files. @raises Problem when a column is not there or holds no numbers"""
     tables = [read_table(output) for output in outputs]
-    every = [column for table in tables for column in table.columns]
-    x, y = shown_as(find_column("--x", x_name, every)), shown_as(find_column("--y", y_name, every), unit)
-    for option, one in (("--x", x), ("--y", y)):
-        if not one.is_number:
-            raise Problem(f"{option} {shown(one.name)}: is no number; --by takes words")
+    x, y = shown_as(find_column(x_name, tables)), shown_as(find_column(y_name, tables), unit, factor)
     figure, axes = new_figure()
     plain_axes(axes)
     models: set[str] = set()
@@ -196,7 +183,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         colour, bars = COLOURS[number % len(COLOURS)], np.array([half_width(y, row) for row in rows])
         axes.errorbar([x.of(row) for row in rows], [y.of(row) for row in rows], yerr=bars if np.isfinite(bars).any() else None, color=colour,
                       marker=MARKERS[(number + number // len(COLOURS)) % len(MARKERS)], linestyle="none", capsize=3, label=name)
-        if y.name.startswith(OF_EFFICIENCY) and "per_width" not in y.name:
+        if base_name(y.column) in OF_EFFICIENCY:
             models |= draw_models(axes, x, y, rows, colour, DASHES[number % len(DASHES)])
     if not drawn:
         raise Problem(f"no case has both {x.name} and {y.name}")

@@ -166,6 +166,7 @@ def main() -> None:
     parser.add_argument("--y", metavar="COLUMN", help="the column that is drawn over --x")
     parser.add_argument("--by", metavar="COLUMN", help="the column that tells series apart")
     parser.add_argument("--unit", help="unit of --y")
+    parser.add_argument("--factor", type=float, default=1.0, help="from the table's unit of --y to --unit")
     parser.add_argument("--with", action="append", default=[], type=pathlib.Path, metavar="OUT", dest="others", help="output of another campaign")
     parser.add_argument("--style", type=pathlib.Path, metavar="FILE", help="a style sheet of matplotlib")
     options = parser.parse_args()
@@ -176,7 +177,7 @@ def main() -> None:
     warnings.filterwarnings("ignore", message="Warning: converting a masked element to nan")
     output = options.output or options.directory / "report"
     if options.x is not None:
-        figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y, options.by, options.unit)])
+        figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y, options.by, options.unit, options.factor)])
     else:
         figures = draw(Source(options.directory, output), options.only or KINDS, options.case)
     for paths in figures:

@@ -44,18 +44,26 @@ def find_program(program: str | os.PathLike[str] | None = None) -> str:
     built = pathlib.Path(__file__).resolve().parent.parent / "build" / "release" / "src" / "app" / "vibrotrough"
     found = shutil.which(os.fspath(program)) if program else str(built) if built.is_file() else shutil.which("vibrotrough")
     if found is None:
-        raise FileNotFoundError(f"there is no program {program or 'vibrotrough'}; install it, or give its path as program=")
+        raise FileNotFoundError(f"{program or 'vibrotrough'} was not found; install it, or give its path as program=")
     return found
 
 
-def as_table(rows: list[dict[str, Any]], index: str = "case") -> Any:
+def ask(program: str, *words: str | os.PathLike[str], allowed: Sequence[int] = (0,)) -> Any:
+    """What the program answers in JSON. @param allowed  exit codes with which it has an answer. @raises ProgramError with its message"""
+    done = subprocess.run([program, *(os.fspath(word) for word in words), "--json"], capture_output=True, text=True, check=False)
+    if done.returncode not in allowed:
+        raise ProgramError(done.stderr.strip() or done.stdout.strip(), done.returncode)
+    return json.loads(done.stdout)
+
+
+def as_table(rows: list[dict[str, Any]]) -> Any:
     """A DataFrame, with the cases' ids as its index, where pandas is installed; else the rows."""
     try:
         import pandas
     except ImportError:
         return rows
     frame = pandas.DataFrame(rows)
-    return frame.set_index(index) if index in frame else frame
+    return frame.set_index("case") if "case" in frame else frame
 
 
 class Line:
@@ -105,25 +113,16 @@ class Campaign:
     def __init__(self, file: str | os.PathLike[str], output: str | os.PathLike[str] | None = None,
                  program: str | os.PathLike[str] | None = None) -> None:  # fmt: skip
         self.file, self.program = pathlib.Path(file), find_program(program)
-        name = self._json("plan", self.file, "--json")["campaign"]  # which also says what is wrong with the file
+        name = ask(self.program, "plan", self.file)["campaign"]  # which also says what is wrong with the file
         self.folder = pathlib.Path(output) if output else pathlib.Path("runs") / str(name)
-
-    def _call(self, *words: str | os.PathLike[str], allowed: Sequence[int] = (0,)) -> str:
-        done = subprocess.run([self.program, *(os.fspath(word) for word in words)], capture_output=True, text=True, check=False)
-        if done.returncode not in allowed:
-            raise ProgramError(done.stderr.strip() or done.stdout.strip(), done.returncode)
-        return done.stdout
-
-    def _json(self, *words: str | os.PathLike[str], allowed: Sequence[int] = (0,)) -> Any:
-        return json.loads(self._call(*words, allowed=allowed))
 
     def plan(self) -> Any:
         """The cases, with the core time that each will probably take. @raises ProgramError when the file has a mistake"""
-        return as_table(self._json("plan", self.file, "--output", self.folder, "--json")["cases"])
+        return as_table(ask(self.program, "plan", self.file, "--output", self.folder)["cases"])
 
     def check(self) -> list[dict[str, Any]]:
         """The findings of `vibrotrough check` that are not fine, each with the number of its case."""
-        answer = self._json("check", self.file, "--json", allowed=(0, 1, 2))
+        answer = ask(self.program, "check", self.file, allowed=(0, 1, 2))
         return [{"case": case["case"], **finding} for case in answer["cases"] for finding in case["findings"] if finding["severity"] != "fine"]
 
     def run(self, jobs: int | None = None, progress: Progress | None = None, options: Sequence[str] = ()) -> bool:
@@ -157,12 +156,12 @@ class Campaign:
 
     def status(self) -> dict[str, Any]:
         """What `vibrotrough status` says: how many cases are finished, running and left, and each case. @raises ProgramError"""
-        answer: dict[str, Any] = self._json("status", self.folder, "--json")
+        answer: dict[str, Any] = ask(self.program, "status", self.folder)
         return answer
 
     def table(self) -> Any:
         """The rows of `vibrotrough compare`: results beside the theory. @raises ProgramError when nothing was run"""
-        return as_table(self._json("compare", self.folder, "--json", allowed=(0, 1)))
+        return as_table(ask(self.program, "compare", self.folder, allowed=(0, 1)))
 
     def results(self) -> vibrotrough.CampaignFile:
         """campaign.h5: all cases with results, with units. @raises OSError when there are none"""
@@ -182,9 +181,6 @@ def table(campaigns: Iterable[Campaign | str | os.PathLike[str]], program: str |
     rows = []
     for one in campaigns:
         folder = one.folder if isinstance(one, Campaign) else pathlib.Path(one)
-        words = [one.program if isinstance(one, Campaign) else find_program(program), "compare", os.fspath(folder), "--json"]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        if done.returncode not in (0, 1):
-            raise ProgramError(done.stderr.strip(), done.returncode)
-        rows += [{"campaign": folder.name, **row} for row in json.loads(done.stdout)]
+        used = one.program if isinstance(one, Campaign) else find_program(program)
+        rows += [{"campaign": folder.name, **row} for row in ask(used, "compare", folder, allowed=(0, 1))]
     return as_table(rows)

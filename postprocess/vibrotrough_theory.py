@@ -51,7 +51,7 @@ class Solution:
     period_cycles: NDArray[np.int32]  #: cycles after which the motion repeats; 0 if it does not
     converged: NDArray[np.bool_]  #: whether a period was found
     mode_code: NDArray[np.uint64]  #: a number for each mode; equal modes have equal numbers
-    motions: NDArray[np.object_] | None  #: with `starts`: a tuple of CoexistingMotion for each motion, that of the standard start first; else None
+    motions: NDArray[np.object_] | None  #: with `starts`: a tuple of CoexistingMotion for each motion, that of the standard start first, empty for extreme inputs; else None
     cpu_seconds: float  #: processor time of all threads within the library
 
     @property

@@ -63,8 +63,8 @@ enum class Model {
 /// How far an answer has been tested.
 enum class Trust {
     tested,    ///< within the tested range of its model
-    reaching,  ///< outside, but simulated layers tell how much the model misses
-    unknown,   ///< no simulated layer tells anything, or there is no speed
+    reaching,  ///< outside, but simulated layers show how far the model is off
+    unknown,   ///< how far the model is off is not known, or the material runs away
 };
 
 /// A speed in m/s with what follows from it.

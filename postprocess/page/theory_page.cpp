@@ -7,14 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 using namespace vibrotrough;
 
 namespace {
+
+using Json = nlohmann::json;  // numbers that are not finite are null
 
 page::Machines& machines() {
     static page::Machines all;
@@ -42,30 +45,6 @@ page::Settings settings_of(double const* numbers) {
     page::Settings settings{};
     std::copy_n(numbers, page::setting_count, settings.value.begin());
     return settings;
-}
-
-std::string quoted(std::string const& text) {
-    std::string result = "\"";
-    for (char const c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result + '"';
-}
-
-template <class List>
-std::string json_list(List const& texts) {
-    std::string result = "[";
-    for (auto const& text : texts) result += (result.size() > 1 ? "," : "") + quoted(text);
-    return result + "]";
-}
-
-/// JSON has no infinity.
-std::string json_number(double value) {
-    if (!std::isfinite(value)) return "null";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
 }
 
 std::vector<std::string> speed_names(std::string const& of) {
@@ -108,34 +87,35 @@ void put(page::Answer const& answer, double* numbers) {
     std::copy(list.begin(), list.end(), numbers);
 }
 
-std::string motion_json(theory::Motion const& motion) {
-    std::string phases;
-    for (theory::Phase const& phase : motion.phases) {
-        phases += (phases.empty() ? "" : ",") + std::string("{\"kind\":") +
-                  quoted(theory::to_string(phase.kind)) + ",\"start\":" + json_number(phase.start) +
-                  ",\"end\":" + json_number(phase.end) + "}";
-    }
-    return "{\"mode\":" + quoted(motion.mode) + ",\"outcome\":" + quoted(theory::to_string(motion.outcome)) +
-           ",\"period_cycles\":" + std::to_string(motion.period_cycles) +
-           ",\"flight_number\":" + json_number(motion.flight_number) + ",\"phases\":[" + phases + "]}";
+Json described(theory::Motion const& motion) {
+    Json phases = Json::array();
+    for (theory::Phase const& phase : motion.phases)
+        phases.push_back(
+            {{"kind", theory::to_string(phase.kind)}, {"start", phase.start}, {"end", phase.end}});
+    return {{"mode", motion.mode},
+            {"outcome", theory::to_string(motion.outcome)},
+            {"period_cycles", motion.period_cycles},
+            {"flight_number", motion.flight_number},
+            {"phases", std::move(phases)}};
 }
 
-std::string landing_json(page::Settings const& settings, theory::Motion const& motion) {
-    if (motion.outcome != theory::Outcome::periodic || motion.phases.empty()) return "null";
+Json described_landing(page::Settings const& settings, theory::Motion const& motion) {
+    if (motion.outcome != theory::Outcome::periodic || motion.phases.empty()) return nullptr;
     page::Landing const found = page::landing(settings);
-    return "{\"impact_speed\":" + json_number(found.impact_speed) +
-           ",\"power_per_area\":" + json_number(found.power_per_area) + "}";
+    return {{"impact_speed", found.impact_speed}, {"power_per_area", found.power_per_area}};
 }
 
-std::string words_json(page::Settings const& settings) {
+Json words(page::Settings const& settings) {
     theory::PointMass const point = settings.inputs().point();
     theory::Motion const mass = theory::solve(point),
                          layer = theory::solve(theory::RollingLayer{point, {}}).motion;
     page::Answer const answer = machines()(settings);
     auto const why = page::untested(settings, answer);
-    return "{\"mass\":" + motion_json(mass) + ",\"layer\":" + motion_json(layer) +
-           ",\"landing\":" + landing_json(settings, mass) + ",\"untested\":" + (why ? quoted(*why) : "null") +
-           ",\"unusual\":" + json_list(page::unusual(settings, answer)) + "}";
+    return {{"mass", described(mass)},
+            {"layer", described(layer)},
+            {"landing", described_landing(settings, mass)},
+            {"untested", why ? Json(*why) : Json()},
+            {"unusual", page::unusual(settings, answer)}};
 }
 
 /// Runs a function whose errors are told by page_error(). @return 0, or 1 after an error
@@ -162,11 +142,13 @@ char const* page_error() {
 /// The names of settings, of the numbers of an answer and of a frame.
 char const* page_names() {
     static std::string text;
-    std::vector<std::string> const frame{"time",   "kind", "trough_x",     "trough_y",
-                                         "travel", "gap",  "normal_force", "tangential_force"};
-    text = "{\"settings\":" + json_list(page::setting_names()) + ",\"answer\":" + json_list(answer_names()) +
-           ",\"frame\":" + json_list(frame) +
-           ",\"largest_usual_machine_number\":" + json_number(theory::largest_usual_machine_number) + "}";
+    text =
+        Json({{"settings", page::setting_names()},
+              {"answer", answer_names()},
+              {"frame",
+               {"time", "kind", "trough_x", "trough_y", "travel", "gap", "normal_force", "tangential_force"}},
+              {"largest_usual_machine_number", theory::largest_usual_machine_number}})
+            .dump();
     return text.c_str();
 }
 
@@ -235,7 +217,7 @@ int page_frames(double const* settings, int rolling, int count, double* numbers)
 char const* page_words(double const* settings) {
     static std::string text;
     text.clear();
-    guarded([&] { text = words_json(settings_of(settings)); });
+    guarded([&] { text = words(settings_of(settings)).dump(); });
     return text.c_str();
 }
 }

@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
+#include "core/own_program.hpp"
 #include "deck/campaign_check.hpp"
 
 #include <optional>
@@ -113,8 +114,7 @@ ReadyCampaign prepare_run(RunOptions const& options) {
     campaign::Plan plan = campaign::make_plan(campaign, folder, engine.version);
     plan.own = std::move(own);
     campaign::ExecutorKind const& kind = campaign::executor_kind(campaign.run.executor);
-    campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs,
-                                    fs::read_symlink("/proc/self/exe")};
+    campaign::ExecutorInputs inputs{folder, engine, campaign.run, options.jobs, core::own_program()};
     inputs.foreign_commands = {options.allow_extra,
                                options.templates.empty() ? nullptr : campaign.cases.front().engine.templates};
     return {std::move(campaign), std::move(plan), &kind, inputs, is_interrupted};

@@ -3,6 +3,7 @@
 #include "app/script_folder.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/own_program.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -83,7 +84,7 @@ std::string find_python(std::string const& python, std::vector<std::string> cons
 
 fs::path script_folder() {
     std::error_code failure;
-    fs::path const program = fs::read_symlink("/proc/self/exe", failure);
+    fs::path const program = core::own_program();
     // An installed program has its scripts in ../share. A program in its build folder uses those of the
     // sources.
     fs::path const installed = program.parent_path().parent_path() / installed_scripts;

@@ -2,13 +2,13 @@
 
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/own_program.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -34,17 +34,15 @@ Need need_of(int argc, char** argv) {
 void continue_with_vtk(std::string_view name, int argc, char** argv) {
     Need const need = need_of(argc, argv);
     if (name.empty() || need == Need::nothing) return;
-    std::error_code failure;
-    fs::path const own = fs::read_symlink("/proc/self/exe", failure);
-    if (!failure) {
-        ::execv((own.parent_path() / name).c_str(), argv);
-        failure = std::error_code(errno, std::generic_category());
-    }
+    auto const own = core::find_own_program();
+    fs::path const program = own ? own->parent_path() / name : fs::path(name);
+    if (own) ::execv(program.c_str(), argv);
+    int const failure = own ? errno : ENOENT;
     if (need == Need::text) return;
     throw core::MissingError(
         fmt::format("cannot start {}, the part of this program that writes files for ParaView ({}); install "
                     "Vibrotrough again",
-                    (own.parent_path() / name).string(), core::reason_of(failure.value())));
+                    program.string(), core::reason_of(failure)));
 }
 
 }  // namespace vibrotrough::app

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <compare>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -17,23 +18,6 @@ namespace vibrotrough::compare {
 namespace {
 
 constexpr std::size_t longest_shown = 60;
-
-/// Finds a column by name. @throws InputError naming the option and all columns when there is no such column
-Column const& find_column(std::span<Column const> columns, std::string_view option, std::string_view name) {
-    auto const found = std::ranges::find(columns, store::current_name(name), &Column::name);
-    if (found != columns.end()) return *found;
-    // A swept key may be written in full (trough.friction), or without its section where that is unique.
-    auto const by_key = std::ranges::find(columns, name, &Column::key);
-    if (by_key != columns.end() && !name.empty()) return *by_key;
-    auto const is_short = [&](Column const& column) {
-        return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
-    };
-    if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
-    std::string names;
-    for (Column const& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
-    throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
-                                       core::printable(name, longest_shown), names));
-}
 
 /// Orders two values of one column, or a value of a column of numbers and another number.
 std::partial_ordering order(Value const& left, Value const& right) {
@@ -97,7 +81,7 @@ Condition parse(std::string_view text, std::span<Column const> columns) {
                         core::printable(text, longest_shown)));
     }
     std::string_view const value = trimmed(text.substr(value_at));
-    Column const& column = find_column(columns, "--filter", trimmed(text.substr(0, at)));
+    Column const& column = column_named(columns, "--filter", trimmed(text.substr(0, at)));
     if (column.type() != ColumnType::text) return {column, *relation, number_in(value, text)};
     if (*relation == Relation::equal || *relation == Relation::different)
         return {column, *relation, std::string(value)};
@@ -128,6 +112,28 @@ bool holds(Condition const& condition, Row const& row) {
 
 }  // namespace
 
+Column const& column_named(std::span<Column const> columns, std::string_view option, std::string_view name) {
+    std::string_view const current = store::current_name(name);
+    auto const is_named = [&](Column const& one) { return one.name == current; };
+    auto const has_key = [&](Column const& one) { return !name.empty() && one.key == name; };
+    auto const is_named_without_unit = [&](Column const& one) {
+        return one.unit != "1" && one.name == fmt::format("{}{}", current, unit_suffix(one.unit));
+    };
+    for (auto const& fits :
+         {std::function<bool(Column const&)>(is_named), {has_key}, {is_named_without_unit}}) {
+        auto const found = std::ranges::find_if(columns, fits);
+        if (found != columns.end()) return *found;
+    }
+    auto const is_short = [&](Column const& column) {
+        return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
+    };
+    if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
+    std::string names;
+    for (Column const& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
+    throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
+                                       core::printable(name, longest_shown), names));
+}
+
 std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition,
                           std::span<Column const> columns) {
     Condition const wanted = parse(condition, columns);
@@ -138,7 +144,7 @@ std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view conditi
 
 std::vector<Row> sorted(std::vector<Row> rows, std::string_view key, std::span<Column const> columns) {
     std::size_t const colon = key.find(':');
-    Column const& column = find_column(columns, "--sort", key.substr(0, colon));
+    Column const& column = column_named(columns, "--sort", key.substr(0, colon));
     std::string_view const direction = colon == key.npos ? "asc" : key.substr(colon + 1);
     if (direction != "asc" && direction != "desc") {
         throw core::InputError(fmt::format(

@@ -1,5 +1,6 @@
 #include "core/quantity.hpp"
 
+#include "core/own_program.hpp"
 #include "core/text.hpp"
 
 #include <array>
@@ -34,9 +35,10 @@ using Unit = std::unique_ptr<ut_unit, FreeUnit>;
 /// user names another one (UDUNITS2_XML_PATH), so that udunits2 looks for its own.
 std::string bundled_units() {
     if (std::getenv("UDUNITS2_XML_PATH") != nullptr) return "";
+    auto const program = find_own_program();
+    if (!program) return "";
     std::error_code failure;
-    auto const program = std::filesystem::read_symlink("/proc/self/exe", failure);
-    auto const units = program.parent_path().parent_path() / VIBROTROUGH_UNITS;
+    auto const units = program->parent_path().parent_path() / VIBROTROUGH_UNITS;
     return std::filesystem::is_regular_file(units, failure) ? units.string() : "";
 }
 

@@ -5,6 +5,7 @@
 #include "store/hdf5_memory_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -76,11 +77,12 @@ void write_motions(theory::Map const& map, Write const& write) {
         auto const efficiency = [](auto const& one) { return one.motion.velocity_efficiency; };
         auto const [low, high] = std::ranges::minmax_element(all, {}, efficiency);
         count.push_back(static_cast<int>(all.size()));
-        fraction.push_back(all.front().share);
-        lowest.push_back(efficiency(*low));
-        highest.push_back(efficiency(*high));
+        fraction.push_back(all.empty() ? std::nan("") : all.front().share);
+        lowest.push_back(all.empty() ? std::nan("") : efficiency(*low));
+        highest.push_back(all.empty() ? std::nan("") : efficiency(*high));
     }
-    write("motions", count, "Number of motions to which different starts lead");
+    write("motions", count,
+          "Number of motions to which different starts lead; 0 where starts cannot be followed");
     write("fraction", fraction, "Fraction of the starts that lead to the motion of the standard start");
     write("lowest_efficiency", lowest, "Lowest velocity efficiency of these motions");
     write("highest_efficiency", highest, "Highest velocity efficiency of these motions");

@@ -90,7 +90,7 @@ std::vector<TheoryColumn> motion_columns(Motions const& motions) {
     };
     std::size_t most = 0;
     for (auto const& all : motions) most = std::max(most, all.size());
-    add("motions", "Number of motions to which different starts lead",
+    add("motions", "Number of motions to which different starts lead; 0 where starts cannot be followed",
         [](auto const& all) { return static_cast<double>(all.size()); });
     for (std::size_t k = 0; k < most; ++k) {
         auto const add_of_one = [&](char const* name, char const* description, auto const& value) {

@@ -73,7 +73,8 @@ std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& input, Ef
     detail::ConveyorEfficiency& solver = memory_->solver;
     memory_->after_zero.clear();
     auto const first = solver(conveyor, {}, Mean::left_out);
-    if (!first || standard.outcome == Outcome::indifferent) return found;
+    if (!first) return {};
+    if (standard.outcome == Outcome::indifferent) return found;
     memory_->note_zeros(0);
     bool const one_friction = solver.waves().one_friction();
     // A mass that cannot rebound stays on a trough that never falls away from it.

@@ -61,7 +61,9 @@ class Archive(EndToEndTest):
         done = self.call("plot", self.output, "--with", self.output, "--x", "throw_number", "--y", "speed", "--unit", "m/min")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("conveying_speed-over-throw_number.png", done.stdout)
-        for words, said in ((("--x", "friction"), "--y is missing"), (("--by", "friction"), "belong to the figure of two columns"),
+        for words, said in ((("--x", "friction", "--y", "nonsense"), "there is no column 'nonsense'"), (("--x", "outcome", "--y", "speed"), "is not a number"),
+                            (("--x", "friction", "--y", "speed", "--unit", "kg/s"), "conveying_speed_m_per_s is in m/s"),
+                            (("--x", "friction"), "--y is missing"), (("--by", "friction"), "belong to the figure of two columns"),
                             (("--x", "friction", "--y", "speed", "--only", "cycles"), "leave them out")):  # fmt: skip
             self.assert_one_line_error(self.call("plot", self.output, *words), 2, said)
         shutil.rmtree(self.output / "report")

@@ -161,6 +161,7 @@ class Security(EndToEndTest):
         before = {path.name: path.read_bytes() for path in copy.iterdir() if path.is_file()}
         driver = self.start_campaign(campaign)
         wait_until(lambda: went_on(driver), "the run went on", driver)
+        self.assertIsNone(driver.poll(), "the run goes on")
         driver.send_signal(signal.SIGKILL)
         driver.wait()
         for name, content in before.items():

@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/left_aside.hpp"
 #include "app/script_folder.hpp"
 #include "archive/open_bundle.hpp"
 #include "campaign/execute/executors.hpp"
@@ -8,6 +9,8 @@
 #include "compare/exports.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/own_program.hpp"
+#include "core/text.hpp"
 
 #include <array>
 #include <filesystem>
@@ -50,14 +53,14 @@ constexpr std::array<std::string_view, 16> page_columns{"case",
 /// The page as it was built: installed with the program, or beside it in its build tree.
 fs::path built_page() {
     std::error_code failure;
-    fs::path const program = fs::read_symlink("/proc/self/exe", failure).parent_path();
+    fs::path const program = core::own_program().parent_path();
     fs::path const installed = program.parent_path() / installed_scripts / "page.html";
     for (fs::path const& file : {installed, (program / page_of_build).lexically_normal()})
         if (fs::is_regular_file(file, failure)) return file;
     throw core::MissingError(
-        "the page was not built with this program: install emscripten (Debian: apt-get install "
-        "--no-install-recommends "
-        "emscripten), configure and build all of Vibrotrough again, or install its Debian package");
+        "the page was not built with this program; install emscripten and run, where Vibrotrough was built, "
+        "'cmake --preset release && cmake --build build/release --target page', or install its Debian "
+        "package");
 }
 
 /// The rows of compare, as far as the page shows them.
@@ -66,6 +69,7 @@ Json cases_of(std::string const& folder) {
     campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(folder));
     compare::ComparedCases const compared =
         compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
+    tell_left_aside(plan, compared.cases);
     Json cases = Json::array();
     for (compare::Row const& row : compared.rows) {
         Json const all = compare::to_object(row, compared.columns);
@@ -95,7 +99,7 @@ int run_page(PageArguments const& options) {
         page.replace(at + place.find("null"), 4, for_script(cases_of(options.folder)));
     }
     core::write_file_atomically(options.output, page);
-    fmt::print("{}\n", options.output);
+    fmt::print("{}\n", core::harmless(options.output));
     return all_well;
 }
 

@@ -6,10 +6,12 @@
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "compare/report_data.hpp"
+#include "compare/select.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
 #include "core/quantity.hpp"
+#include "core/text.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -72,9 +74,28 @@ std::vector<std::string> words_for_print(PlotArguments const& options) {
     return words;
 }
 
+/// A column that can be an axis.
+compare::Column const& number_named(std::span<compare::Column const> columns, char const* option,
+                                    std::string const& name) {
+    compare::Column const& column = compare::column_named(columns, option, name);
+    if (column.type() == compare::ColumnType::text)
+        throw core::InputError(fmt::format("{}: {} is not a number; --by takes words", option, column.name));
+    return column;
+}
+
+/// What a number of a column is multiplied with to be in another unit.
+double factor_to(std::string const& unit, compare::Column const& column) {
+    try {
+        return core::parse_quantity("1 " + column.unit, unit);
+    } catch (core::QuantityError const& error) {
+        throw core::InputError(fmt::format("--unit {}: {}; {} is in {}", core::printable(unit, 60),
+                                           error.what(), column.name, column.unit));
+    }
+}
+
 /// The figure of any two columns, for figures.py: its options, and what the program knows of the other
 /// campaigns, which is written into their folders as for their own figures.
-std::vector<std::string> words_for_columns(PlotArguments const& options) {
+std::vector<std::string> words_for_columns(PlotArguments const& options, campaign::Plan const& plan) {
     bool const is_asked = !options.x.empty() || !options.y.empty();
     if (!is_asked && (!options.by.empty() || !options.unit.empty() || !options.others.empty()))
         throw core::InputError(
@@ -86,24 +107,33 @@ std::vector<std::string> words_for_columns(PlotArguments const& options) {
     if (!options.only.empty() || !options.cases.empty())
         throw core::InputError(
             "--only and --case choose among the other figures; leave them out with --x and --y");
-    std::vector<std::string> words{"--x", options.x, "--y", options.y};
-    if (!options.by.empty()) words.insert(words.end(), {"--by", options.by});
-    if (!options.unit.empty()) words.insert(words.end(), {"--unit", options.unit});
+    auto const columns = compare::columns_with_swept(plan.swept);
+    compare::Column const& y = number_named(columns, "--y", options.y);
+    std::vector<std::string> words{"--x", std::string(number_named(columns, "--x", options.x).name), "--y",
+                                   std::string(y.name)};
+    if (!options.by.empty())
+        words.insert(words.end(),
+                     {"--by", std::string(compare::column_named(columns, "--by", options.by).name)});
+    if (!options.unit.empty()) {
+        words.insert(words.end(),
+                     {"--unit", options.unit, "--factor", fmt::format("{}", factor_to(options.unit, y))});
+    }
     for (std::string const& folder : options.others) {
-        campaign::Plan const plan = campaign::open_plan(folder);
+        campaign::Plan const other = campaign::open_plan(folder);
         fs::path const output = fs::path(folder) / "report";
         core::make_folder(output);
         core::OwnFolder const own(output);
         tell_left_aside(
-            plan, compare::write_report_data(plan, campaign::activity_in(plan.folder), output / "data"));
+            other, compare::write_report_data(other, campaign::activity_in(other.folder), output / "data"));
         words.insert(words.end(), {"--with", fs::absolute(output).lexically_normal().string()});
     }
     return words;
 }
 
 int run_plot(PlotArguments const& options) {
-    std::vector<std::string> const print = words_for_print(options), columns = words_for_columns(options);
+    std::vector<std::string> const print = words_for_print(options);
     campaign::Plan const plan = campaign::open_plan(options.folder);
+    std::vector<std::string> const columns = words_for_columns(options, plan);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
     core::make_folder(output);

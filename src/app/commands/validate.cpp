@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 #include "app/commands/common_options.hpp"
 #include "app/python.hpp"
+#include "core/own_program.hpp"
 #include "core/parallel.hpp"
 
 #include <filesystem>
@@ -28,9 +29,9 @@ struct ValidateArguments {
 std::vector<std::string> script_arguments(ValidateArguments const& options) {
     std::vector<std::string> all = options.names;
     all.insert(all.end(),
-               {"--program", fs::read_symlink("/proc/self/exe").string(), "--output",
-                fs::absolute(options.output).string(), "--runs", fs::absolute(options.runs).string(),
-                "--jobs", std::to_string(options.jobs), "--points", std::to_string(options.points)});
+               {"--program", core::own_program().string(), "--output", fs::absolute(options.output).string(),
+                "--runs", fs::absolute(options.runs).string(), "--jobs", std::to_string(options.jobs),
+                "--points", std::to_string(options.points)});
     if (options.list) all.emplace_back("--list");
     if (options.long_ones) all.emplace_back("--long");
     if (options.store) all.emplace_back("--store");
