@@ -11,6 +11,7 @@
 #include <fstream>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace vibrotrough {
@@ -132,6 +133,31 @@ TEST(Design, ExclusionsSeeGivenAndDerivedValues) {
     EXPECT_NEAR(numbers[1], 1, 1e-12);
     EXPECT_NEAR(numbers[2], 3, 1e-12);
     EXPECT_DOUBLE_EQ(campaign.cases[2].layer.height.value(), 0.015);
+}
+
+// Many cases are made on all cores: they keep their order, and the mistake
+// that is reported is that of the first wrong case.
+TEST(Design, ManyCasesKeepTheirOrder) {
+    std::string heights;
+    for (int i = 0; i < 300; ++i) heights += fmt::format("{}\"{} um\"", i == 0 ? "" : ", ", 9000 + 10 * i);
+    std::string const many =
+        "[sweep]\n\"layer.height\" = [" + heights + "]\n\"trough.throw_number\" = [1, 2, 3, 4]\n";
+    auto const campaign = parse(many + "[[exclude]]\n\"trough.throw_number\" = 3\n");
+    EXPECT_EQ(campaign.excluded, 300u);
+    ASSERT_EQ(campaign.cases.size(), 900u);
+    for (int i = 0; i < 900; ++i) {
+        scenario::Scenario const& one = campaign.cases[static_cast<std::size_t>(i)];
+        EXPECT_DOUBLE_EQ(one.layer.height.value(), 1e-6 * (9000 + 10 * (i / 3)));
+    }
+    // The file is missing for all of them: the position is that of the key, whichever core met it first.
+    try {
+        parse("[sweep]\n\"layer.height\" = [" + heights +
+              "]\n\"grains.shape\" = [\"none.csv\", \"no.csv\"]\n");
+        FAIL() << "two files are missing";
+    } catch (core::InputError const& error) {
+        EXPECT_NE(std::string(error.what()).find("there is no file none.csv"), std::string::npos)
+            << error.what();
+    }
 }
 
 // Both methods put exactly one point into each of n slices of every dimension: Latin hypercubes by

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,8 +48,9 @@ using CaseValues = std::map<std::string_view, Value, ByLength>;
                            std::string_view instead);
 
 /// The files that were read for the cases of a campaign by name. Each is read once, however many cases use
-/// it.
+/// it. Cases are made on several cores; `one_case` is locked while one of them looks for a file or reads it.
 struct FilesRead {
+    std::mutex one_case;
     std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;                      ///< of clumps
     std::map<std::string, std::shared_ptr<Waveform const>> waveforms;                    ///< of the trough
     std::map<std::string, std::shared_ptr<TroughMesh const>> meshes;                     ///< of the trough

@@ -99,6 +99,7 @@ template <typename File>
 std::shared_ptr<File const> read_once(std::map<std::string, std::shared_ptr<File const>>& known,
                                       std::shared_ptr<File const> (*read)(NamedFile), GivenValue const& value,
                                       std::string_view advice) {
+    std::lock_guard const one_case(value.files_read().one_case);
     std::shared_ptr<File const>& file = known[value.word()];
     try {
         if (!file) file = read(value.file(value.word()));

@@ -40,6 +40,7 @@ void set_extra(EnginePlan& plan, GivenValue const& v) {
 void set_templates(Scenario& s, GivenValue const& v) {
     std::vector<std::string> names = v.words();
     std::ranges::sort(names);
+    std::lock_guard const one_case(v.files_read().one_case);
     auto& known = v.files_read().templates[names];
     if (!known) {
         DeckTemplates templates;
