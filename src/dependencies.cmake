@@ -112,10 +112,11 @@ function(vibrotrough_require_dependencies)
     endif()
 endfunction()
 
-# As a script: the table of BUILDING.md on standard output.
+# As a script: the page libraries.md on standard output.
 if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
     file(STRINGS ${vibrotrough_dependency_file} rows REGEX "^[^#]")
-    set(table "| library | for | Debian, Ubuntu | Fedora, Rocky with EPEL | conda-forge | Spack |\n|---|---|---|---|---|---|\n")
+    set(table "# The libraries of a build\n\nPrinted by `cmake -P src/dependencies.cmake` from [dependencies.txt](dependencies.txt). [BUILDING.md](BUILDING.md#the-libraries)\nsays which of them are needed for what.\n\n")
+    string(APPEND table "| library | for | Debian, Ubuntu | Fedora, Rocky with EPEL | conda-forge | Spack |\n|---|---|---|---|---|---|\n")
     set(last "")
     foreach(row IN LISTS rows)
         vibrotrough_dependency_fields("${row}")

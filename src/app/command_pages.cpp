@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 #include "core/version.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
@@ -113,6 +114,27 @@ std::string options_as_roff(CLI::App const& app) {
         text += fmt::format(".TP\n.B {}{}", as_roff(name), as_roff(summary_of(option->get_description())));
     }
     return text;
+}
+
+/// Text for a cell of a Markdown table.
+std::string as_cell(std::string text) {
+    for (std::string_view const mark : {"|", "*", "<", "["})
+        text = replaced(text, mark, "\\" + std::string(mark));
+    return text;
+}
+
+/// The options of a command as a Markdown table, without --help, which all have; empty when there are none.
+std::string options_as_table(CLI::App const& app) {
+    std::string rows;
+    for (CLI::Option const* const option : options_of(app)) {
+        std::vector<std::string> const names = spellings(*option);
+        if (std::ranges::find(names, "--help") != names.end()) continue;
+        std::string name = names.empty() ? option->get_name(true) : fmt::format("{}", fmt::join(names, ", "));
+        if (!names.empty() && !option->get_type_name().empty()) name += " " + option->get_type_name();
+        rows += fmt::format("| `{}` | {} |\n", replaced(name, "|", "\\|"),
+                            as_cell(summary_of(option->get_description())));
+    }
+    return rows.empty() ? "" : "\n| option | meaning |\n|---|---|\n" + rows;
 }
 
 /// A word between single quotes for bash, zsh and fish.
@@ -252,6 +274,24 @@ Interrupted.
 .BR liggghts (1),
 .BR paraview (1)
 )";
+}
+
+std::string command_reference(CLI::App const& program) {
+    std::string contents, sections;
+    for (Command const& command : commands_of(program)) {
+        if (command.words.empty()) continue;
+        std::string const name = fmt::format("{}", fmt::join(command.words, " "));
+        std::string const summary = summary_of(command.app->get_description()) + ".";
+        contents += fmt::format("| [`{}`](#vibrotrough-{}) | {} |\n", name, replaced(name, " ", "-"),
+                                as_cell(summary));
+        sections += fmt::format("\n## vibrotrough {}\n\n{}\n{}", name, as_cell(summary),
+                                options_as_table(*command.app));
+        std::string const footer = command.app->get_footer();
+        if (!footer.empty()) sections += "\n```text\n" + footer + "\n```\n";
+    }
+    return "# All commands\n\nPrinted by `vibrotrough manual --markdown`; `vibrotrough COMMAND --help` shows "
+           "the same for one command.\n\n| command | what it does |\n|---|---|\n" +
+           contents + sections;
 }
 
 std::string shell_completion(CLI::App const& program, std::string const& shell) {

@@ -12,6 +12,10 @@ namespace vibrotrough::app {
 /// the definition of the command line, so that both always agree.
 std::string manual_page(CLI::App const& program);
 
+/// The same in Markdown, for the page src/app/commands.md: a table of all commands, then each with its
+/// options and its help text.
+std::string command_reference(CLI::App const& program);
+
 /// What makes a shell complete commands and options.
 /// @param shell  "bash", "zsh" or "fish"
 /// @throws std::invalid_argument for any other shell

@@ -20,7 +20,7 @@ NAMES = {
 KEYS = {"scenario/model/run_settings.hpp", "scenario/model/run_settings.cpp", "scenario/reader/run_section.hpp", "scenario/reader/run_section.cpp"}
 ROWS = {"campaign/execute/scheduler.hpp", "campaign/execute/executors.cpp"}
 LINES_OF_A_ROW = 1
-PAGES = {"BUILDING.md", "campaign/README.md", "campaign/clusters.md", "scenario/README.md", "CHANGES.md"}
+PAGES = {"BUILDING.md", "campaign/README.md", "app/commands.md", "scenario/README.md", "scenario/keys.md", "CHANGES.md"}
 BUILD = {"campaign/CMakeLists.txt"}
 
 

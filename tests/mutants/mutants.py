@@ -1,12 +1,14 @@
 """What the tests are worth: makes the small mistakes (mutants) of mutants.toml and notes which test finds each.
 
 usage: mutants.py WORK [--only TEXT] [--rooms | --then] [--jobs N] [--table FILE]
+       mutants.py --check
 
 WORK      a folder for a copy of the sources, its build and the answers so far; a second call goes on where the first one stopped
 --only    mutants whose file contains TEXT
 --rooms   runs the tests of the mutant's room alone; by default the tests of `then` follow where these find nothing
 --then    runs the tests of `then` alone: what they are worth by themselves
---table   writes the answers as a table of Markdown
+--table   writes the answers as a page of Markdown, such as last_run.md
+--check   only compares last_run.md with mutants.toml: each row is a mutant that still exists, in the same order
 
 All mutants are compiled into one program; the environment variable VIBROTROUGH_MUTANT chooses the one that is alive. So sixty mutants cost
 one build. The work tree stays as it is.
@@ -32,6 +34,10 @@ WITHOUT_TESTS = {"app"}
 LEFT_OUT = "InTheDocs|InParaView|RenderCase"
 PATIENCE = 1200  # s, after which a mutant counts as found, by a test that stands still
 
+TITLE = """# The last run of the mutants
+
+Written by `mutants.py --table`. [README.md](README.md#last-run) says how it was run and what **nothing** means.
+"""
 HEADER = """#ifdef __cplusplus
 #include <cstdlib>
 inline bool vibrotrough_mutant(int number) {
@@ -118,29 +124,53 @@ def key(mutant: dict[str, Any]) -> str:
     return " ~ ".join(mutant[name] for name in ("file", "line", "expression", "becomes"))
 
 
+def beginning_of_row(mutant: dict[str, Any]) -> str:
+    """The cells of the table that say which mutant it is."""
+    cells = [mutant["file"], f"`{mutant['expression']}`", f"`{mutant['becomes']}`" if mutant["becomes"] else "(dropped)"]
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
 def write_table(path: pathlib.Path, mutants: list[dict[str, Any]], answers: dict[str, Any]) -> None:
-    rows = ["| file | expression | becomes | found by | s |", "|---|---|---|---|--:|"]
+    rows = [TITLE, "| file | expression | becomes | found by | s |", "|---|---|---|---|--:|"]
     for mutant in mutants:
         if answer := answers.get(key(mutant)):
-            cells = [mutant["file"], f"`{mutant['expression']}`", f"`{mutant['becomes']}`" if mutant["becomes"] else "(dropped)",
-                     answer["by"] or "**nothing**", str(answer["seconds"])]
-            rows.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+            rows.append(f"{beginning_of_row(mutant)} {answer['by'] or '**nothing**'} | {answer['seconds']} |")
     path.write_text("\n".join(rows) + "\n")
+
+
+def check_table(path: pathlib.Path, mutants: list[dict[str, Any]]) -> int:
+    """Names the rows of a written table that are no mutant, or not in the order of the file; their number."""
+    begins = [beginning_of_row(mutant) for mutant in mutants]
+    rows = [row for row in path.read_text(encoding="utf-8").splitlines() if row.startswith("| ") and not row.startswith("| file |")]
+    at, wrong = 0, []
+    for row in rows:
+        places = [i for i in range(at, len(begins)) if row.startswith(begins[i] + " ")]
+        if places:
+            at = places[0] + 1
+        else:
+            wrong.append(row)
+    print(f"{len(wrong)} of {len(rows)} rows of {path.name} are no mutant of mutants.toml; run them again with --table", *wrong, sep="\n")
+    return len(wrong) if rows else 1
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path, nargs="?")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--rooms", action="store_true")
     parser.add_argument("--then", action="store_true")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--table", type=pathlib.Path)
     chosen = parser.parse_args()
+    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
+    if chosen.check:
+        return 1 if check_table(HERE / "last_run.md", mutants) else 0
+    if not chosen.work:
+        parser.error("WORK is missing")
     stages = {"rooms"} if chosen.rooms else {"then"} if chosen.then else {"rooms", "then"}
     os.nice(10)
     work = chosen.work.resolve()
-    mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
     copy_sources(work / "source", mutants)
     rooms = sorted({mutant["file"].split("/")[0] for mutant in mutants} - WITHOUT_TESTS)
     folder = build(work, chosen.jobs, ["vibrotrough", *(f"{room}_tests" for room in rooms)] if stages == {"rooms"} else ["all"])

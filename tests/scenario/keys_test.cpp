@@ -17,10 +17,10 @@ namespace {
 
 using nlohmann::literals::operator""_json_pointer;
 
-// The table of keys in src/scenario/README.md is the one that the program prints.
-TEST(Keys, ReadmeHoldsTheReference) {
-    EXPECT_NE(core::read_file(README_FILE).find(scenario::key_reference()), std::string::npos)
-        << "paste the output of 'vibrotrough keys' into " << README_FILE;
+// The page src/scenario/keys.md is what the program prints.
+TEST(Keys, ThePageIsTheReference) {
+    EXPECT_EQ(core::read_file(KEYS_PAGE), scenario::key_reference())
+        << "write it again: vibrotrough keys > src/scenario/keys.md";
 }
 
 // The examples are quoted in errors, so they must be valid.

@@ -18,7 +18,7 @@ void add_keys(CLI::App& program, int& exit_code) {
     command->add_flag("--schema", *schema,
                       "Print a JSON Schema, with which editors complete and explain the keys");
     command->footer(
-        R"(Prints a Markdown table with an example, the range, the default and the meaning of each key.
+        R"(Prints a page in Markdown with an example, the range, the default and the meaning of each key.
 
 Examples:
   vibrotrough keys | less

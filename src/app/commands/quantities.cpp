@@ -2,6 +2,7 @@
 #include "app/exit_code.hpp"
 #include "compare/exports.hpp"
 #include "compare/stage_rows.hpp"
+#include "core/outcome.hpp"
 #include "store/reference.hpp"
 
 #include <memory>
@@ -20,7 +21,8 @@ std::string reference() {
            "Printed by `vibrotrough quantities`. What the shapes, the tables and the missing values mean is "
            "explained in\n[src/store](README.md) and [src/compare](../compare/README.md).\n\n" +
            store::file_reference() + "\n## Columns of compare\n\n" + compare::column_reference() +
-           "\n## Columns of compare --stages\n\n" + compare::column_reference(compare::stage_columns());
+           "\n## Columns of compare --stages\n\n" + compare::column_reference(compare::stage_columns()) +
+           "\n## Outcomes\n\nWhat a case or a packing can come to.\n\n" + core::outcome_reference();
 }
 
 Json list_of(std::vector<store::NameInFile> const& names) {
@@ -51,8 +53,8 @@ void add_quantities(CLI::App& program, int& exit_code) {
     command->add_flag("--json", *json,
                       "Print it for scripts, with the names of version 0.2.0 that were replaced");
     command->footer(
-        R"(Prints Markdown tables with name, type, units and meaning of everything in result.h5 and campaign.h5, and of the
-columns of compare.
+        R"(Prints Markdown tables with name, type, units and meaning of everything in result.h5 and campaign.h5, of the
+columns of compare, and of the outcomes.
 
 Examples:
   vibrotrough quantities | less

@@ -117,7 +117,11 @@ std::vector<std::string_view> choices(Key const& key) {
 }
 
 std::string key_reference() {
-    std::string text = "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
+    std::string text =
+        "# All keys of the campaign file\n\nPrinted by `vibrotrough keys`. \"Exactly one of these\" refers "
+        "to "
+        "neighbouring rows. [src/scenario](README.md)\nexplains how keys work together.\n\n"
+        "| key | example | range | default | meaning |\n|---|---|---|---|---|\n";
     std::vector<Key> all = table();
     all.insert(all.end(), run_keys().begin(), run_keys().end());
     for (Key const& key : all) {
