@@ -1,4 +1,4 @@
-"""Sentences of .github/SECURITY.md about what other people's files and names make the program do: each has a test of the name that the page gives."""
+"""What the program promises about other people's files and names: each docstring is a sentence of .github/PROMISES.md (promises.py)."""
 
 import hashlib
 import json
@@ -29,6 +29,9 @@ class ForeignFiles(EndToEndTest):
             self.assertIn(part, done.stderr)
 
     def test_no_command_of_a_campaign_file_reaches_the_engine_unasked(self):
+        """The commands of `engine.extra` and `engine.templates`, which LIGGGHTS would run, reach a deck or the engine only when the person gives
+        `--allow-extra`.
+        """
         campaign = self.write_campaign(ONE)
         proofs = lambda: list(self.folder.glob("**/executed"))  # noqa: E731 - LIGGGHTS splits the words, so a name without a folder
         (self.folder / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
@@ -51,6 +54,7 @@ class ForeignFiles(EndToEndTest):
         self.assertNotEqual(proofs(), [])
 
     def test_no_command_of_an_added_case_reaches_the_engine_unasked(self):
+        """The same holds for commands of a case that lies in a campaign's folder as if the program had added it."""
         campaign = self.write_campaign(ONE)
         plain = campaign.read_text()
         domain = self.folder / "domain.toml"
@@ -72,6 +76,7 @@ class ForeignFiles(EndToEndTest):
         self.assertEqual(self.take_starts(), [])
 
     def test_no_library_of_the_current_folder_is_loaded(self):
+        """No shared library of the current folder is loaded."""
         needed = re.findall(r"^\s*(\S+) => /", subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout, re.MULTILINE)
         self.assertIn("libstdc++.so.6", needed)
         for name in needed:
@@ -80,6 +85,7 @@ class ForeignFiles(EndToEndTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_no_task_runs_commands_of_a_campaign_unasked(self):
+        """`run` and `prepare` pass `--allow-extra` on to the tasks of a cluster only when it, or `--templates`, was given to them."""
         campaign, tasks = self.write_campaign(ONE), self.folder / "tasks"
         (self.folder / "x.liggghts").write_text("[after-contact]\nshell touch executed\n")
         campaign.write_text(campaign.read_text() + '[engine]\nextra = "x.liggghts"\n')
@@ -94,6 +100,7 @@ class ForeignFiles(EndToEndTest):
         self.assertNotEqual(list(self.folder.glob("**/executed")), [])
 
     def test_devices_and_pipes_are_written_into(self):
+        """A character device or a pipe that `--output` names is written into and not replaced; a disk, a socket and links to any of them are refused."""
         trace = ["theory", "trace", "--throw-number", 2, "--vibration-angle", "30 deg", "--friction", 0.4, "--output"]
         expected = self.call(*trace[:-1]).stdout
         pipe = self.folder / "pipe.csv"
@@ -122,6 +129,7 @@ class ForeignFiles(EndToEndTest):
             self.assertTrue(stat.S_ISCHR(null.stat().st_mode), command)
 
     def test_a_private_file_stays_private(self):
+        """A file that is replaced hands on its mode."""
         page = self.folder / "trace.csv"
         for mode in (0o600, 0o640, 0o444):
             page.write_text("")
@@ -133,7 +141,11 @@ class ForeignFiles(EndToEndTest):
             page.chmod(0o600)
 
     def test_numbers_of_other_files_are_not_believed(self):
-        """The checksum of a result covers its own bytes; HDF5 fetches external and virtual data and what links lead to from other files."""
+        """Numbers of a result lie in its own file: an HDF5 file with links, external storage or virtual datasets is damaged to the program and to its Python
+        module.
+
+        The checksum of a result covers its own bytes; HDF5 fetches external and virtual data and what links lead to from other files.
+        """
         self.run_campaign(self.write_campaign(ONE), wanted=None)
         (result,) = self.results()
         foreign, table = self.folder / "foreign.h5", "series/1"
@@ -189,7 +201,11 @@ class ForeignFiles(EndToEndTest):
         os.utime(result, ns=(times.st_atime_ns, times.st_mtime_ns))
 
     def test_no_number_of_a_damaged_result_is_shown(self):
-        """Its summary beside it is sound, and size and times are the old ones: only the hash of the result tells."""
+        """Before a number of a result is shown, drawn or published by `compare`, `plot`, `report`, `export` or `archive`, its bytes are compared with their
+        SHA-256; size and times are not believed. `status` and `plan`, which publish none, believe them.
+
+        Its summary beside it is sound, and size and times are the old ones: only the hash of the result tells.
+        """
         campaign = self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.2]})
         self.run_campaign(campaign, wanted=None)
         before = self.table()
@@ -231,6 +247,9 @@ class ForeignFiles(EndToEndTest):
         self.assertFalse(bundle.exists())
 
     def test_what_is_left_aside_is_said(self):
+        """What lies in a campaign's folder and cannot be used is named in one line by `status`, `compare`, `export`, `plot`, `report` and `archive`: folders and
+        files of a case, and a frozen campaign file that was changed. `archive` refuses it without `--partial`.
+        """
         self.run_campaign(self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.1, 2.2]}), wanted=None)
         self.assertEqual(self.call("status", self.output).stderr, "", "nothing is left aside")
         first, second, _ = (self.output / "cases" / row["case"] for row in self.table())
@@ -263,6 +282,7 @@ class ForeignFiles(EndToEndTest):
         self.assertEqual(self.call("compare", self.output).stderr, "")
 
     def test_a_folder_that_may_not_be_read_is_said(self):
+        """So is a folder of a campaign that may not be read."""
         self.run_campaign(self.write_campaign(ONE, {"trough.throw_number": [2.0, 2.1]}), wanted=None)
         case = self.output / "cases" / self.table()[0]["case"]
         stranger = {"user": 65534, "group": 65534} if os.geteuid() == 0 else {}
@@ -286,7 +306,10 @@ class ForeignFiles(EndToEndTest):
                 (case / "result").rename(case / "result.h5")
 
     def test_what_is_drawn_is_what_was_checked(self):
-        """campaign.h5 and the results are drawn by Python, which looks at their hashes itself."""
+        """The figures are drawn from the very bytes whose SHA-256 was found right.
+
+        campaign.h5 and the results are drawn by Python, which looks at their hashes itself.
+        """
         self.run_campaign(self.write_campaign(ONE), wanted=None)
         self.assertEqual(self.call("plot", self.output, "--only", "cycles").returncode, 0)
         (result,) = self.results()

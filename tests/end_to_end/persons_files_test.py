@@ -1,4 +1,5 @@
-"""Sentences of .github/SECURITY.md about what a person, or chance, puts into a campaign's folder: each has a test of the name that the page gives."""
+"""What the program promises about what a person, or chance, puts into a campaign's folder: each docstring is a sentence of
+.github/PROMISES.md (promises.py)."""
 
 import os
 import resource
@@ -38,6 +39,9 @@ class PersonsFiles(EndToEndTest):
         return self.run_campaign(campaign, wanted=None)
 
     def test_what_a_person_put_into_a_folder_stays(self):
+        """When a packing is repeated, only the files are removed that the program and the engine write there, by list; of temporary files only those with the
+        name of a process that nobody holds locked.
+        """
         campaign = self.write_campaign(ONE | {"output.frames_per_cycle": 4})
         self.run_campaign(campaign, wanted=None)
         case, (settled,) = self.only_case(), (self.output / "packings").iterdir()
@@ -62,6 +66,7 @@ class PersonsFiles(EndToEndTest):
         self.assertEqual(sorted(path.name for path in packing.rglob("*") if path not in mine and path.name != "own folder"), names)
 
     def test_the_deck_that_ran_is_stored(self):
+        """The deck that ran is stored and archived, whatever lies in its place since."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         (result,) = self.results()
@@ -83,6 +88,7 @@ class PersonsFiles(EndToEndTest):
         self.assertEqual((self.folder / "unpacked" / deck.relative_to(self.output)).read_text(), before)
 
     def test_a_damaged_result_that_is_replaced_is_said(self):
+        """A damaged result that `run` replaces is named on standard error and in `campaign.log`."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         (result,) = self.results()
@@ -94,6 +100,7 @@ class PersonsFiles(EndToEndTest):
         self.assertNotIn("is damaged", self.run_campaign(campaign, wanted=None).stderr)
 
     def test_no_pipe_is_waited_for(self):
+        """A pipe in place of any file of a campaign, or of what its link leads to, is not waited for."""
         campaign = self.write_campaign(ONE | {"output.frames_per_cycle": 4})
         self.run_campaign(campaign, wanted=None)
         case = self.only_case()
@@ -125,6 +132,9 @@ class PersonsFiles(EndToEndTest):
         self.assertIn("outputs-incomplete", self.call("status", self.output).stdout)
 
     def test_a_renamed_folder_is_not_the_engines_fault(self):
+        """A folder that is renamed, moved or removed while a packing in it is simulated ends the run with its name; nothing is recorded as a failure of the
+        engine.
+        """
         campaign = self.write_campaign(LONG)
         for place in ("", "cases", "case", "packing"):
             shutil.rmtree(self.output, ignore_errors=True)
@@ -152,7 +162,10 @@ class PersonsFiles(EndToEndTest):
             self.assertEqual(row["outcome"], "interrupted")
 
     def test_nothing_of_the_engine_stays(self):
-        """A child that runs on, and a daemon of its own session, hold the engine's output and its lock."""
+        """What an engine has started and left behind ends with it: its children and daemons that hold its lock and name its session in their environment.
+
+        A child that runs on, and a daemon of its own session, hold the engine's output and its lock.
+        """
         campaign = self.write_campaign(ONE)
         sleepers = lambda: [one for one in processes_in(self.output).values() if one == "sleep"]  # noqa: E731
         for command in ("sleep 1000 &", "setsid sleep 1000 & sleep 0.1"):
@@ -169,6 +182,9 @@ class PersonsFiles(EndToEndTest):
         self.assertIsNone(reader.poll())
 
     def test_nothing_half_written_stays(self):
+        """Where a limit of file size or a signal ends a command, no half-written file and no unpacked bundle stays, or the next command of the same name removes
+        it.
+        """
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         temporary = self.folder / "tmp"
@@ -202,7 +218,11 @@ class PersonsFiles(EndToEndTest):
         self.assertEqual(left(), [])
 
     def test_no_command_names_a_file_outside_of_the_deck(self):
-        """It would not be part of the case's id: the case would stay finished when the file changes."""
+        """A command of `engine.extra` or of a template that names a file outside of the deck's folder is refused, because the case would stay finished when that
+        file changes.
+
+        It would not be part of the case's id: the case would stay finished when the file changes.
+        """
         campaign = self.write_campaign(ONE)
         plain = campaign.read_text()
         extra, template = self.folder / "x.liggghts", self.folder / "trough.mustache"
@@ -226,7 +246,10 @@ class PersonsFiles(EndToEndTest):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_what_cannot_be_drawn_is_left_out(self):
-        """With the sample of the store, tests/postprocess/check_damage.py does the same to every value that is drawn."""
+        """What cannot be drawn is left out of figures and report and named in one line with its file.
+
+        With the sample of the store, tests/postprocess/check_damage.py does the same to every value that is drawn.
+        """
         self.run_campaign(self.write_campaign(ONE), wanted=None)
         page, certificate = self.output / "report" / "report.html", self.output / "certificate.json"
         whole = certificate.read_bytes()
@@ -243,6 +266,9 @@ class PersonsFiles(EndToEndTest):
                 self.assertIn("figure", page.read_text(encoding="utf-8"))
 
     def test_names_dress_up_nothing(self):
+        """Control characters, marks that change the direction of writing and bytes that are not UTF-8 in names of files and folders are shown escaped; a command
+        that is shown for copying still means the file.
+        """
         self.run_campaign(self.write_campaign(ONE), wanted=None)
         for name in ("gnp\u202eexe.", "red\x1b[31m", "title\x1b]0;x\x07 100%\\n'", "two\nlines", os.fsdecode(b"byte\xff")):
             place = self.folder / name

@@ -1,8 +1,7 @@
-"""The sentences of .github/SECURITY.md, each as a test of the name that the page gives."""
+"""What the program promises about folders and engines: each docstring is a sentence of .github/PROMISES.md (promises.py)."""
 
 import json
 import os
-import re
 import shutil
 import signal
 import stat
@@ -13,7 +12,6 @@ from pathlib import Path
 
 from trough_program import PATIENCE, PROGRAM, EndToEndTest, count_cycles, engines_in, pause, processes_in, wait_until
 
-PAGE = Path(__file__).parent.parent.parent / ".github" / "SECURITY.md"
 ONE = {"measure.packings": 1, "measure.max_cycles": 24}
 # A settled filling, and a run that goes on for long enough to be looked at.
 LONG = {"measure.packings": 1, "measure.max_cycles": 100_000, "measure.half_width": 0.0001, "output.checkpoint_cycles": 5}
@@ -47,15 +45,8 @@ class Security(EndToEndTest):
         for part in parts:
             self.assertIn(part, done.stderr)
 
-    def test_the_page_names_its_tests(self):
-        named = set(re.findall(r"`(test_\w+)`", PAGE.read_text(encoding="utf-8")))
-        there = set()
-        for file in (Path(__file__), Path(__file__).with_name("foreign_files_test.py"), Path(__file__).with_name("persons_files_test.py")):
-            there |= set(re.findall(r"def (test_\w+)", file.read_text(encoding="utf-8")))
-        there.remove("test_the_page_names_its_tests")
-        self.assertEqual(named, there)
-
     def test_no_python_module_of_a_folder_is_loaded(self):
+        """No Python module and no setting of the current folder or of a campaign's folder is loaded."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         proof = self.folder / "executed"
@@ -74,6 +65,7 @@ class Security(EndToEndTest):
             self.assertTrue(all(Path(line).is_file() for line in done.stdout.splitlines()), done.stdout)
 
     def test_nothing_is_written_or_removed_through_a_link(self):
+        """Below a campaign's folder nothing is written or removed through a symbolic link."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         case = self.only_case()
@@ -132,6 +124,7 @@ class Security(EndToEndTest):
         return campaign, self.only_case() / "packing-1"
 
     def test_the_files_of_the_engine_are_checked_before_it_starts(self):
+        """The engine's files are checked for links and for second names before the engine starts."""
         campaign, packing = self.begin_and_kill()
         killed = self.folder / "killed"
         shutil.copytree(self.output, killed)
@@ -168,6 +161,7 @@ class Security(EndToEndTest):
             self.assertEqual((copy / name).read_bytes(), content, name)
 
     def test_what_a_person_wrote_or_edited_is_not_replaced(self):
+        """A file that a person wrote or edited is not replaced."""
         campaign = self.write_campaign(ONE, name="mine.toml")
         for name in ("campaign.toml", "engine.json", "campaign.h5", "packings/note.making-of", "cases/letter"):
             folder = self.folder / f"folder {name.split('/')[0]}"
@@ -190,6 +184,7 @@ class Security(EndToEndTest):
         self.assertTrue((self.output / "packings" / "mine.making-of").is_dir())
 
     def test_only_regular_files_of_bounded_size_are_read(self):
+        """Only regular files of bounded size are read from a campaign's folder."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         batch = self.output / "slurm" / "0001"
@@ -218,6 +213,7 @@ class Security(EndToEndTest):
             file.truncate(10 << 30)  # needs no space on the disk
 
     def test_text_from_files_steers_nothing(self):
+        """Text from files cannot steer the terminal, a spreadsheet or a browser."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         case = self.only_case()
@@ -240,6 +236,7 @@ class Security(EndToEndTest):
         self.assertNotIn("\x1b", done.stderr)
 
     def test_a_marker_of_a_task_cannot_claim_a_result(self):
+        """A marker of a cluster's task cannot claim a result."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         case = self.only_case()
@@ -259,6 +256,7 @@ class Security(EndToEndTest):
         self.assertIn(r"well\x1b[31m", row["message"])
 
     def test_a_settled_packing_belongs_to_its_deck(self):
+        """A settled packing is used only for the deck that it was made with."""
         campaign = self.write_campaign(ONE | {"campaign.name": "small", "layer.grains": 40})
         self.run_campaign(campaign, wanted=None)
         (foreign,) = (self.output / "packings").iterdir()
@@ -280,6 +278,7 @@ class Security(EndToEndTest):
         return count
 
     def test_a_replaced_engine_is_noticed(self):
+        """An engine that is replaced while a campaign runs is noticed, and what it computed is not stored."""
         engine = self.folder / "liggghts"
         shutil.copy(self.engine, engine)
         campaign = self.write_campaign(ONE, {"layer.grains": [60, 62, 64]})
@@ -302,6 +301,7 @@ class Security(EndToEndTest):
         self.assertEqual(set(self.output.glob("cases/*/packing-*/packing.json")), finished, "nothing of it is stored")
 
     def test_the_folder_of_a_packing_has_one_writer(self):
+        """The folder of a packing has one writer."""
         # A wrapper that does not exec, as containers have one: the kernel ends it with the driver, but not its child.
         real = shutil.which("liggghts")
         wrapper = self.folder / "wrapper"
@@ -326,6 +326,7 @@ class Security(EndToEndTest):
         self.assertEqual(steps, sorted(set(steps)), "no cycle is there twice")
 
     def test_work_says_which_engine_it_starts(self):
+        """`work` prints the program that `engine.json` names before it starts it, and refuses another binary than that of the campaign."""
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign, wanted=None)
         case = self.only_case()
@@ -348,6 +349,7 @@ class Security(EndToEndTest):
         self.assert_refused(done, 3, f"engine: {other}", "not the binary that the campaign was planned with")
 
     def test_a_folder_that_is_removed_is_not_made_again(self):
+        """A folder that is removed while a campaign runs is not made again."""
         campaign = self.write_campaign(LONG)
         driver = self.start_campaign(campaign)
         self.wait_for_cycles(driver, 1)
