@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints the table of README.md: the classes of what went wrong on other people's machines and with other people's files, with the numbers of
+"""Prints the classes of what went wrong on other people's machines and with other people's files, with the numbers of
 tests that were tried and that held with a program.
 
 usage: classes.py PROGRAM [SITUATIONS]
