@@ -30,6 +30,11 @@ std::string efficiency_cell(Row const& row) {
     return three_digits(efficiency) + (efficiency && width ? " +- " + three_digits(width) : "");
 }
 
+std::string atlas_cell(Row const& row) {
+    auto const width = row.efficiency_atlas_half_width;
+    return three_digits(row.efficiency_atlas) + (width ? " +- " + three_digits(width) : "");
+}
+
 /// A mass flow in t/h with its half-width.
 std::string flow_cell(Row const& row, std::string const& quantity) {
     auto const flow = row.number(quantity), width = row.number(quantity + "_half_width");
@@ -51,6 +56,7 @@ void set_cells(std::vector<Column>& columns) {
         found->cell = cell;
     };
     set("efficiency", efficiency_cell);
+    set("efficiency_atlas", atlas_cell);
     set("cycles_measured", cycles_cell);
     set("mass_flow_t_per_h", [](Row const& row) { return flow_cell(row, "mass_flow"); });
     set("mass_flow_per_width_t_per_h_m",
@@ -96,6 +102,21 @@ std::vector<Column> theory_columns() {
              TerminalView{
                  .heading = "eta rolling", .subheading = "layer law", .priority = 2, .only_when_known = true},
          .report = ReportView{.heading = "\u03b7, rolling layer"}},
+        {.name = "efficiency_atlas",
+         .unit = "1",
+         .value = field<&Row::efficiency_atlas>,
+         .meaning = "Velocity efficiency from the atlas, a surface over simulated layers of spheres; unknown "
+                    "for layers outside of it",
+         .format = "{:.3f}",
+         .position = 97,
+         .terminal =
+             TerminalView{
+                 .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
+         .report = ReportView{.heading = "\u03b7, atlas"}},
+        {.name = "efficiency_atlas_half_width",
+         .unit = "1",
+         .value = field<&Row::efficiency_atlas_half_width>,
+         .meaning = "Half-width of the 95 % interval of efficiency_atlas"},
         {.name = "mode_theory",
          .unit = "1",
          .value = field<&Row::mode_theory>,

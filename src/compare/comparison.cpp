@@ -1,5 +1,6 @@
 #include "compare/comparison.hpp"
 
+#include "atlas/atlas.hpp"
 #include "prepare/softness.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
@@ -51,6 +52,14 @@ void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
     if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
     double const depth = prepared.layer_height / mean_diameter(prepared.scenario);
     row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law, depth);
+}
+
+/// Adds what the atlas says of a layer that lies inside of it.
+void add_atlas(Row& row, prepare::PreparedCase const& prepared) {
+    atlas::Answer const answer = atlas::predict(prepared);
+    if (!answer.is_inside()) return;
+    row.efficiency_atlas = answer.efficiency;
+    row.efficiency_atlas_half_width = answer.half_width;
 }
 
 /// Adds the theory at the friction of the layer as a whole. The effect of side walls is already included in
@@ -203,6 +212,7 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
     bool const is_steady = prepared.stages.empty();  // the theories are for one drive without end
     if (is_steady) add_theory(row, prepared.point_mass);
     if (is_steady) add_rolling_layer(row, prepared);
+    add_atlas(row, prepared);
     if (friction && is_steady) add_layer_theory(row, prepared.point_mass, *friction);
     if (record) add_measurement(row, *record);
     return row;

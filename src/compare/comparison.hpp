@@ -27,14 +27,16 @@ struct Row {
     double frequency_hz;                             ///< Hz
     std::optional<double> efficiency_theory;         ///< none when the point mass has no mean speed
     std::optional<double> efficiency_rolling_layer;  ///< none outside the tested range of that law
-    std::optional<std::string> mode_theory;          ///< phases of that point mass in order
-    std::optional<std::string> layer_mode;           ///< phases of the layer as a whole in order
-    std::optional<double> friction_layer;            ///< of the layer as a whole, from a friction test
-    std::optional<double> friction_layer_low;        ///< lower end of its interval
-    std::optional<double> friction_layer_high;       ///< upper end of its interval
-    std::optional<double> efficiency_theory_layer;   ///< theory at the layer's friction
-    std::optional<std::string> mode_theory_layer;    ///< mode at the layer's friction
-    std::string outcome;                             ///< how the case ended, or what it waits for
+    std::optional<double> efficiency_atlas;          ///< none outside the atlas of simulated layers
+    std::optional<double> efficiency_atlas_half_width;  ///< of its 95 % interval
+    std::optional<std::string> mode_theory;             ///< phases of that point mass in order
+    std::optional<std::string> layer_mode;              ///< phases of the layer as a whole in order
+    std::optional<double> friction_layer;               ///< of the layer as a whole, from a friction test
+    std::optional<double> friction_layer_low;           ///< lower end of its interval
+    std::optional<double> friction_layer_high;          ///< upper end of its interval
+    std::optional<double> efficiency_theory_layer;      ///< theory at the layer's friction
+    std::optional<std::string> mode_theory_layer;       ///< mode at the layer's friction
+    std::string outcome;                                ///< how the case ended, or what it waits for
     /// Values of the campaign's swept keys in their order (columns_with_swept); angles in degrees.
     std::vector<std::optional<Value>> swept = {};
     /// Of a row of stage_rows(): the values of its stage_columns(); empty in other rows.

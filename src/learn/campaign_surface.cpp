@@ -33,9 +33,9 @@ std::optional<double> theory_of(prepare::PreparedCase const& prepared) {
     return motion.velocity_efficiency;
 }
 
-std::vector<SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMaker const& maker,
-                                    std::map<std::string, scenario::Content> const& words) {
-    std::vector<SurfaceInput> inputs;
+std::vector<atlas::SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMaker const& maker,
+                                           std::map<std::string, scenario::Content> const& words) {
+    std::vector<atlas::SurfaceInput> inputs;
     for (std::string const& key : maker.varied_keys()) {
         if (scenario::has_words(*scenario::find_key(key))) {
             if (words.contains(key)) continue;
@@ -49,8 +49,8 @@ std::vector<SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMa
             inputs.push_back({key, given->low, given->high});
             continue;
         }
-        SurfaceInput range{key, std::numeric_limits<double>::infinity(),
-                           -std::numeric_limits<double>::infinity()};
+        atlas::SurfaceInput range{key, std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
         for (campaign::PlannedCase const& planned : plan.cases) {
             auto const value = scenario::number_of(planned.scenario(), key);
             if (!value) continue;
@@ -66,9 +66,10 @@ std::vector<SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMa
 }
 
 /// The inputs of a case; nothing when one has no number.
-std::optional<Place> place_of(scenario::Scenario const& scenario, std::vector<SurfaceInput> const& inputs) {
-    Place place;
-    for (SurfaceInput const& input : inputs) {
+std::optional<atlas::Place> place_of(scenario::Scenario const& scenario,
+                                     std::vector<atlas::SurfaceInput> const& inputs) {
+    atlas::Place place;
+    for (atlas::SurfaceInput const& input : inputs) {
         auto const value = scenario::number_of(scenario, input.key);
         if (!value) return {};
         place.push_back(*value);
@@ -76,7 +77,8 @@ std::optional<Place> place_of(scenario::Scenario const& scenario, std::vector<Su
     return place;
 }
 
-double distance(Place const& a, Place const& b, std::vector<SurfaceInput> const& inputs) {
+double distance(atlas::Place const& a, atlas::Place const& b,
+                std::vector<atlas::SurfaceInput> const& inputs) {
     double sum = 0;
     for (std::size_t k = 0; k < inputs.size(); ++k)
         sum += std::pow((a[k] - b[k]) / (inputs[k].high - inputs[k].low), 2);
@@ -85,13 +87,13 @@ double distance(Place const& a, Place const& b, std::vector<SurfaceInput> const&
 
 }  // namespace
 
-scenario::Scenario CampaignTheory::scenario_at(Place const& place) const {
+scenario::Scenario CampaignTheory::scenario_at(atlas::Place const& place) const {
     auto values = words_;
     for (std::size_t k = 0; k < inputs_.size(); ++k) values[inputs_[k].key] = place[k];
     return maker_.make(values);
 }
 
-std::optional<double> CampaignTheory::efficiency_at(Place const& place) const {
+std::optional<double> CampaignTheory::efficiency_at(atlas::Place const& place) const {
     try {
         return theory_of(prepare::prepare_case(scenario_at(place)));
     } catch (core::InputError const&) {
@@ -131,9 +133,9 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
     return found;
 }
 
-CaseKeptApart const* nearest_kept_apart(CampaignPoints const& points, Place const& place) {
+CaseKeptApart const* nearest_kept_apart(CampaignPoints const& points, atlas::Place const& place) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (SurfacePoint const& point : points.points)
+    for (atlas::SurfacePoint const& point : points.points)
         nearest = std::min(nearest, distance(point.place, place, points.inputs));
     CaseKeptApart const* found = nullptr;
     for (CaseKeptApart const& one : points.apart) {

@@ -32,7 +32,7 @@ Json if_known(RiskDesign const& d, double value) {
 
 Json as_json(RiskDesign const& d, ModelForecast const& f) {
     auto const half_width = [&](double ModelEfficiency::*sd) {
-        return f.efficiency ? Json(deviations_in_half_width * ((*f.efficiency).*sd)) : Json(nullptr);
+        return f.efficiency ? Json(atlas::deviations_in_half_width * ((*f.efficiency).*sd)) : Json(nullptr);
     };
     return {{"model", f.model},
             {"median_speed_m_per_s", f.median_speed},
@@ -45,7 +45,7 @@ Json as_json(RiskDesign const& d, ModelForecast const& f) {
             {"efficiency_half_width", half_width(&ModelEfficiency::statistics_sd)},
             {"numerical_error", half_width(&ModelEfficiency::numerics_sd)},
             {"efficiency_whole_half_width",
-             f.efficiency ? Json(deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
+             f.efficiency ? Json(atlas::deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
 }
 
 Json rules_of_thumb(RiskDesign const& d) {
@@ -96,7 +96,7 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
 /// statistics and how much numerics. Empty for an exact theory.
 std::string own_uncertainty(ModelForecast const& f) {
     if (!f.efficiency || f.efficiency->sd() == 0) return "";
-    auto const half_width = [](double sd) { return deviations_in_half_width * sd; };
+    auto const half_width = [](double sd) { return atlas::deviations_in_half_width * sd; };
     return fmt::format(
         "\n{}: velocity efficiency {:.3f} +- {:.3f}, of which statistics {:.3f} and numerical errors of the "
         "simulations {:.3f} (at the median of the friction)\n",

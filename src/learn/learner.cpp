@@ -26,11 +26,11 @@ constexpr int least_points_per_input = 10;
 
 /// What a step would bring, for comparing candidates.
 struct Candidate {
-    SurfacePoint point;   ///< as if it were known already
-    std::string case_id;  ///< of a case that goes on
-    double wanted;        ///< half-width of the case
-    double core_time;     ///< s
-    double worth = 0;     ///< reduction of the relative variances per core-second
+    atlas::SurfacePoint point;  ///< as if it were known already
+    std::string case_id;        ///< of a case that goes on
+    double wanted;              ///< half-width of the case
+    double core_time;           ///< s
+    double worth = 0;           ///< reduction of the relative variances per core-second
 };
 
 double median(std::vector<double> values) {
@@ -81,8 +81,8 @@ std::vector<Learner::DomainPoint> Learner::make_domain() const {
     auto const cube = scenario::sample_cube(scenario::SampleMethod::sobol, domain_points,
                                             static_cast<int>(axes.size()), domain_seed);
     for (auto const& row : cube) {
-        Place place;
-        for (SurfaceInput const& input : points_.inputs) {
+        atlas::Place place;
+        for (atlas::SurfaceInput const& input : points_.inputs) {
             auto const axis = std::ranges::find(axes, input.key, &scenario::DomainAxis::key);
             if (axis == axes.end())
                 throw core::InputError(fmt::format(
@@ -96,9 +96,9 @@ std::vector<Learner::DomainPoint> Learner::make_domain() const {
     return domain;
 }
 
-void Learner::concentrate_on(std::vector<Place> const& places) {
+void Learner::concentrate_on(std::vector<atlas::Place> const& places) {
     domain_.clear();
-    for (Place const& place : places) {
+    for (atlas::Place const& place : places) {
         if (auto const theory = theory_.efficiency_at(place)) domain_.push_back({place, *theory});
     }
     if (domain_.empty())
@@ -110,10 +110,10 @@ double Learner::first_half_width(scenario::Scenario const& scenario) const {
     return std::max(goal_.half_width, scenario.measure.half_width);
 }
 
-DomainCertainty Learner::certainty(Surface const& surface) const {
+DomainCertainty Learner::certainty(atlas::Surface const& surface) const {
     DomainCertainty found{{}, 0, {0, -1}, 0};
     for (DomainPoint const& point : domain_) {
-        SurfaceValue const value = surface.at(point.place, point.theory);
+        atlas::SurfaceValue const value = surface.at(point.place, point.theory);
         found.mean_half_width += value.half_width * value.half_width;
         if (value.half_width > found.at_worst.half_width) {
             found.at_worst = value;
@@ -156,7 +156,7 @@ bool Learner::has_reached(LearnStatus const& status, LearnGoal const& goal) {
 }
 
 std::vector<LearnStep> Learner::choose() const {
-    Surface believed = *surface_;
+    atlas::Surface believed = *surface_;
     std::vector<Candidate> candidates;
     std::vector<double> times;
     double spent = 0;
@@ -173,7 +173,7 @@ std::vector<LearnStep> Learner::choose() const {
              wanted,
              usual});
     }
-    for (SurfacePoint const& point : points_.points) {
+    for (atlas::SurfacePoint const& point : points_.points) {
         auto const planned = std::ranges::find(plan_.cases, point.case_id, &campaign::PlannedCase::id);
         double const wanted = narrowing * point.half_width;
         auto const& measure = planned->scenario().measure;
@@ -194,7 +194,7 @@ std::vector<LearnStep> Learner::choose() const {
     while (static_cast<int>(steps.size()) < goal_.batch && !candidates.empty()) {
         DomainCertainty const now = certainty(believed);
         for (Candidate& candidate : candidates) {
-            SurfacePoint const& p = candidate.point;
+            atlas::SurfacePoint const& p = candidate.point;
             double sum = 0;
             for (DomainPoint const& d : domain_)
                 sum += believed.variance_reduction(d.place, d.theory, p.place, p.theory, p.half_width);

@@ -20,10 +20,10 @@ struct LearnGoal {
 
 /// How well a surface is known over its domain.
 struct DomainCertainty {
-    Place worst;             ///< where the half-width is largest
-    double worst_theory;     ///< velocity efficiency of the theory there
-    SurfaceValue at_worst;   ///< of the surface there
-    double mean_half_width;  ///< root of the mean squared half-width
+    atlas::Place worst;            ///< where the half-width is largest
+    double worst_theory;           ///< velocity efficiency of the theory there
+    atlas::SurfaceValue at_worst;  ///< of the surface there
+    double mean_half_width;        ///< root of the mean squared half-width
 };
 
 /// Where learning stands.
@@ -32,7 +32,7 @@ struct LearnStatus {
     int apart;                        ///< that are kept apart
     int least_points;                 ///< that a surface with so many inputs needs to be trusted: 10 for each
     DomainCertainty certainty;        ///< of the domain
-    SurfaceQuality quality;           ///< of the surface
+    atlas::SurfaceQuality quality;    ///< of the surface
     std::vector<std::string> doubts;  ///< see Surface::doubts()
     double core_time;                 ///< s, spent on all results
     double core_time_to_go;           ///< s, forecast: the cost grows as the square of the precision
@@ -73,10 +73,10 @@ class Learner {
     /// Looks at these places alone instead of the whole domain, such as those at which a posterior lies.
     /// @param places  at least one at which the theory has a mean speed; @throws core::InputError when there
     /// is none
-    void concentrate_on(std::vector<Place> const& places);
+    void concentrate_on(std::vector<atlas::Place> const& places);
 
     /// Of the surface.
-    std::vector<SurfaceInput> const& inputs() const { return points_.inputs; }
+    std::vector<atlas::SurfaceInput> const& inputs() const { return points_.inputs; }
     /// Half-width that is wanted of a case at first: that of the surface, or of the campaign file if it is
     /// wider.
     double first_half_width(scenario::Scenario const& scenario) const;
@@ -89,11 +89,11 @@ class Learner {
 
   private:
     struct DomainPoint {
-        Place place;
+        atlas::Place place;
         double theory;
     };
     std::vector<DomainPoint> make_domain() const;
-    DomainCertainty certainty(Surface const& surface) const;
+    DomainCertainty certainty(atlas::Surface const& surface) const;
 
     campaign::Plan const& plan_;
     scenario::CaseMaker const& maker_;
@@ -103,7 +103,7 @@ class Learner {
     std::vector<DomainPoint> domain_;
     std::map<std::string, double> core_times_;  ///< s, of the cases with a result, by id
     std::map<std::string, double> wanted_;      ///< half-widths that were asked of cases, by id
-    std::optional<Surface> surface_;
+    std::optional<atlas::Surface> surface_;
 };
 
 }  // namespace vibrotrough::learn

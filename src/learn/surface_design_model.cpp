@@ -24,10 +24,10 @@ struct Source {
     double value;  ///< given by the user
 };
 
-std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
+std::vector<Source> sources_of(std::vector<atlas::SurfaceInput> const& inputs,
                                std::map<std::string, double> const& given) {
     std::vector<Source> sources;
-    for (SurfaceInput const& input : inputs) {
+    for (atlas::SurfaceInput const& input : inputs) {
         scenario::Key const* const machine = machine_key(input.key);
         bool const is_friction = input.key == friction_key;
         auto const found = given.find(input.key);
@@ -42,31 +42,32 @@ std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
         sources.push_back({machine, is_friction, found == given.end() ? 0 : found->second});
     }
     for (auto const& [key, value] : given) {
-        if (std::ranges::find(inputs, key, &SurfaceInput::key) == inputs.end())
+        if (std::ranges::find(inputs, key, &atlas::SurfaceInput::key) == inputs.end())
             throw core::InputError(fmt::format("--at {}: the campaign does not vary it", key));
     }
     return sources;
 }
 
 /// Whether the campaign varies a key of a group, such as "amplitude" (trough.amplitude, trough.stroke).
-bool varies(std::vector<SurfaceInput> const& inputs, std::string_view group) {
-    return std::ranges::any_of(
-        inputs, [&](SurfaceInput const& input) { return scenario::find_key(input.key)->group == group; });
+bool varies(std::vector<atlas::SurfaceInput> const& inputs, std::string_view group) {
+    return std::ranges::any_of(inputs, [&](atlas::SurfaceInput const& input) {
+        return scenario::find_key(input.key)->group == group;
+    });
 }
 
 /// The surface at the drives of a design.
 class SurfaceAtDrives {
   public:
-    SurfaceAtDrives(std::shared_ptr<Surface const> surface, CampaignTheory theory,
+    SurfaceAtDrives(std::shared_ptr<atlas::Surface const> surface, CampaignTheory theory,
                     std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
           theory_(std::move(theory)),
           sources_(std::move(sources)),
           numerics_(numerics),
           varies_friction_(std::ranges::any_of(sources_, &Source::is_friction)) {
-        Place middle;
+        atlas::Place middle;
         for (std::size_t k = 0; k < sources_.size(); ++k) {
-            SurfaceInput const& input = surface_->inputs()[k];
+            atlas::SurfaceInput const& input = surface_->inputs()[k];
             bool const chosen = sources_[k].machine != nullptr || sources_[k].is_friction;
             middle.push_back(chosen ? (input.low + input.high) / 2 : sources_[k].value);
         }
@@ -91,7 +92,7 @@ class SurfaceAtDrives {
         double most = -1;
         for (std::size_t k = 0; k < sources_.size(); ++k) {
             if (sources_[k].machine == nullptr) continue;
-            SurfaceInput const& input = surface_->inputs()[k];
+            atlas::SurfaceInput const& input = surface_->inputs()[k];
             double const value = value_at(*sources_[k].machine, drive), width = input.high - input.low;
             most = std::max({most, (value - input.high) / width, (input.low - value) / width});
         }
@@ -100,7 +101,7 @@ class SurfaceAtDrives {
 
   private:
     std::optional<ModelEfficiency> compute(theory::Drive const& drive, double friction) {
-        Place place;
+        atlas::Place place;
         for (Source const& source : sources_) {
             place.push_back(source.machine != nullptr ? value_at(*source.machine, drive)
                             : source.is_friction      ? friction
@@ -108,13 +109,13 @@ class SurfaceAtDrives {
         }
         auto const theory = theory_at(place, drive, friction);
         if (!theory) return {};
-        SurfaceValue const value = surface_->at(place, *theory);
-        return ModelEfficiency{value.efficiency, value.half_width / deviations_in_half_width,
-                               numerics_ / deviations_in_half_width};
+        atlas::SurfaceValue const value = surface_->at(place, *theory);
+        return ModelEfficiency{value.efficiency, value.half_width / atlas::deviations_in_half_width,
+                               numerics_ / atlas::deviations_in_half_width};
     }
 
     /// The theory at a place: fast for a plain sinusoid, else by the case itself.
-    std::optional<double> theory_at(Place const& place, theory::Drive const& drive, double friction) {
+    std::optional<double> theory_at(atlas::Place const& place, theory::Drive const& drive, double friction) {
         if (!is_plain_) return theory_.efficiency_at(place);
         double const mu = varies_friction_ ? friction : trough().friction;
         double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
@@ -123,7 +124,7 @@ class SurfaceAtDrives {
         return std::isfinite(eta) ? std::optional(eta) : std::nullopt;
     }
 
-    std::shared_ptr<Surface const> surface_;
+    std::shared_ptr<atlas::Surface const> surface_;
     CampaignTheory theory_;
     std::vector<Source> sources_;
     double numerics_;  ///< 95 % bound, in velocity efficiency
@@ -148,9 +149,9 @@ theory::Range fixed_at(char const* name, theory::Range const& range, double valu
 }
 
 /// The friction of the material must be one that the campaign has.
-void check_friction(std::vector<SurfaceInput> const& inputs, double campaign, KnownFriction const& known,
-                    std::vector<std::string>& remarks) {
-    auto const input = std::ranges::find(inputs, friction_key, &SurfaceInput::key);
+void check_friction(std::vector<atlas::SurfaceInput> const& inputs, double campaign,
+                    KnownFriction const& known, std::vector<std::string>& remarks) {
+    auto const input = std::ranges::find(inputs, friction_key, &atlas::SurfaceInput::key);
     if (input == inputs.end()) {
         if (campaign < known.low - 0.005 || campaign > known.high + 0.005) {
             throw core::InputError(fmt::format(
@@ -180,7 +181,7 @@ void check_friction(std::vector<SurfaceInput> const& inputs, double campaign, Kn
 
 }  // namespace
 
-DesignModel surface_design_model(std::shared_ptr<Surface const> surface, CampaignTheory const& theory,
+DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTheory const& theory,
                                  std::map<std::string, double> const& given, KnownFriction const& friction,
                                  double numerics, double discrepancy) {
     auto const inputs = surface->inputs();

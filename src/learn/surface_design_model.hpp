@@ -18,7 +18,7 @@ namespace vibrotrough::learn {
 /// @param numerics  CampaignPoints::numerics of the surface's cases
 /// @param discrepancy  standard deviation of what the surface misses of a real layer, in velocity efficiency
 /// @throws core::InputError when an input has no value, or the campaign cannot describe the material
-DesignModel surface_design_model(std::shared_ptr<Surface const> surface, CampaignTheory const& theory,
+DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTheory const& theory,
                                  std::map<std::string, double> const& given, KnownFriction const& friction,
                                  double numerics, double discrepancy = 0);
 

@@ -47,9 +47,9 @@ struct Source {
     scenario::Key const* machine;
 };
 
-Place place_from(std::vector<Source> const& sources, std::span<double const> values,
-                 MeasuredSpeed const& measured) {
-    Place place;
+atlas::Place place_from(std::vector<Source> const& sources, std::span<double const> values,
+                        MeasuredSpeed const& measured) {
+    atlas::Place place;
     for (Source const& source : sources)
         place.push_back(source.parameter ? values[*source.parameter]
                                          : value_at(*source.machine, drive_of(measured)));
@@ -58,41 +58,41 @@ Place place_from(std::vector<Source> const& sources, std::span<double const> val
 
 class SurfaceModel {
   public:
-    SurfaceModel(std::shared_ptr<Surface const> surface, CampaignTheory theory, std::vector<Source> sources,
-                 double numerics)
+    SurfaceModel(std::shared_ptr<atlas::Surface const> surface, CampaignTheory theory,
+                 std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
           theory_(std::move(theory)),
           sources_(std::move(sources)),
           numerics_(numerics) {}
 
-    Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
+    atlas::Place place(std::span<double const> values, MeasuredSpeed const& measured) const {
         return place_from(sources_, values, measured);
     }
 
     std::optional<ModelSpeed> operator()(std::span<double const> values,
                                          MeasuredSpeed const& measured) const {
-        Place const at = place(values, measured);
+        atlas::Place const at = place(values, measured);
         auto const theory = theory_.efficiency_at(at);
         if (!theory) return {};
         auto const [efficiency, half_width] = surface_->at(at, *theory);
         double const trough_speed = drive_of(measured).trough_speed();
-        double const sd = std::hypot(half_width, numerics_) / deviations_in_half_width;
+        double const sd = std::hypot(half_width, numerics_) / atlas::deviations_in_half_width;
         return ModelSpeed{efficiency * trough_speed, sd * trough_speed, trough_speed};
     }
 
     CampaignTheory const& theory() const { return theory_; }
 
   private:
-    std::shared_ptr<Surface const> surface_;
+    std::shared_ptr<atlas::Surface const> surface_;
     CampaignTheory theory_;
     std::vector<Source> sources_;
     double numerics_;  ///< 95 % bound, in velocity efficiency
 };
 
-std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
+std::vector<Source> sources_of(std::vector<atlas::SurfaceInput> const& inputs,
                                std::vector<std::string> const& free) {
     std::vector<Source> sources;
-    for (SurfaceInput const& input : inputs) {
+    for (atlas::SurfaceInput const& input : inputs) {
         auto const found = std::ranges::find(free, input.key);
         if (found != free.end()) {
             sources.push_back({static_cast<std::size_t>(found - free.begin()), nullptr});
@@ -104,7 +104,7 @@ std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
         }
     }
     for (std::string const& name : free) {
-        if (std::ranges::find(inputs, name, &SurfaceInput::key) == inputs.end())
+        if (std::ranges::find(inputs, name, &atlas::SurfaceInput::key) == inputs.end())
             throw core::InputError(fmt::format("--free {}: the campaign does not vary it", name));
         if (machine_key(name) != nullptr)
             throw core::InputError(
@@ -115,9 +115,9 @@ std::vector<Source> sources_of(std::vector<SurfaceInput> const& inputs,
 
 }  // namespace
 
-std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& inputs) {
+std::vector<FreeParameter> surface_parameters(std::vector<atlas::SurfaceInput> const& inputs) {
     std::vector<FreeParameter> parameters;
-    for (SurfaceInput const& input : inputs) {
+    for (atlas::SurfaceInput const& input : inputs) {
         if (machine_key(input.key) != nullptr) continue;
         std::string const unit(scenario::find_key(input.key)->unit);
         parameters.push_back({input.key, unit.empty() ? "1" : unit, {input.low, input.high}});
@@ -125,7 +125,7 @@ std::vector<FreeParameter> surface_parameters(std::vector<SurfaceInput> const& i
     return parameters;
 }
 
-SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseMaker const& maker,
+SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario::CaseMaker const& maker,
                          std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds,
                          double numerics) {
     auto const inputs = surface->inputs();
@@ -133,14 +133,14 @@ SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseM
                              numerics);
     std::vector<double> middle;
     for (std::string const& name : free) {
-        auto const input = std::ranges::find(inputs, name, &SurfaceInput::key);
+        auto const input = std::ranges::find(inputs, name, &atlas::SurfaceInput::key);
         middle.push_back((input->low + input->high) / 2);
     }
     for (MeasuredSpeed const& m : speeds) {
         if (!m.vibration_angle)
             throw core::InputError(
                 fmt::format("line {} has no vibration angle; write the column vibration_angle_deg", m.line));
-        Place const place = model.place(middle, m);
+        atlas::Place const place = model.place(middle, m);
         check_machine(model.theory().scenario_at(place), m);
         for (std::size_t k = 0; k < inputs.size(); ++k) {
             double const margin = 0.02 * (inputs[k].high - inputs[k].low);
@@ -154,14 +154,15 @@ SpeedModel surface_model(std::shared_ptr<Surface const> surface, scenario::CaseM
     return model;
 }
 
-std::vector<Place> posterior_places(std::vector<SurfaceInput> const& inputs,
-                                    std::vector<std::string> const& free, Calibration const& calibration,
-                                    std::vector<MeasuredSpeed> const& speeds) {
+std::vector<atlas::Place> posterior_places(std::vector<atlas::SurfaceInput> const& inputs,
+                                           std::vector<std::string> const& free,
+                                           Calibration const& calibration,
+                                           std::vector<MeasuredSpeed> const& speeds) {
     constexpr std::size_t most_draws = 40;
     auto const sources = sources_of(inputs, free);
     std::size_t const draws = calibration.parameters.front().draws.size();
     std::size_t const step = std::max<std::size_t>(1, draws / most_draws);
-    std::vector<Place> places;
+    std::vector<atlas::Place> places;
     for (std::size_t i = step / 2; i < draws; i += step) {
         std::vector<double> values;
         for (Estimate const& e : calibration.parameters) values.push_back(e.draws[i]);

@@ -48,7 +48,7 @@ TEST_F(LearnedCampaign, PointsAreWhatWasSimulated) {
     EXPECT_EQ(points.apart[0].case_id, plan.cases[3].id);
     EXPECT_EQ(points.missing, 1);
     ASSERT_EQ(points.inputs.size(), 2U);
-    auto const gamma = std::ranges::find(points.inputs, "trough.throw_number", &SurfaceInput::key);
+    auto const gamma = std::ranges::find(points.inputs, "trough.throw_number", &atlas::SurfaceInput::key);
     ASSERT_NE(gamma, points.inputs.end());
     EXPECT_EQ(gamma->low, 1);
     EXPECT_EQ(gamma->high, 3);
@@ -96,11 +96,11 @@ TEST(LearnerCoverage, IntervalsHoldTheTruthWhereNothingWasSimulated) {
         LearnStatus status{};
         EXPECT_TRUE(campaign.learn_until(learner, goal, status)) << status.certainty.at_worst.half_width;
         CampaignPoints const points = campaign_points(campaign.plan, *campaign.maker);
-        Surface const surface(points.inputs, points.points);
+        atlas::Surface const surface(points.inputs, points.points);
         CampaignTheory const theory(*campaign.maker, points.inputs, {});
         int here = 0;
         for (auto const& row : scenario::sample_cube(scenario::SampleMethod::sobol, 100, 2, 99)) {
-            Place place;
+            atlas::Place place;
             for (std::size_t k = 0; k < 2; ++k)
                 place.push_back(points.inputs[k].low +
                                 row[k] * (points.inputs[k].high - points.inputs[k].low));
@@ -108,7 +108,7 @@ TEST(LearnerCoverage, IntervalsHoldTheTruthWhereNothingWasSimulated) {
             double const eta = *theory.efficiency_at(place);
             double const truth =
                 SyntheticCampaign::layer_at(place[gamma_first ? 0 : 1], place[gamma_first ? 1 : 0], eta);
-            SurfaceValue const value = surface.at(place, eta);
+            atlas::SurfaceValue const value = surface.at(place, eta);
             here += std::abs(truth - value.efficiency) <= value.half_width ? 1 : 0;
         }
         std::cout << "seed " << seed << ": " << here << " of 100 places, " << points.points.size()

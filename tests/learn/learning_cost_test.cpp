@@ -19,20 +19,21 @@ namespace {
 // 1 core-second at 0.02.
 
 constexpr double goal = 0.05;
-std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"grains.rolling_friction", 0, 0.3}};
+std::vector<atlas::SurfaceInput> const inputs{{"trough.throw_number", 1, 3},
+                                              {"grains.rolling_friction", 0, 0.3}};
 
-double theory_at(Place const& p) {
+double theory_at(atlas::Place const& p) {
     return theory::solve(theory::PointMass{p[0], std::tan(std::acos(-1.0) / 6), 0, 0.23}).velocity_efficiency;
 }
-double layer_at(Place const& p) {
+double layer_at(atlas::Place const& p) {
     return SyntheticCampaign::layer_at(p[0], p[1], theory_at(p));
 }
 double cost_of_a_case(double half_width) {
     return std::pow(0.02 / half_width, 2);
 }
 
-std::vector<Place> sobol_places(int count, unsigned seed) {
-    std::vector<Place> places;
+std::vector<atlas::Place> sobol_places(int count, unsigned seed) {
+    std::vector<atlas::Place> places;
     for (auto const& row : scenario::sample_cube(scenario::SampleMethod::sobol, count, 2, seed))
         places.push_back({1 + 2 * row[0], 0.3 * row[1]});
     return places;
@@ -50,12 +51,12 @@ double sobol_cases_without_trend() {
     auto const is_known = [&](int count, unsigned seed) {
         std::mt19937_64 random(seed);
         std::normal_distribution<double> normal;
-        std::vector<SurfacePoint> points;
-        for (Place const& p : sobol_places(count, 1))
+        std::vector<atlas::SurfacePoint> points;
+        for (atlas::Place const& p : sobol_places(count, 1))
             points.push_back({"case", p, theory_at(p), layer_at(p) + goal / 1.96 * normal(random), goal});
-        Surface const surface(inputs, points, Trend::constant);
-        return std::ranges::all_of(asked,
-                                   [&](Place const& p) { return surface.at(p, 0).half_width <= goal; });
+        atlas::Surface const surface(inputs, points, atlas::Trend::constant);
+        return std::ranges::all_of(
+            asked, [&](atlas::Place const& p) { return surface.at(p, 0).half_width <= goal; });
     };
     std::vector<double> counts;
     for (unsigned const seed : {5U, 6U, 7U}) {
@@ -76,7 +77,7 @@ int grid_cases() {
     auto const asked = sobol_places(400, 99);
     for (int n = 3; n < 40; ++n) {
         auto const node = [&](int i, int j) { return layer_at({1 + 2.0 * i / (n - 1), 0.3 * j / (n - 1)}); };
-        bool const is_known = std::ranges::all_of(asked, [&](Place const& p) {
+        bool const is_known = std::ranges::all_of(asked, [&](atlas::Place const& p) {
             double const x = (p[0] - 1) / 2 * (n - 1), y = p[1] / 0.3 * (n - 1);
             int const i = std::min(static_cast<int>(x), n - 2), j = std::min(static_cast<int>(y), n - 2);
             double const u = x - i, v = y - j;

@@ -25,15 +25,15 @@ class SurfaceDesign : public testing::Test {
                              << "\"trough.friction\" = [0.2, 0.6]\n";
         maker.emplace(file_);
         CampaignTheory const theory(*maker, inputs, {});
-        std::vector<SurfacePoint> points;
+        std::vector<atlas::SurfacePoint> points;
         for (double gamma = 1; gamma < 3.01; gamma += 0.25) {
             for (double mu = 0.2; mu < 0.61; mu += 0.1) {
-                Place const place{gamma, mu};
+                atlas::Place const place{gamma, mu};
                 double const eta = *theory.efficiency_at(place);
                 points.push_back({"case", place, eta, eta + 0.1, 0.004});
             }
         }
-        surface = std::make_shared<Surface const>(inputs, points);
+        surface = std::make_shared<atlas::Surface const>(inputs, points);
     }
 
     DesignModel model(KnownFriction const& friction = normal_friction(0.35, 0.02),
@@ -41,9 +41,10 @@ class SurfaceDesign : public testing::Test {
         return surface_design_model(surface, CampaignTheory(*maker, inputs, {}), {}, friction, numerics);
     }
 
-    std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"trough.friction", 0.2, 0.6}};
+    std::vector<atlas::SurfaceInput> const inputs{{"trough.throw_number", 1, 3},
+                                                  {"trough.friction", 0.2, 0.6}};
     std::optional<scenario::CaseMaker> maker;
-    std::shared_ptr<Surface const> surface;
+    std::shared_ptr<atlas::Surface const> surface;
 
   private:
     core::TemporaryFolder folder_;

@@ -27,15 +27,15 @@ class SurfaceModelTest : public testing::Test {
                              << "\"trough.friction\" = [0.2, 0.6]\n";
         maker.emplace(file_);
         CampaignTheory const theory(*maker, inputs, {});
-        std::vector<SurfacePoint> points;
+        std::vector<atlas::SurfacePoint> points;
         for (double gamma = 1; gamma < 2.01; gamma += 0.2) {
             for (double mu = 0.2; mu < 0.61; mu += 0.1) {
-                Place const place{gamma, mu};
+                atlas::Place const place{gamma, mu};
                 double const eta = *theory.efficiency_at(place);
                 points.push_back({"case", place, eta, eta + difference(gamma, mu), 0.002});
             }
         }
-        surface = std::make_shared<Surface const>(inputs, points);
+        surface = std::make_shared<atlas::Surface const>(inputs, points);
     }
 
     static double difference(double gamma, double mu) {
@@ -48,9 +48,10 @@ class SurfaceModelTest : public testing::Test {
         return {2, 0.006, frequency, 30 * degree, {}, 0, 0.002};
     }
 
-    std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 2}, {"trough.friction", 0.2, 0.6}};
+    std::vector<atlas::SurfaceInput> const inputs{{"trough.throw_number", 1, 2},
+                                                  {"trough.friction", 0.2, 0.6}};
     std::optional<scenario::CaseMaker> maker;
-    std::shared_ptr<Surface const> surface;
+    std::shared_ptr<atlas::Surface const> surface;
 
   private:
     core::TemporaryFolder folder_;

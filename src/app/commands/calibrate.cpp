@@ -40,14 +40,14 @@ fs::path folder_of(CalibrateArguments const& options) {
 
 /// A calibration on the surface that the results of a campaign give.
 struct OnSurface {
-    std::shared_ptr<learn::Surface const> surface;
+    std::shared_ptr<atlas::Surface const> surface;
     learn::Calibration calibration;
 };
 
 OnSurface calibrate_on(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                        CalibrateArguments const& options, std::vector<learn::MeasuredSpeed> const& speeds) {
     learn::CampaignPoints points = learn::campaign_points(plan, maker);
-    auto const surface = std::make_shared<learn::Surface const>(points.inputs, points.points);
+    auto const surface = std::make_shared<atlas::Surface const>(points.inputs, points.points);
     learn::SpeedModel const model =
         learn::surface_model(surface, maker, options.shared.free, speeds, points.numerics);
     auto const parameters = options.shared.parameters(learn::surface_parameters(points.inputs));

@@ -30,14 +30,14 @@ learn::LearnGoal read_goal(LearnArguments const& options) {
     return goal;
 }
 
-std::string place_text(learn::Place const& place, std::vector<learn::SurfaceInput> const& inputs) {
+std::string place_text(atlas::Place const& place, std::vector<atlas::SurfaceInput> const& inputs) {
     std::string text;
     for (std::size_t k = 0; k < place.size(); ++k)
         text += fmt::format("{}{}={:.4g}", k == 0 ? "" : ",", inputs[k].key, place[k]);
     return text;
 }
 
-std::string describe(learn::LearnStatus const& s, std::vector<learn::SurfaceInput> const& inputs) {
+std::string describe(learn::LearnStatus const& s, std::vector<atlas::SurfaceInput> const& inputs) {
     return fmt::format(
         "{} cases{}: largest half-width {:.4f} at {}, mean {:.4f}; Q2 {:.3f}, {} of {} left-out points "
         "covered; {:.3g} core-hours spent, "

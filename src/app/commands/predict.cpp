@@ -1,5 +1,5 @@
 #include "app/commands.hpp"
-#include "app/commands/common_options.hpp"
+#include "app/commands/predict_layers.hpp"
 #include "app/exit_code.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/error.hpp"
@@ -66,22 +66,22 @@ std::map<std::string, scenario::Content> words_among(std::map<std::string, scena
 
 /// What is predicted at a place.
 struct Prediction {
-    std::vector<learn::SurfaceInput> inputs;
-    learn::Place place;
-    learn::SurfaceValue value;
+    std::vector<atlas::SurfaceInput> inputs;
+    atlas::Place place;
+    atlas::SurfaceValue value;
     double numerics;  ///< bound of the numerical error of the campaign's cases, 95 %
     double theory;
     bool is_inside;
     std::string remark;  ///< why it should not be used, or only with care; empty otherwise
-    learn::SurfaceQuality quality;
+    atlas::SurfaceQuality quality;
 
     double whole_half_width() const { return std::hypot(value.half_width, numerics); }
 };
 
-learn::Place numbers_at(std::map<std::string, scenario::Content> const& values,
-                        std::vector<learn::SurfaceInput> const& inputs, std::string const& text) {
-    learn::Place place;
-    for (learn::SurfaceInput const& input : inputs) {
+atlas::Place numbers_at(std::map<std::string, scenario::Content> const& values,
+                        std::vector<atlas::SurfaceInput> const& inputs, std::string const& text) {
+    atlas::Place place;
+    for (atlas::SurfaceInput const& input : inputs) {
         auto const found = values.find(input.key);
         if (found == values.end()) {
             throw core::InputError(
@@ -93,8 +93,8 @@ learn::Place numbers_at(std::map<std::string, scenario::Content> const& values,
     return place;
 }
 
-std::string remarks(learn::Surface const& surface, learn::CampaignPoints const& points,
-                    learn::Place const& place, bool is_inside) {
+std::string remarks(atlas::Surface const& surface, learn::CampaignPoints const& points,
+                    atlas::Place const& place, bool is_inside) {
     std::vector<std::string> all;
     if (!is_inside) all.emplace_back("The place lies outside the range of the campaign.");
     if (auto const* apart = learn::nearest_kept_apart(points, place)) {
@@ -108,14 +108,14 @@ std::string remarks(learn::Surface const& surface, learn::CampaignPoints const& 
 /// A surface over the cases that are alike in the words among their keys.
 struct FittedSurface {
     FittedSurface(campaign::Plan const& plan, scenario::CaseMaker const& maker,
-                  std::map<std::string, scenario::Content> const& words, learn::Trend trend)
+                  std::map<std::string, scenario::Content> const& words, atlas::Trend trend)
         : points(learn::campaign_points(plan, maker, words)),
           theory(maker, points.inputs, words),
           surface(points.inputs, points.points, trend) {}
 
     learn::CampaignPoints points;
     learn::CampaignTheory theory;
-    learn::Surface surface;
+    atlas::Surface surface;
 };
 
 /// Predicts the efficiency at places of one campaign; each surface is fitted once.
@@ -124,12 +124,12 @@ class Predictor {
     explicit Predictor(PredictArguments const& options)
         : plan_(campaign::open_plan(options.folder)),
           maker_(std::filesystem::path(options.folder) / "campaign.toml"),
-          trend_(options.without_theory ? learn::Trend::constant : learn::Trend::theory) {}
+          trend_(options.without_theory ? atlas::Trend::constant : atlas::Trend::theory) {}
 
     Prediction at(std::string const& text) {
         auto const values = read_place(text, maker_);
         auto const& [points, theory, surface] = surface_of(words_among(values));
-        learn::Place const place = numbers_at(values, points.inputs, text);
+        atlas::Place const place = numbers_at(values, points.inputs, text);
         static_cast<void>(theory.scenario_at(place));  // says what is wrong with the place
         auto const efficiency = theory.efficiency_at(place);
         if (!efficiency)
@@ -162,7 +162,7 @@ class Predictor {
 
     campaign::Plan plan_;
     scenario::CaseMaker maker_;
-    learn::Trend trend_;
+    atlas::Trend trend_;
     std::map<std::map<std::string, scenario::Content>, FittedSurface> surfaces_;
 };
 
@@ -183,7 +183,7 @@ Json as_json(Prediction const& p) {
 }
 
 void print_csv(std::vector<Prediction> const& predictions) {
-    for (learn::SurfaceInput const& input : predictions.front().inputs) fmt::print("{},", input.key);
+    for (atlas::SurfaceInput const& input : predictions.front().inputs) fmt::print("{},", input.key);
     fmt::print("efficiency,half_width,numerical_error,whole_half_width,efficiency_theory,inside\n");
     for (Prediction const& p : predictions) {
         for (double const value : p.place) fmt::print("{},", value);
@@ -206,6 +206,14 @@ void print_text(Prediction const& p) {
 }
 
 void run_predict(PredictArguments const& options) {
+    if (options.places.empty()) {
+        std::filesystem::path const given(options.folder);
+        predict_layers(std::filesystem::is_directory(given) ? given / "campaign.toml" : given,
+                       options.json  ? PredictionFormat::json
+                       : options.csv ? PredictionFormat::csv
+                                     : PredictionFormat::text);
+        return;
+    }
     Predictor predictor(options);
     std::vector<Prediction> predictions;
     for (std::string const& place : options.places) predictions.push_back(predictor.at(place));
@@ -224,29 +232,40 @@ void run_predict(PredictArguments const& options) {
 
 void add_predict(CLI::App& program, int& exit_code) {
     CLI::App* const command =
-        program.add_subcommand("predict", "Predict the velocity efficiency between the cases of a campaign");
+        program.add_subcommand("predict", "Predict the velocity efficiency of layers, simulated or not");
     auto const options = std::make_shared<PredictArguments>();
-    add_campaign_folder(*command, options->folder);
     command
-        ->add_option("--at", options->places,
-                     "Values of all keys that the campaign varies; repeat the option for several places")
-        ->required()
+        ->add_option("CAMPAIGN", options->folder,
+                     "Campaign file or folder of a campaign: its cases, from the atlas of simulated layers; "
+                     "with --at the folder of a campaign with results")
+        ->required();
+    command
+        ->add_option(
+            "--at", options->places,
+            "A place between the cases of the campaign, from their results: values of all keys that it "
+            "varies; repeat the option for several places")
         ->type_name("KEY=VALUE[,KEY=VALUE...]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     auto* const json =
-        command->add_flag("--json", options->json, "Print JSON: an object, or a list for several places");
+        command->add_flag("--json", options->json, "Print JSON: a list; an object for a single place");
     command->add_flag("--csv", options->csv, "Print CSV")->excludes(json);
     command->add_flag("--without-theory", options->without_theory,
                       "Leave the theory out of the surface, to see how much it helps");
     command->footer(
-        R"(Fits a Gaussian process to the cases that have a result: the theory is its trend, and only the difference between
-layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its 95 % interval, and the
-two parts of it: statistics (half_width in JSON and CSV), and the bound of the numerical errors of the cases
-(numerical_error, the largest of them: soft grains, a small box, the time step), which more cases do not make smaller.
-Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is predicted from
-all others (1: perfectly, 0: no better than the mean). Cases that are bistable or not steady are not part of the surface,
-and a place near them is marked.
+        R"(Without --at: what the atlas says of each case of the campaign, before anything is simulated. The atlas is a
+surface over layers of spheres that were simulated once for all (validation/atlas). It prints the velocity efficiency
+with the half-width of its 95 % interval, the speed, and the point mass beside it, and names what of a case lies outside
+of the atlas: a layer of another kind has no prediction, one beyond the ranges of the atlas is an extrapolation. JSON
+has a list with case, efficiency, half_width, speed_m_per_s, efficiency_theory, inside, and outside (names).
+
+With --at: fits a Gaussian process to the cases of the campaign that have a result: the theory is its trend, and only
+the difference between layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its
+95 % interval, and the two parts of it: statistics (half_width in JSON and CSV), and the bound of the numerical errors of
+the cases (numerical_error, the largest of them: soft grains, a small box, the time step), which more cases do not make
+smaller. Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is
+predicted from all others (1: perfectly, 0: no better than the mean). Cases that are bistable or not steady are not part
+of the surface, and a place near them is marked.
 
 A key may be written without its section where no other varied key has the same name. Quantities have units as in the
 campaign file; bare numbers are SI.
@@ -255,7 +274,8 @@ Exit codes:
     0  all well
     2  the input is wrong, or too few cases have a result
 
-Example:
+Examples:
+  vibrotrough predict campaign.toml
   vibrotrough predict runs/demo --at throw_number=1.9)");
     command->callback([options, &exit_code] {
         run_predict(*options);

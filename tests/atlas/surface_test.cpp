@@ -1,4 +1,4 @@
-#include "learn/surface.hpp"
+#include "atlas/surface.hpp"
 
 #include "core/error.hpp"
 #include "scenario/reader/design.hpp"
@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vibrotrough::learn {
+namespace vibrotrough::atlas {
 namespace {
 
 std::vector<SurfaceInput> const inputs{{"trough.throw_number", 1, 3}, {"grains.rolling_friction", 0, 0.3}};
@@ -102,4 +102,4 @@ TEST(Surface, TooFewPointsAreRefused) {
 }
 
 }  // namespace
-}  // namespace vibrotrough::learn
+}  // namespace vibrotrough::atlas

@@ -1,4 +1,4 @@
-#include "learn/surface.hpp"
+#include "atlas/surface.hpp"
 
 #include "core/error.hpp"
 #include "inference/sampler.hpp"
@@ -13,7 +13,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
-namespace vibrotrough::learn {
+namespace vibrotrough::atlas {
 namespace {
 
 /// 95 % of a normal distribution lie within so many standard deviations.
@@ -73,15 +73,25 @@ Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> poi
     quality_ = judge(others_, process_.hyperparameters().extra_noise, quality_.extra_noise_p);
 }
 
-inference::GaussianProcess Surface::fit() {
+Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
+                 std::vector<inference::Hyperparameters> const& draws)
+    : inputs_(std::move(inputs)),
+      points_(std::move(points)),
+      trend_(Trend::theory),
+      process_(data(), prior(), draws.empty() ? inference::Hyperparameters{} : draws.front()) {
+    for (inference::Hyperparameters const& draw : draws) others_.emplace_back(process_.data(), prior(), draw);
+    quality_ = judge(others_, process_.hyperparameters().extra_noise, 0);
+}
+
+std::vector<inference::Hyperparameters> Surface::draws() const {
+    std::vector<inference::Hyperparameters> all;
+    for (inference::GaussianProcess const& process : others_) all.push_back(process.hyperparameters());
+    return all;
+}
+
+inference::ProcessData Surface::data() const {
     auto const n = static_cast<Eigen::Index>(points_.size());
     auto const d = static_cast<Eigen::Index>(inputs_.size());
-    if (n < std::max<Eigen::Index>(4, 2 * d)) {
-        throw core::InputError(
-            fmt::format("a surface over {} input{} needs at least {} steady cases with an interval, and "
-                        "there {} {}; simulate more",
-                        d, d == 1 ? "" : "s", std::max<Eigen::Index>(4, 2 * d), n == 1 ? "is" : "are", n));
-    }
     Eigen::Index const functions = trend_at(0).size();
     inference::ProcessData data{Eigen::MatrixXd(n, d), Eigen::MatrixXd(n, functions), Eigen::VectorXd(n),
                                 Eigen::VectorXd(n)};
@@ -92,10 +102,23 @@ inference::GaussianProcess Surface::fit() {
         data.values(i) = point.efficiency;
         data.noise(i) = std::max(least_noise, point.half_width / deviations_in_half_width);
     }
+    return data;
+}
+
+inference::GaussianProcess Surface::fit() {
+    auto const n = static_cast<Eigen::Index>(points_.size());
+    auto const d = static_cast<Eigen::Index>(inputs_.size());
+    if (n < std::max<Eigen::Index>(4, 2 * d)) {
+        throw core::InputError(
+            fmt::format("a surface over {} input{} needs at least {} steady cases with an interval, and "
+                        "there {} {}; simulate more",
+                        d, d == 1 ? "" : "s", std::max<Eigen::Index>(4, 2 * d), n == 1 ? "is" : "are", n));
+    }
+    inference::ProcessData const known = data();
     inference::ProcessSettings settings;
-    auto process = inference::GaussianProcess::fitted(data, prior(), settings);
+    auto process = inference::GaussianProcess::fitted(known, prior(), settings);
     settings.has_extra_noise = true;
-    auto const noisy = inference::GaussianProcess::fitted(data, prior(), settings);
+    auto const noisy = inference::GaussianProcess::fitted(known, prior(), settings);
     // Extra noise cannot be negative, so that half of the likelihood ratio's distribution lies at zero (H.
     // Chernoff, Ann. Math. Stat. 25 (1954) 573-578).
     double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
@@ -211,4 +234,4 @@ std::vector<std::string> Surface::doubts() const {
     return doubts;
 }
 
-}  // namespace vibrotrough::learn
+}  // namespace vibrotrough::atlas

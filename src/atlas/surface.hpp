@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vibrotrough::learn {
+namespace vibrotrough::atlas {
 
 /// An input of a surface and the range that is scaled to [0, 1].
 struct SurfaceInput {
@@ -72,6 +72,13 @@ class Surface {
     /// the number of inputs
     Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend = Trend::theory);
 
+    /// A surface whose hyperparameters were drawn from their posterior before, as draws() of another over the
+    /// same points gave them: nothing is searched for, and the first draw stands for the process of the
+    /// largest likelihood.
+    /// @throws std::invalid_argument when there are no draws, or they do not fit the inputs
+    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
+            std::vector<inference::Hyperparameters> const& draws);
+
     /// The velocity efficiency at a place. @param theory  velocity efficiency of the theory there
     SurfaceValue at(Place const& place, double theory) const;
 
@@ -91,10 +98,13 @@ class Surface {
     std::vector<SurfaceInput> const& inputs() const { return inputs_; }     ///< of the surface
     std::vector<SurfacePoint> const& points() const { return points_; }     ///< on which it rests
     inference::GaussianProcess const& process() const { return process_; }  ///< of the largest likelihood
+    /// The draws from the posterior of the hyperparameters, over which the surface averages.
+    std::vector<inference::Hyperparameters> draws() const;
     /// The place scaled to [0, 1] where the ranges lie.
     Eigen::VectorXd scaled(Place const& place) const;
 
   private:
+    inference::ProcessData data() const;
     inference::GaussianProcess fit();
     void draw_others();
     Eigen::VectorXd trend_at(double theory) const;
@@ -108,4 +118,4 @@ class Surface {
     std::vector<inference::GaussianProcess> others_;  ///< with hyperparameters drawn from their posterior
 };
 
-}  // namespace vibrotrough::learn
+}  // namespace vibrotrough::atlas

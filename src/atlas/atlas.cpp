@@ -1,0 +1,132 @@
+#include "atlas/atlas.hpp"
+
+#include "atlas/tables.hpp"
+#include "theory/point_mass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// Side walls further apart than this, in diameters, do not slow the layer down.
+constexpr double least_width = 20;
+/// The atlas' layers have a spread of 0.1; others may be this far from it.
+constexpr double least_spread = 0.05, most_spread = 0.2;
+/// Grain and trough have the same restitution in the atlas; others may be so far apart.
+constexpr double most_restitution_difference = 0.2;
+
+Surface const& surface() {
+    static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
+                                read_draws(draws_table, "draws.csv"));
+    return fitted;
+}
+
+/// Variance of the layers about the surface that neither it nor their own intervals explain.
+double extra_variance() {
+    static double const mean = [] {
+        auto const draws = surface().draws();
+        double sum = 0;
+        for (inference::Hyperparameters const& draw : draws) sum += draw.extra_noise * draw.extra_noise;
+        return sum / static_cast<double>(draws.size());
+    }();
+    return mean;
+}
+
+/// Why a layer is of another kind than those of the atlas.
+std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
+    scenario::Scenario const& s = p.scenario;
+    std::vector<Outside> all;
+    auto const add = [&](bool differs, std::string name, std::string why) {
+        if (differs) all.push_back({std::move(name), std::move(why)});
+    };
+    double const diameter = mean_diameter(s);
+    add(s.layer.block != scenario::Block::none, "layer.block", "a block instead of a layer");
+    add(is_clump(s.grains), "grains.shape", fmt::format("grains of the shape {}", s.grains.shape));
+    add(p.materials.size() > 1, "materials", "several materials");
+    add(s.grains.rotation == scenario::Rotation::blocked, "grains.rotation", "grains that do not rotate");
+    add(s.engine.cohesion > 0, "engine.cohesion", "cohesion");
+    add(s.engine.extra != nullptr || s.engine.templates != nullptr, "engine",
+        "commands of the engine of your own");
+    add(s.trough.side_wall_friction && s.layer.width < least_width * diameter, "trough.side_wall_friction",
+        fmt::format("side walls {:.3g} diameters apart (at least {:g})", s.layer.width / diameter,
+                    least_width));
+    add(p.domain.has_mesh(), "trough.mesh", "a trough of your own");
+    add(p.domain.open.has_value(), "feed", "an open trough");
+    add(!p.stages.empty(), "stages", "a drive in stages");
+    add(s.trough.waveform || !s.trough.harmonics.empty() || s.trough.along_phase != 0, "trough",
+        "a drive that is not one sinusoid along a line");
+    return all;
+}
+
+/// The place of a layer in the atlas, in the order of inputs().
+Place place_of(prepare::PreparedCase const& p) {
+    scenario::Scenario const& s = p.scenario;
+    scenario::Trough const& t = s.trough;
+    double const diameter = mean_diameter(s);
+    bool const rolls = s.grains.rotation == scenario::Rotation::rolling;
+    return {p.throw_number,
+            t.given.tan_vibration_angle.value_or(std::tan(t.vibration_angle)),
+            t.given.tan_inclination.value_or(std::tan(t.inclination)),
+            t.friction,
+            t.amplitude / diameter,
+            p.layer_height / diameter,
+            s.grains.friction,
+            rolls ? s.grains.rolling_friction : 0,
+            (s.grains.restitution + t.restitution) / 2};
+}
+
+std::string range_text(std::string_view name, double value, double low, double high) {
+    return fmt::format("{} {:.3g} (the atlas has {:g} to {:g})", name, value, low, high);
+}
+
+std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& place) {
+    constexpr double rounding = 1e-9;  // of the width of a range
+    std::vector<Outside> all;
+    for (std::size_t k = 0; k < place.size(); ++k) {
+        auto const& [name, low, high] = inputs()[k];
+        double const room = rounding * (high - low);
+        if (place[k] < low - room || place[k] > high + room)
+            all.push_back({name, range_text(name, place[k], low, high)});
+    }
+    scenario::Grains const& grains = p.scenario.grains;
+    double const spread = grains.size_law == scenario::SizeLaw::listed ? -1 : grains.diameter_spread;
+    if (spread < least_spread || spread > most_spread) {
+        all.push_back({"diameter_spread",
+                       spread < 0 ? "a list of diameters"
+                                  : range_text("diameter_spread", spread, least_spread, most_spread)});
+    }
+    double const difference = std::abs(grains.restitution - p.scenario.trough.restitution);
+    if (difference > most_restitution_difference) {
+        all.push_back({"trough.restitution",
+                       fmt::format("restitutions of grain and trough that differ by {:.2g} (at most {:g})",
+                                   difference, most_restitution_difference)});
+    }
+    return all;
+}
+
+}  // namespace
+
+int simulated_layers() {
+    return static_cast<int>(surface().points().size());
+}
+
+Answer predict(prepare::PreparedCase const& prepared) {
+    Answer answer{{}, {}, of_another_kind(prepared)};
+    if (!answer.is_inside()) return answer;
+    Place const place = place_of(prepared);
+    answer.outside = out_of_range(prepared, place);
+    auto const theory = prepare::solve(prepared.point_mass);
+    if (!theory.converged && theory.outcome != theory::Outcome::unsettled) {
+        answer.outside.push_back({"theory", "a point mass without a mean speed"});
+        return answer;
+    }
+    SurfaceValue const value = surface().at(place, theory.velocity_efficiency);
+    answer.efficiency = value.efficiency;
+    answer.half_width = std::hypot(value.half_width, deviations_in_half_width * std::sqrt(extra_variance()));
+    return answer;
+}
+
+}  // namespace vibrotrough::atlas

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "prepare/prepared_case.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vibrotrough::atlas {
+
+/// Something of a case that the atlas does not cover.
+struct Outside {
+    std::string name;  ///< of an input of the atlas, or the key of the campaign file
+    std::string why;   ///< such as "depth 14 (the atlas has 3 to 6)"
+};
+
+/// What the atlas says of a layer.
+struct Answer {
+    std::optional<double> efficiency;  ///< velocity efficiency; none for a layer of another kind, or without
+                                       ///< a mean speed of the point mass
+    std::optional<double> half_width;  ///< of its 95 % interval
+    std::vector<Outside> outside;      ///< empty: the layer lies inside of the atlas
+
+    bool is_inside() const { return outside.empty(); }
+};
+
+/// How many layers were simulated for the atlas.
+int simulated_layers();
+
+/// Predicts the velocity efficiency of a layer from those that were simulated for the atlas
+/// (validation/atlas): a Surface over the numbers without a dimension on which the efficiency of a layer of
+/// spheres depends. The half-width contains what the layers scatter beyond their own intervals.
+///
+/// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, an open trough,
+/// a drive that is no sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of the
+/// ranges has one, which is an extrapolation.
+Answer predict(prepare::PreparedCase const& prepared);
+
+}  // namespace vibrotrough::atlas

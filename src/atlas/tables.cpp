@@ -1,0 +1,85 @@
+#include "atlas/tables.hpp"
+
+#include "core/csv.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// The columns of a table by their names.
+class Columns {
+  public:
+    explicit Columns(core::CsvReader& reader) : reader_(reader) {}
+
+    std::size_t index(std::string_view name) const {
+        auto const found = std::ranges::find(reader_.columns(), name);
+        if (found == reader_.columns().end())
+            reader_.fail(fmt::format("there is no column {}", name), "write the columns of the atlas' table");
+        return static_cast<std::size_t>(found - reader_.columns().begin());
+    }
+    double number(std::string_view name) const { return reader_.number(index(name)); }
+    std::string text(std::string_view name) const { return std::string(reader_.cells()[index(name)]); }
+
+  private:
+    core::CsvReader& reader_;
+};
+
+core::CsvFormat format() {
+    return {.comments = true};
+}
+
+}  // namespace
+
+std::vector<SurfaceInput> const& inputs() {
+    static std::vector<SurfaceInput> const all{
+        {"throw_number", 0.7, 3.2},   {"tan_vibration_angle", 0.3, 1}, {"tan_inclination", -0.1, 0.1},
+        {"friction", 0.15, 0.6},      {"amplitude", 0.5, 4},           {"depth", 3, 6},
+        {"grain_friction", 0.3, 0.8}, {"rolling_friction", 0, 0.2},    {"restitution", 0.3, 0.8},
+    };
+    return all;
+}
+
+std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file) {
+    core::CsvReader reader(text, file, format());
+    Columns const columns(reader);
+    std::vector<SurfacePoint> points;
+    while (reader.next()) {
+        Place place;
+        for (SurfaceInput const& input : inputs()) place.push_back(columns.number(input.key));
+        points.push_back({columns.text("case"), place, columns.number("theory"), columns.number("efficiency"),
+                          columns.number("half_width")});
+    }
+    return points;
+}
+
+std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file) {
+    core::CsvReader reader(text, file, format());
+    Columns const columns(reader);
+    std::vector<inference::Hyperparameters> draws;
+    while (reader.next()) {
+        inference::Hyperparameters draw{columns.number("deviation"),
+                                        Eigen::VectorXd(static_cast<Eigen::Index>(inputs().size())),
+                                        columns.number("extra_noise")};
+        Eigen::Index k = 0;
+        for (SurfaceInput const& input : inputs()) draw.lengths(k++) = columns.number(input.key);
+        draws.push_back(draw);
+    }
+    return draws;
+}
+
+std::string draws_csv(std::vector<inference::Hyperparameters> const& draws) {
+    std::string text = "deviation,extra_noise";
+    for (SurfaceInput const& input : inputs()) text += "," + input.key;
+    text += '\n';
+    for (inference::Hyperparameters const& draw : draws) {
+        text += fmt::format("{},{}", draw.deviation, draw.extra_noise);
+        for (double const length : draw.lengths) text += fmt::format(",{}", length);
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace vibrotrough::atlas

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "atlas/surface.hpp"
+#include "inference/gaussian_process.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrotrough::atlas {
+
+extern std::string_view const layers_table;  ///< validation/atlas/layers.csv when the program was built
+extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, likewise
+
+/// The inputs of the atlas, without a dimension, with the range of each. Their keys are the columns of the
+/// table of layers.
+std::vector<SurfaceInput> const& inputs();
+
+/// Reads a table of layers: CSV with the columns `case`, those of inputs(), theory, efficiency, half_width,
+/// and others that are not read. Lines that begin with # are comments.
+/// @throws core::CsvError that names line and column
+std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file);
+
+/// Reads draws of the hyperparameters of a surface: CSV with the columns deviation, extra_noise, and the
+/// length of each of inputs(). @throws core::CsvError that names line and column
+std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file);
+
+/// The draws as read_draws() reads them, with all digits.
+std::string draws_csv(std::vector<inference::Hyperparameters> const& draws);
+
+}  // namespace vibrotrough::atlas

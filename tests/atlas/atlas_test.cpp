@@ -1,0 +1,105 @@
+#include "atlas/atlas.hpp"
+
+#include "atlas/tables.hpp"
+#include "core/csv.hpp"
+#include "prepare/prepared_case.hpp"
+#include "scenario/example_campaign.hpp"
+#include "scenario/single_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// A layer in the middle of the atlas: 12 mm of 3 mm spheres are 4 diameters.
+std::string const inside_layer =
+    with("rolling_friction = 0.0", "rotation = \"rolling\"\nrolling_friction = 0.1");
+
+Answer answer_of(std::string const& text) {
+    return predict(prepare::prepare_case(single_case(text)));
+}
+
+std::vector<std::string> names_outside(std::string const& text) {
+    std::vector<std::string> names;
+    for (Outside const& one : answer_of(text).outside) names.push_back(one.name);
+    return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Atlas, PredictsALayerInsideOfIt) {
+    Answer const answer = answer_of(inside_layer);
+    EXPECT_TRUE(answer.is_inside());
+    // The demo's layer, which has 0.82 at throw number 2 without rolling friction; with it, between the point
+    // mass (0.58) and that.
+    EXPECT_GT(answer.efficiency.value(), 0.5);
+    EXPECT_LT(answer.efficiency.value(), 0.95);
+    EXPECT_GT(answer.half_width.value(), 0.01);
+    EXPECT_LT(answer.half_width.value(), 0.25);
+}
+
+// Each case changes one line of a layer that lies inside.
+TEST(Atlas, NamesWhatLiesOutside) {
+    EXPECT_EQ(names_outside(with("height = \"12 mm\"", "height = \"42 mm\"", inside_layer)), Names{"depth"});
+    EXPECT_EQ(names_outside(with("throw_number = 2.0", "throw_number = 4", inside_layer)),
+              Names{"throw_number"});
+    EXPECT_EQ(names_outside(with("diameter_spread = 0.1", "diameter_spread = 0", inside_layer)),
+              Names{"diameter_spread"});
+    EXPECT_EQ(
+        names_outside(with("restitution = 0.5\n\n[grains]", "restitution = 0.8\n\n[grains]", inside_layer)),
+        Names{"trough.restitution"});
+    EXPECT_TRUE(
+        answer_of(with("throw_number = 2.0", "throw_number = 4", inside_layer)).efficiency.has_value());
+}
+
+TEST(Atlas, DoesNotPredictLayersOfAnotherKind) {
+    for (auto const& [from, to, name] :
+         {std::tuple{"diameter_spread = 0.1", "shape = \"cube\"\ndiameter_spread = 0.1", "grains.shape"},
+          std::tuple{"rotation = \"rolling\"", "rotation = \"blocked\"", "grains.rotation"},
+          std::tuple{"friction = 0.23", "friction = 0.23\nside_wall_friction = 0.2",
+                     "trough.side_wall_friction"},
+          std::tuple{"friction = 0.23", "friction = 0.23\nalong_phase = \"30 deg\"", "trough"},
+          std::tuple{"[measure]", "[engine]\ncohesion = \"1 kJ/m3\"\n\n[measure]", "engine.cohesion"}}) {
+        std::string text = with(from, to, inside_layer);
+        if (std::string(to).find("blocked") != std::string::npos)
+            text = with("\nrolling_friction = 0.1", "", text);
+        Answer const answer = answer_of(text);
+        ASSERT_FALSE(answer.is_inside()) << to;
+        EXPECT_EQ(answer.outside.front().name, name);
+        EXPECT_FALSE(answer.efficiency.has_value()) << to;
+    }
+}
+
+// The same numbers without a dimension: twice the length and sqrt(2) times the time. Tolerance: rounding.
+TEST(Atlas, DependsOnNumbersWithoutDimension) {
+    std::string large = with("diameter = \"3 mm\"", "diameter = \"6 mm\"", inside_layer);
+    large = with("amplitude = \"6 mm\"", "amplitude = \"12 mm\"", large);
+    large = with("height = \"12 mm\"", "height = \"24 mm\"", large);
+    large = with("density = \"1400", "density = \"2800", large);
+    EXPECT_NEAR(answer_of(large).efficiency.value(), answer_of(inside_layer).efficiency.value(), 1e-9);
+}
+
+TEST(Atlas, TablesAreReadBack) {
+    auto const draws = read_draws(draws_table, "draws.csv");
+    ASSERT_FALSE(draws.empty());
+    EXPECT_EQ(draws_csv(read_draws(draws_csv(draws), "again")), draws_csv(draws));
+    EXPECT_EQ(static_cast<int>(read_layers(layers_table, "layers.csv").size()), simulated_layers());
+    EXPECT_THROW(read_layers("case,throw_number\na,1\n", "layers.csv"), core::CsvError);
+    EXPECT_THROW(read_draws("deviation\nx\n", "draws.csv"), core::CsvError);
+}
+
+// Every simulated layer lies within the interval that the surface has at its own place, but for the share
+// that 95 % intervals leave out: the tables belong to each other.
+TEST(Atlas, TheDrawsBelongToTheLayers) {
+    auto const points = read_layers(layers_table, "layers.csv");
+    Surface const surface(inputs(), points, read_draws(draws_table, "draws.csv"));
+    EXPECT_GE(surface.quality().covered, surface.quality().least_covered);
+    EXPECT_GT(surface.quality().q2, 0.8);
+}
+
+}  // namespace
+}  // namespace vibrotrough::atlas

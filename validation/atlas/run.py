@@ -1,0 +1,170 @@
+#!/usr/bin/python3
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+from typing import Any
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(FOLDER), str(FOLDER.parent.parent / "postprocess")]
+
+import numpy as np  # noqa: E402
+import scipy.stats  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
+
+import design  # noqa: E402
+import figure_style  # noqa: E402
+from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E402
+from validation_case import ValidationCase, read_table  # noqa: E402
+
+CHUNKS = 7  # campaigns of the atlas' own layers
+HELD_OUT = 30
+COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome"]
+PREDICTED = ["case", "throw_number", "tan_inclination", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
+DECISIONS = ["domain", "throw_number", "efficiency", "half_width", "theory", "atlas", "atlas_half_width"]
+# Layers that are the same without dimensions: what differs between them. The modulus goes with density, gravity and diameter.
+SAME: dict[str, dict[str, Any]] = {
+    "plain": {"grains.youngs_modulus": "4 MPa"},
+    "larger": {"grains.youngs_modulus": "8 MPa", "grains.diameter": "6 mm", "trough.amplitude": "12 mm", "layer.length": "48 mm", "layer.width": "30 mm"},
+    "heavier": {"grains.youngs_modulus": "8 MPa", "grains.density": "2800 kg/m3"},
+}
+PRECISE = {"measure.half_width": 0.05}  # of the layers that judge
+Row = dict[str, str]
+Floats = NDArray[np.float64]
+
+
+def campaign_at(run: ValidationCase, unit: Floats, changes: dict[str, Any]) -> str:
+    """A campaign file with layers at points of the unit cube."""
+    text = campaign_text(run.sections(), {"campaign.name": "atlas", **changes}, {}).replace("[sweep]", "[zip]")
+    return text + "".join(f'"{key}" = {toml_value(values)}\n' for key, values in design.keys_of(unit).items())
+
+
+def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, Any]) -> list[list[object]]:
+    """Simulates layers at points of the unit cube; rows of COLUMNS."""
+    return [row_of(row) for row in run_campaign(run.program, run.runs / name, campaign_at(run, unit, changes), run.jobs)]
+
+
+def row_of(row: Row) -> list[object]:
+    place = [
+        float(row["throw_number"]), float(row["trough.tan_vibration_angle"]), round(math.tan(math.radians(float(row["inclination_deg"]))), 6),
+        float(row["friction"]), round(1000 * float(row["amplitude_m"]) / design.DIAMETER, 6), float(row["layer.diameters"]),
+        float(row["grains.friction"]), float(row["grains.rolling_friction"]), float(row["grains.restitution"]),
+    ]  # fmt: skip
+    keys = ("efficiency_theory", "efficiency_rolling_layer", "efficiency", "efficiency_half_width", "efficiency_numerical_error")
+    return [row["case"], *place, *(row[key] and f"{float(row[key]):.5f}" for key in keys), row["layer_mode"], row["outcome"]]
+
+
+def is_known(row: list[object]) -> bool:
+    """Whether a layer is steady, with a mean and an interval, and its point mass has a mean speed."""
+    found = dict(zip(COLUMNS, row, strict=True))
+    return found["outcome"] in ("finished", "not-precise") and all(found[key] != "" for key in ("theory", "efficiency", "half_width"))
+
+
+def simulate(run: ValidationCase) -> None:
+    rows = [row for number in range(CHUNKS) for row in layers_at(run, f"p{number}", design.evenly(design.CHUNK, design.CHUNK * number), {})]
+    run.write_table("layers.csv", COLUMNS, [row for row in rows if is_known(row)])
+    run.write_table("apart.csv", COLUMNS, [row for row in rows if not is_known(row)])
+    half = HELD_OUT // 2
+    points = design.at_random(HELD_OUT)
+    held_out = layers_at(run, "h0", points[:half], PRECISE) + layers_at(run, "h1", points[half:], PRECISE)
+    run.write_table("held_out.csv", COLUMNS, [row for row in held_out if is_known(row)])
+    same = [
+        [name, row["throw_number"], row["efficiency"], row["efficiency_half_width"]]
+        for name, changes in SAME.items()
+        for row in run.campaign(f"same-{name}", changes, {"trough.throw_number": [1.2, 1.8, 2.6]})
+    ]
+    run.write_table("same.csv", ["layer", "throw_number", "efficiency", "half_width"], same)
+
+
+def ask(run: ValidationCase, text: str) -> list[dict[str, Any]]:
+    """What the atlas that the program holds says of each case of a campaign."""
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+        file.write(text)
+        file.flush()
+        answer = subprocess.run([run.program, "predict", file.name, "--json"], capture_output=True, text=True, check=True)
+    return list(json.loads(answer.stdout))
+
+
+def predict(run: ValidationCase) -> list[list[object]]:
+    """Predictions of the layers that judge the atlas; rows of PREDICTED."""
+    points = design.keys_of(design.at_random(HELD_OUT))
+    known = {(row["throw_number"], row["friction"]): row for row in run.table("held_out.csv")}
+    rows: list[list[object]] = []
+    for number, answer in enumerate(ask(run, campaign_at(run, design.at_random(HELD_OUT), PRECISE))):
+        row = known.get((str(points["trough.throw_number"][number]), str(points["trough.friction"][number])))
+        if row and answer["efficiency"] is not None:
+            rows.append([*(row[key] for key in PREDICTED[:-2]), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"])
+    return rows
+
+
+def predict_decisions(run: ValidationCase) -> list[list[object]]:
+    """Predictions of the layers that judged the surfaces of validation/decisions, those of them that lie inside of the atlas."""
+    folder = FOLDER.parent / "decisions"
+    layers = [row for row in read_table(folder / "held_out.csv") if row["surface"].startswith("24") and row["outcome"] == "finished"]
+    text = campaign_text(run.sections(str(folder / "base.toml")), {}, {}).replace("[sweep]", "[zip]")
+    for key, column in (("trough.throw_number", "throw_number"), ("trough.tan_vibration_angle", "tan_vibration_angle"), ("grains.rolling_friction", "rolling_friction")):
+        text += f'"{key}" = {toml_value([float(row[column]) for row in layers])}\n'
+    return [
+        [row["domain"], *(f"{float(row[key]):.4f}" for key in ("throw_number", "efficiency", "half_width", "theory")), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
+        for row, answer in zip(layers, ask(run, text), strict=True)
+        if answer["inside"]
+    ]
+
+
+def judge(run: ValidationCase) -> None:
+    for name in SAME:
+        for row, plain in zip((r for r in run.table("same.csv") if r["layer"] == name), (r for r in run.table("same.csv") if r["layer"] == "plain"), strict=True):
+            if name != "plain":
+                width = math.hypot(float(row["half_width"]), float(plain["half_width"]))
+                run.check(f"{name}, throw number {row['throw_number']}", float(row["efficiency"]), float(plain["efficiency"]), width,
+                          because="the same layer without dimensions; intervals of both")
+    run.follows("predicted.csv", PREDICTED, predict(run))
+    rows = run.table("predicted.csv")
+    known, half_width, atlas, atlas_width, theory, numerics = (
+        np.array([float(row[key]) for row in rows]) for key in ("efficiency", "half_width", "atlas", "atlas_half_width", "theory", "numerical_error")
+    )
+    if run.control:
+        atlas, atlas_width = np.roll(atlas, 1), np.roll(atlas_width, 1)
+    noise = half_width / 1.96
+    held = int(np.sum(np.abs(known - atlas) <= np.sqrt(half_width**2 + atlas_width**2 + numerics**2)))
+    low, high = scipy.stats.binom.ppf([0.025, 0.975], len(rows), 0.95)
+    run.between(f"layers within their intervals, of {len(rows)}", held, low, min(high, len(rows)), because="central 95 % of the binomial distribution; all intervals combined in squares")
+    error = math.sqrt(max(0.0, float(np.mean((known - atlas) ** 2 - noise**2))))
+    run.between("error of the atlas (root mean square, less the noise of the simulations)", error, 0, 0.04, because="the issue's bound")
+    run.follows("decisions.csv", DECISIONS, predict_decisions(run))
+    others = [{key: float(row[key]) for key in DECISIONS[1:]} for row in run.table("decisions.csv")]
+    inside = sum(abs(row["efficiency"] - row["atlas"]) <= math.hypot(row["half_width"], row["atlas_half_width"]) for row in others)
+    rms = {key: math.sqrt(float(np.mean([(row["efficiency"] - row[key]) ** 2 for row in others]))) for key in ("atlas", "theory")}
+    run.finding("the layers of validation/decisions lie within their intervals, too", inside >= scipy.stats.binom.ppf(0.025, len(others), 0.95),
+                f"{inside} of {len(others)}; root mean square {rms['atlas']:.3f}, of the point mass {rms['theory']:.3f}")
+    of_theory = math.sqrt(float(np.mean((known - theory) ** 2)))
+    run.finding("the point mass is wrong by more than twice as much", of_theory > 2 * error, f"{of_theory:.3f} against {error:.3f}")
+
+
+def draw(run: ValidationCase) -> None:
+    rows = run.table("predicted.csv")
+    number = {key: np.array([float(row[key]) for row in rows]) for key in ("efficiency", "half_width", "atlas", "atlas_half_width", "theory")}
+    figure, axes = figure_style.new_figure(layout="constrained")
+    axes.plot([-0.2, 1.2], [-0.2, 1.2], color=figure_style.GREY, linewidth=0.8)
+    axes.plot(number["theory"], number["efficiency"], "o", mfc="none", color=figure_style.GREY, label="point mass")
+    axes.errorbar(number["atlas"], number["efficiency"], number["half_width"], number["atlas_half_width"], fmt="o", color=figure_style.COLOURS[0], label="atlas")
+    axes.set(xlabel="velocity efficiency, predicted", ylabel="velocity efficiency, simulated")
+    axes.legend(fontsize=8)
+    figure_style.plain_axes(axes)
+    figure.savefig(run.figure("atlas.png"), dpi=110)
+
+
+def main() -> None:
+    run = ValidationCase(FOLDER)
+    if run.long:
+        simulate(run)
+    judge(run)
+    if not run.control:
+        draw(run)
+    run.finish()
+
+
+if __name__ == "__main__":
+    main()
