@@ -18,8 +18,12 @@ from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, co
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
 
-# What the theory says of the same case, as efficiencies of the table.
-MODELS = {"point-mass theory": "efficiency_theory", "rolling-layer law": "efficiency_rolling_layer"}
+# What theory, law and atlas say of the same case, as efficiencies of the table; the width of their lines, and the words for them.
+MODELS = {
+    "point-mass theory": ("efficiency_theory", 1.2, "thick lines"),
+    "rolling-layer law": ("efficiency_rolling_layer", 0.7, "thin lines"),
+    "atlas": ("efficiency_atlas", 0.35, "hairlines"),
+}
 # Quantities that are an efficiency times a number that is known of each case.
 OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow")
 WHOLE = {"efficiency": "efficiency_whole_half_width"}
@@ -137,9 +141,9 @@ def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
 
 
 def draw_models(axes: Axes, x: Shown, y: Shown, rows: list[Row], colour: str, dash: Any) -> set[str]:
-    """The theory and the law at the cases, joined by thin lines. The names of those that were drawn."""
+    """The theory, the law and the atlas at the cases, joined by thin lines. The names of those that were drawn."""
     drawn = set()
-    for width, (name, column) in zip((1.2, 0.7), MODELS.items()):
+    for name, (column, width, _) in MODELS.items():
         values = []
         for row in rows:
             model, known = row.get(column), row.get("efficiency")
@@ -189,7 +193,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         raise Problem(f"no case has both {x.name} and {y.name}")
     axes.set_xlabel(x.title)
     axes.set_ylabel(y.title)
-    lines = "; ".join(f"{'thick' if name == 'point-mass theory' and len(models) > 1 else 'thin'} lines: {name}" for name in MODELS if name in models)
+    lines = "; ".join(f"{words if len(models) > 1 else 'thin lines'}: {name}" for name, (_, _, words) in MODELS.items() if name in models)
     if len(series) > 1:
         axes.legend(frameon=False, fontsize=points(8), loc="best", title=lines or None, title_fontsize=points(8))
     elif lines:

@@ -125,6 +125,11 @@ class Campaign:
         answer = ask(self.program, "check", self.file, allowed=(0, 1, 2))
         return [{"case": case["case"], **finding} for case in answer["cases"] for finding in case["findings"] if finding["severity"] != "fine"]
 
+    def predict(self) -> list[dict[str, Any]]:
+        """What the atlas of simulated layers says of each case before it is simulated: efficiency, half_width (95 %), and what lies outside"""
+        answer: list[dict[str, Any]] = ask(self.program, "predict", self.file)
+        return answer
+
     def run(self, jobs: int | None = None, progress: Progress | None = None, options: Sequence[str] = ()) -> bool:
         """Simulates what is not finished. A stop, also by Ctrl-C, loses nothing: the next call continues.
 

@@ -56,7 +56,6 @@ void set_cells(std::vector<Column>& columns) {
         found->cell = cell;
     };
     set("efficiency", efficiency_cell);
-    set("efficiency_atlas", atlas_cell);
     set("cycles_measured", cycles_cell);
     set("mass_flow_t_per_h", [](Row const& row) { return flow_cell(row, "mass_flow"); });
     set("mass_flow_per_width_t_per_h_m",
@@ -112,7 +111,8 @@ std::vector<Column> theory_columns() {
          .terminal =
              TerminalView{
                  .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
-         .report = ReportView{.heading = "\u03b7, atlas"}},
+         .report = ReportView{.heading = "\u03b7, atlas"},
+         .cell = atlas_cell},
         {.name = "efficiency_atlas_half_width",
          .unit = "1",
          .value = field<&Row::efficiency_atlas_half_width>,

@@ -181,6 +181,12 @@ bool is_borrowed(Row const& row) {
     return studied && *studied != Value(row.id);
 }
 
+bool disagrees_with_atlas(Row const& row) {
+    auto const simulated = row.number("efficiency"), width = row.number("efficiency_whole_half_width");
+    if (!simulated || !width || !row.efficiency_atlas) return false;
+    return std::abs(*simulated - *row.efficiency_atlas) > *width + *row.efficiency_atlas_half_width;
+}
+
 std::optional<std::string> larger_error(Row const& row) {
     auto const statistical = row.number("efficiency_half_width"),
                numerical = row.number("efficiency_numerical_error");

@@ -64,6 +64,9 @@ bool is_bound(Row const& row);
 /// Whether the numerical error of a row is that of another case, the nearest that was studied.
 bool is_borrowed(Row const& row);
 
+/// Whether the atlas and the simulation of a row are apart by more than both intervals.
+bool disagrees_with_atlas(Row const& row);
+
 /// "statistical" or "numerical": the larger of the half-width of the efficiency and its numerical error. None
 /// unless both are known.
 std::optional<std::string> larger_error(Row const& row);

@@ -106,8 +106,6 @@ std::set<std::string> const known_before{"case",
                                          "turns_per_minute",
                                          "efficiency_theory",
                                          "efficiency_rolling_layer",
-                                         "efficiency_atlas",
-                                         "efficiency_atlas_half_width",
                                          "mode_theory",
                                          "outcome"};
 

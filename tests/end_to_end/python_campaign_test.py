@@ -20,6 +20,7 @@ class PythonCampaign(EndToEndTest):
         campaign = self.campaign()
         self.assertEqual(list(campaign.plan()["throw_number"]), [1.5, 2.0])
         self.assertEqual(set(campaign.plan()["outcome"]), {"open"})
+        self.assertEqual([case["outside"] for case in campaign.predict()], [["depth"], ["depth"]])
         with self.assertRaisesRegex(vibrotrough.ProgramError, "is not a campaign folder"):
             campaign.table()
         events = []

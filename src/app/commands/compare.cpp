@@ -22,6 +22,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -52,6 +53,17 @@ compare::TableStyle style_for(std::string const& colour) {
     bool const suitable = terminal && (no_colour == nullptr || *no_colour == '\0');
     style.colour = colour == "always" || (colour == "auto" && suitable);
     return style;
+}
+
+/// Names the cases whose simulation the atlas contradicts.
+void tell_disagreement(std::vector<compare::Row> const& rows) {
+    std::vector<std::string> ids;
+    for (compare::Row const& row : rows)
+        if (compare::disagrees_with_atlas(row)) ids.push_back(row.id);
+    if (ids.empty()) return;
+    fmt::print(
+        "The atlas and the simulation differ by more than both intervals, so that one of them is wrong: {}\n",
+        fmt::join(ids, ", "));
 }
 
 /// The table with both errors.
@@ -106,6 +118,7 @@ int run_compare(CompareArguments const& options) {
         print_budget(rows, columns, options);
     } else {
         fmt::print("{}", compare::to_table(rows, style_for(options.colour), columns));
+        tell_disagreement(rows);
     }
     return all_well;
 }

@@ -1,0 +1,50 @@
+"""What the atlas says of the cases of a campaign file, before anything is simulated."""
+
+import csv
+import io
+import json
+import unittest
+
+from trough_program import EndToEndTest
+
+DEEPER = {"layer.grains": 100}  # 3.6 diameters
+
+
+class Predict(EndToEndTest):
+    def predict(self, changes, *words, sweep=None):
+        done = self.call("predict", self.write_campaign(changes, sweep), *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_every_case_of_the_file(self):
+        sweep = {"trough.throw_number": [1.5, 2.0, 4.0]}
+        cases = json.loads(self.predict(DEEPER, "--json", sweep=sweep))
+        self.assertEqual([case["case"] for case in cases], ["throw_number 1.5", "throw_number 2", "throw_number 4"])
+        self.assertEqual([case["inside"] for case in cases], [True, True, False])
+        self.assertEqual(cases[2]["outside"], ["throw_number"])
+        for case in cases:
+            self.assertGreater(case["half_width"], 0)
+            self.assertGreater(case["speed_m_per_s"], 0)
+        # More throw, more speed; and beyond the atlas it is less sure.
+        self.assertLess(cases[0]["efficiency"], cases[1]["efficiency"])
+        self.assertGreater(cases[2]["half_width"], cases[1]["half_width"])
+        rows = list(csv.DictReader(io.StringIO(self.predict(DEEPER, "--csv", sweep=sweep))))
+        self.assertEqual([float(row["efficiency"]) for row in rows], [case["efficiency"] for case in cases])
+        text = self.predict(DEEPER, sweep=sweep)
+        self.assertIn(f"{cases[0]['efficiency']:.3f} +- {cases[0]['half_width']:.3f}", text)
+        self.assertIn("outside: throw_number 4 (the atlas has 0.7 to 3.2)", text)
+
+    def test_another_kind_of_layer_is_not_predicted(self):
+        (cubes,) = json.loads(self.predict({"grains.shape": "cube", "layer.grains": 100}, "--json"))
+        self.assertEqual((cubes["efficiency"], cubes["inside"], cubes["outside"]), (None, False, ["grains.shape"]))
+        self.assertIn("outside: grains of the shape cube", self.predict({"grains.shape": "cube"}))
+
+    def test_a_wrong_file(self):
+        for given, said in ((self.folder / "gone.toml", "there is no such file"), (self.write_campaign({"trough.friction": -1}), "trough.friction")):
+            done = self.call("predict", given)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
