@@ -21,6 +21,7 @@ struct Answer {
     std::optional<double> half_width;  ///< of its 95 % interval
     std::vector<Outside> outside;      ///< empty: the layer lies inside of the atlas
 
+    /// Whether the atlas covers the layer.
     bool is_inside() const { return outside.empty(); }
 };
 

@@ -101,22 +101,6 @@ std::vector<Column> theory_columns() {
              TerminalView{
                  .heading = "eta rolling", .subheading = "layer law", .priority = 2, .only_when_known = true},
          .report = ReportView{.heading = "\u03b7, rolling layer"}},
-        {.name = "efficiency_atlas",
-         .unit = "1",
-         .value = field<&Row::efficiency_atlas>,
-         .meaning = "Velocity efficiency from the atlas, a surface over simulated layers of spheres; unknown "
-                    "for layers outside of it",
-         .format = "{:.3f}",
-         .position = 97,
-         .terminal =
-             TerminalView{
-                 .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
-         .report = ReportView{.heading = "\u03b7, atlas"},
-         .cell = atlas_cell},
-        {.name = "efficiency_atlas_half_width",
-         .unit = "1",
-         .value = field<&Row::efficiency_atlas_half_width>,
-         .meaning = "Half-width of the 95 % interval of efficiency_atlas"},
         {.name = "mode_theory",
          .unit = "1",
          .value = field<&Row::mode_theory>,
@@ -217,6 +201,22 @@ std::vector<Column> run_columns() {
          .terminal = TerminalView{.heading = "difference", .priority = always_shown},
          .report = ReportView{.heading = "difference"},
          .colour = difference_colour},
+        {.name = "efficiency_atlas",
+         .unit = "1",
+         .value = field<&Row::efficiency_atlas>,
+         .meaning = "Velocity efficiency from the atlas, a surface over simulated layers of spheres; unknown "
+                    "for layers outside of it",
+         .format = "{:.3f}",
+         .position = 97,
+         .terminal =
+             TerminalView{
+                 .heading = "eta atlas", .subheading = "95 %", .priority = 3, .only_when_known = true},
+         .report = ReportView{.heading = "\u03b7, atlas"},
+         .cell = atlas_cell},
+        {.name = "efficiency_atlas_half_width",
+         .unit = "1",
+         .value = field<&Row::efficiency_atlas_half_width>,
+         .meaning = "Half-width of the 95 % interval of efficiency_atlas"},
     };
 }
 

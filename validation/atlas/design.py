@@ -29,7 +29,7 @@ def at_random(count: int) -> NDArray[np.float64]:
     return np.random.default_rng(SEED).random((count, len(RANGES)))
 
 
-def keys_of(unit: NDArray[np.float64]) -> dict[str, list[str | float]]:
+def keys_of(unit: NDArray[np.float64]) -> dict[str, list[str] | list[float]]:
     """{key of the campaign file: its values} of points of the unit cube."""
     columns = {name: low + (high - low) * unit[:, k] for k, (name, (low, high)) in enumerate(RANGES.items())}
     short = {name: [f"{value:.4f}" for value in values] for name, values in columns.items()}

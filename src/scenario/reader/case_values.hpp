@@ -48,9 +48,9 @@ using CaseValues = std::map<std::string_view, Value, ByLength>;
                            std::string_view instead);
 
 /// The files that were read for the cases of a campaign by name. Each is read once, however many cases use
-/// it. Cases are made on several cores; `one_case` is locked while one of them looks for a file or reads it.
+/// it.
 struct FilesRead {
-    std::mutex one_case;
+    std::mutex one_case;  ///< is locked while a case looks for a file or reads it
     std::map<std::string, std::shared_ptr<ShapeFile const>> shapes;                      ///< of clumps
     std::map<std::string, std::shared_ptr<Waveform const>> waveforms;                    ///< of the trough
     std::map<std::string, std::shared_ptr<TroughMesh const>> meshes;                     ///< of the trough
