@@ -1,7 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
-#include "theory/point_mass.hpp"
+#include "theory/rolling_layer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +78,17 @@ Place place_of(prepare::PreparedCase const& p) {
             (s.grains.restitution + t.restitution) / 2};
 }
 
+/// The velocity efficiency of the rolling-layer law with its published constants, to whose dry torque rolling
+/// friction adds, also where the law has not been tested; nothing when the layer has no mean speed.
+std::optional<double> trend_of(prepare::PreparedCase const& p) {
+    scenario::Grains const& grains = p.scenario.grains;
+    theory::RollingLaw law;
+    if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
+    auto const motion = theory::solve(theory::RollingLayer{p.point_mass.conveyor.point, law}).motion;
+    if (!motion.converged && motion.outcome != theory::Outcome::unsettled) return {};
+    return motion.velocity_efficiency;
+}
+
 std::string range_text(std::string_view name, double value, double low, double high) {
     return fmt::format("{} {:.3g} (the atlas has {:g} to {:g})", name, value, low, high);
 }
@@ -118,12 +129,12 @@ Answer predict(prepare::PreparedCase const& prepared) {
     if (!answer.is_inside()) return answer;
     Place const place = place_of(prepared);
     answer.outside = out_of_range(prepared, place);
-    auto const theory = prepare::solve(prepared.point_mass);
-    if (!theory.converged && theory.outcome != theory::Outcome::unsettled) {
-        answer.outside.push_back({"theory", "a point mass without a mean speed"});
+    auto const trend = trend_of(prepared);
+    if (!trend) {
+        answer.outside.push_back({"rolling_layer", "a rolling layer without a mean speed"});
         return answer;
     }
-    SurfaceValue const value = surface().at(place, theory.velocity_efficiency);
+    SurfaceValue const value = surface().at(place, *trend);
     answer.efficiency = value.efficiency;
     answer.half_width = std::hypot(value.half_width, deviations_in_half_width * std::sqrt(extra_variance()));
     return answer;

@@ -17,7 +17,7 @@ struct Outside {
 /// What the atlas says of a layer.
 struct Answer {
     std::optional<double> efficiency;  ///< velocity efficiency; none for a layer of another kind, or without
-                                       ///< a mean speed of the point mass
+                                       ///< a mean speed by the rolling-layer law
     std::optional<double> half_width;  ///< of its 95 % interval
     std::vector<Outside> outside;      ///< empty: the layer lies inside of the atlas
 
@@ -30,7 +30,8 @@ int simulated_layers();
 
 /// Predicts the velocity efficiency of a layer from those that were simulated for the atlas
 /// (validation/atlas): a Surface over the numbers without a dimension on which the efficiency of a layer of
-/// spheres depends. The half-width contains what the layers scatter beyond their own intervals.
+/// spheres depends, whose trend is the rolling-layer law. The half-width contains what the layers scatter
+/// beyond their own intervals.
 ///
 /// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, an open trough,
 /// a drive that is no sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of the

@@ -21,14 +21,14 @@ using Place = std::vector<double>;
 struct SurfacePoint {
     std::string case_id;  ///< of the case
     Place place;          ///< its inputs
-    double theory;        ///< velocity efficiency of the theory there
+    double theory;        ///< velocity efficiency of the theory, or of another model, there
     double efficiency;    ///< velocity efficiency of the layer
     double half_width;    ///< of its 95 % confidence interval, >= 0
 };
 
 /// Whether the theory's velocity efficiency is part of the trend.
 enum class Trend {
-    theory,    ///< constant and theory: only the difference is learnt
+    theory,    ///< constant and theory (or another model): only the difference is learnt
     constant,  ///< constant alone, for comparison
 };
 

@@ -49,8 +49,8 @@ std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& 
     while (reader.next()) {
         Place place;
         for (SurfaceInput const& input : inputs()) place.push_back(columns.number(input.key));
-        points.push_back({columns.text("case"), place, columns.number("theory"), columns.number("efficiency"),
-                          columns.number("half_width")});
+        points.push_back({columns.text("case"), place, columns.number("rolling_layer"),
+                          columns.number("efficiency"), columns.number("half_width")});
     }
     return points;
 }

@@ -16,8 +16,8 @@ extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, li
 /// table of layers.
 std::vector<SurfaceInput> const& inputs();
 
-/// Reads a table of layers: CSV with the columns `case`, those of inputs(), theory, efficiency, half_width,
-/// and others that are not read. Lines that begin with # are comments.
+/// Reads a table of layers: CSV with the columns `case`, those of inputs(), rolling_layer (the trend),
+/// efficiency, half_width, and others that are not read. Lines that begin with # are comments.
 /// @throws core::CsvError that names line and column
 std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file);
 

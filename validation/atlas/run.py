@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from typing import Any
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -21,6 +22,7 @@ from validation_case import ValidationCase, read_table  # noqa: E402
 
 CHUNKS = 7  # campaigns of the atlas' own layers
 HELD_OUT = 30
+DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome"]
 PREDICTED = ["case", "throw_number", "tan_inclination", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
 DECISIONS = ["domain", "throw_number", "efficiency", "half_width", "theory", "atlas", "atlas_half_width"]
@@ -43,23 +45,33 @@ def campaign_at(run: ValidationCase, unit: Floats, changes: dict[str, Any]) -> s
 
 def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, Any]) -> list[list[object]]:
     """Simulates layers at points of the unit cube; rows of COLUMNS."""
-    return [row_of(row) for row in run_campaign(run.program, run.runs / name, campaign_at(run, unit, changes), run.jobs)]
+    return [row_of(run, row) for row in run_campaign(run.program, run.runs / name, campaign_at(run, unit, changes), run.jobs)]
 
 
-def row_of(row: Row) -> list[object]:
+def row_of(run: ValidationCase, row: Row) -> list[object]:
     place = [
         float(row["throw_number"]), float(row["trough.tan_vibration_angle"]), round(math.tan(math.radians(float(row["inclination_deg"]))), 6),
         float(row["friction"]), round(1000 * float(row["amplitude_m"]) / design.DIAMETER, 6), float(row["layer.diameters"]),
         float(row["grains.friction"]), float(row["grains.rolling_friction"]), float(row["grains.restitution"]),
     ]  # fmt: skip
-    keys = ("efficiency_theory", "efficiency_rolling_layer", "efficiency", "efficiency_half_width", "efficiency_numerical_error")
-    return [row["case"], *place, *(row[key] and f"{float(row[key]):.5f}" for key in keys), row["layer_mode"], row["outcome"]]
+    keys = ("efficiency_theory", "efficiency", "efficiency_half_width", "efficiency_numerical_error")
+    theory, *simulated = (row[key] and f"{float(row[key]):.5f}" for key in keys)
+    return [row["case"], *place, theory, rolling_layer(run, place), *simulated, row["layer_mode"], row["outcome"]]
+
+
+def rolling_layer(run: ValidationCase, place: Sequence[float]) -> str:
+    """Velocity efficiency of the rolling-layer law, also where it has not been tested; empty without a mean speed."""
+    at = dict(zip(design.RANGES, place, strict=True))
+    words = [word for name in ("throw_number", "tan_vibration_angle", "tan_inclination", "friction") for word in ("--" + name.replace("_", "-"), str(at[name]))]
+    command = [run.program, "theory", "point", *words, "--accept-untested", "--json", "--rolling-layer", f"dry_torque={DRY_TORQUE + at['rolling_friction']}"]
+    answer = subprocess.run(command, capture_output=True, text=True, check=False)
+    return f"{json.loads(answer.stdout)['velocity_efficiency']:.5f}" if answer.returncode == 0 else ""
 
 
 def is_known(row: list[object]) -> bool:
-    """Whether a layer is steady, with a mean and an interval, and its point mass has a mean speed."""
+    """Whether a layer is steady, with a mean and an interval, and the law has a mean speed."""
     found = dict(zip(COLUMNS, row, strict=True))
-    return found["outcome"] in ("finished", "not-precise") and all(found[key] != "" for key in ("theory", "efficiency", "half_width"))
+    return found["outcome"] in ("finished", "not-precise") and all(found[key] != "" for key in ("rolling_layer", "efficiency", "half_width"))
 
 
 def simulate(run: ValidationCase) -> None:
