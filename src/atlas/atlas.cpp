@@ -17,6 +17,8 @@ constexpr double least_width = 20;
 constexpr double least_spread = 0.05, most_spread = 0.2;
 /// Grain and trough have the same restitution in the atlas; others may be so far apart.
 constexpr double most_restitution_difference = 0.2;
+/// Its place among inputs(); the first four are those of the point mass.
+constexpr std::size_t rolling_friction_input = 7;
 
 Surface const& surface() {
     static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
@@ -80,11 +82,13 @@ Place place_of(prepare::PreparedCase const& p) {
 
 /// The velocity efficiency of the rolling-layer law with its published constants, to whose dry torque rolling
 /// friction adds, also where the law has not been tested; nothing when the layer has no mean speed.
-std::optional<double> trend_of(prepare::PreparedCase const& p) {
-    scenario::Grains const& grains = p.scenario.grains;
+std::optional<double> trend_at(Place const& place) {
+    // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
+    thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
     theory::RollingLaw law;
-    if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
-    auto const motion = theory::solve(theory::RollingLayer{p.point_mass.conveyor.point, law}).motion;
+    law.dry_torque += place[rolling_friction_input];
+    if (!last || last->first != law.dry_torque) last.emplace(law.dry_torque, theory::RollingLayerSolver(law));
+    auto const motion = last->second({place[0], place[1], place[2], place[3]}).motion;
     if (!motion.converged && motion.outcome != theory::Outcome::unsettled) return {};
     return motion.velocity_efficiency;
 }
@@ -124,19 +128,26 @@ int simulated_layers() {
     return static_cast<int>(surface().points().size());
 }
 
+std::optional<SurfaceValue> value_at(Place const& place) {
+    auto const trend = trend_at(place);
+    if (!trend) return {};
+    SurfaceValue const value = surface().at(place, *trend);
+    return SurfaceValue{value.efficiency,
+                        std::hypot(value.half_width, deviations_in_half_width * std::sqrt(extra_variance()))};
+}
+
 Answer predict(prepare::PreparedCase const& prepared) {
     Answer answer{{}, {}, of_another_kind(prepared)};
     if (!answer.is_inside()) return answer;
     Place const place = place_of(prepared);
     answer.outside = out_of_range(prepared, place);
-    auto const trend = trend_of(prepared);
-    if (!trend) {
+    auto const value = value_at(place);
+    if (!value) {
         answer.outside.push_back({"rolling_layer", "a rolling layer without a mean speed"});
         return answer;
     }
-    SurfaceValue const value = surface().at(place, *trend);
-    answer.efficiency = value.efficiency;
-    answer.half_width = std::hypot(value.half_width, deviations_in_half_width * std::sqrt(extra_variance()));
+    answer.efficiency = value->efficiency;
+    answer.half_width = value->half_width;
     return answer;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atlas/surface.hpp"
 #include "prepare/prepared_case.hpp"
 
 #include <optional>
@@ -27,6 +28,11 @@ struct Answer {
 
 /// How many layers were simulated for the atlas.
 int simulated_layers();
+
+/// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
+/// Nothing when a rolling layer has no mean speed there. The half-width contains what the layers scatter
+/// beyond their own intervals.
+std::optional<SurfaceValue> value_at(Place const& place);
 
 /// Predicts the velocity efficiency of a layer from those that were simulated for the atlas
 /// (validation/atlas): a Surface over the numbers without a dimension on which the efficiency of a layer of

@@ -95,6 +95,9 @@ std::optional<std::string> DesignModel::untested(theory::Drive const& drive, dou
     if (is_rolling) {
         if (auto why = theory::outside_tested_range(point, depth)) return why;
     }
+    if (outside) {
+        if (auto why = outside(drive, friction, depth)) return why;
+    }
     if (errors.empty() || discrepancy || uses_calibrated_discrepancy) return {};
     if (known_error(errors, point.throw_number, point.tan_inclination, depth)) return {};
     return fmt::format(

@@ -56,7 +56,11 @@ struct DesignModel {
     bool is_point_mass = false;  ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
-    bool is_rolling = false;                ///< whether it is the law of rolling layers
+    bool is_rolling = false;  ///< whether it is the law of rolling layers
+    /// Further reasons why its error is not known, see untested(); empty: none.
+    std::function<std::optional<std::string>(theory::Drive const&, double friction,
+                                             std::optional<double> depth)>
+        outside = {};
     std::vector<std::string> remarks = {};  ///< what speaks against it, in whole sentences
 
     /// Standard deviation of what it misses at a drive; where nothing is known, the largest that is.

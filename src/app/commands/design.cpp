@@ -22,15 +22,11 @@ namespace {
 struct DesignArguments {
     DesignOptions task;
     std::string campaign, page, python;
-    Text grain_diameter;
     bool json = false;
 };
 
 int run_design(DesignArguments const& options) {
-    learn::DesignTask task = options.task.task();
-    if (options.grain_diameter)
-        task.grain_diameter =
-            read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm");
+    learn::DesignTask const task = options.task.task();
     learn::RiskDesign design;
     try {
         design = learn::design_with_risk(task);
@@ -67,10 +63,11 @@ no probability.
 3. Every limit is kept by the machine as it is printed (rounded to what a workshop sets), the landing speed at
 every friction in the central 99.7 % of its distribution (three standard deviations on each side).
 
-4. Three models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
+4. Four models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
 2.3, layers of grains that roll are conveyed up to twice as fast as it says: the rolling-layer law describes
-these. A surface is what your own simulated campaign says, with its own uncertainty. Landing speed, power and
-mode are always those of the point mass.
+these. The atlas is what simulated layers of spheres say, with an interval (see 'vibrotrough predict'); what
+it does not know of the grains (rolling friction, friction, restitution) is part of its uncertainty. A surface
+is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
 
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains; its grains are assumed, so put in what you know of yours.
@@ -104,9 +101,6 @@ void add_design(CLI::App& program, int& exit_code) {
         ->add_option("--campaign", options->campaign,
                      "Write the campaign that checks the design with grains into this file")
         ->type_name("FILE");
-    command->add_option("--grain-diameter", options->grain_diameter,
-                        "Of the grains: for the depth of the layer in grains, and for the campaign, whose "
-                        "default is \"3 mm\"");
     command
         ->add_option("--page", options->page,
                      "Write a page of one screen about the design into this HTML file")

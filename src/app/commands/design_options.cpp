@@ -4,6 +4,7 @@
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "learn/atlas_design_model.hpp"
 #include "learn/posterior_file.hpp"
 #include "learn/surface_design_model.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -120,14 +121,15 @@ void DesignOptions::add_to(CLI::App& command) {
     command.add_option("--confidence", confidence,
                        "Probability with which the mass flow is to be reached; default: 0.95");
     command
-        .add_option("--model", models,
-                    "By which model: point-mass (default), rolling-layer, surface, or several, separated by "
-                    "commas, which must then all reach the mass flow")
+        .add_option(
+            "--model", models,
+            "By which model: point-mass (default), rolling-layer, atlas, surface, or several, separated by "
+            "commas, which must then all reach the mass flow")
         ->delimiter(',')
         ->expected(1)
         ->type_name("MODEL[,MODEL...]")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->check(CLI::IsMember({"point-mass", "rolling-layer", "surface"}));
+        ->check(CLI::IsMember({"point-mass", "rolling-layer", "atlas", "surface"}));
     command
         .add_option("--surface", surface,
                     "Folder of a campaign, whose cases are the model 'surface' (see 'vibrotrough predict')")
@@ -159,6 +161,11 @@ void DesignOptions::add_material(CLI::App& command) {
     add("--friction", friction, "mu, friction coefficient of the material on the trough");
     add("--friction-uncertainty", friction_uncertainty,
         "Its standard uncertainty (one standard deviation); default: 0");
+    add("--grain-diameter", grain_diameter,
+        "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
+        "default is \"3 mm\"");
+    add("--rolling-friction", rolling_friction,
+        "Of the grains, for the atlas; default: not known, anything between 0 and 0.2");
     add("--posterior", posterior,
         "In place of both: the file that 'vibrotrough theory calibrate --posterior FILE' wrote, or what its "
         "--json printed");
@@ -199,6 +206,16 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
     return learn::normal_friction(median, sd);
 }
 
+learn::KnownGrains DesignOptions::read_grains() const {
+    if (!grain_diameter)
+        throw core::InputError(
+            "--model atlas: needs the size of the grains; write --grain-diameter \"3 mm\"");
+    learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm")};
+    if (rolling_friction)
+        grains.rolling_friction = read_number_within("--rolling-friction", *rolling_friction, "0.05", 0, 1);
+    return grains;
+}
+
 std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction const& known) const {
     std::optional<double> missed;
     if (discrepancy) missed = read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
@@ -211,12 +228,17 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         throw core::InputError("--surface: is not among the models; write --model surface");
     if (surface.empty() && !places.empty())
         throw core::InputError("--at: belongs to a surface; write --surface DIR, or leave it out");
+    if (rolling_friction && std::ranges::find(names, "atlas") == names.end())
+        throw core::InputError(
+            "--rolling-friction: belongs to the atlas; write --model atlas, or leave it out");
     std::vector<learn::DesignModel> all;
     for (std::string const& name : names) {
         if (name == "point-mass")
             all.push_back(learn::point_mass_design_model(missed));
         else if (name == "rolling-layer")
             all.push_back(learn::rolling_layer_design_model({}, missed));
+        else if (name == "atlas")
+            all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0)));
         else
             all.push_back(read_surface(*this, known, missed.value_or(0)));
     }
@@ -241,6 +263,8 @@ learn::DesignTask DesignOptions::task() const {
         task.depth = read_range("--layer-depth", *depth, "5 mm to 60 mm", [](std::string const& text) {
             return read_positive_quantity("--layer-depth", text, "m", "5 mm to 60 mm");
         });
+    if (grain_diameter)
+        task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     task.models = read_models(task.friction);

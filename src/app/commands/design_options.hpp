@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/commands/theory/options.hpp"
+#include "learn/atlas_design_model.hpp"
 #include "learn/risk_design.hpp"
 
 #include <string>
@@ -16,10 +17,11 @@ namespace vibrotrough::app {
 struct DesignOptions {
     Text mass_flow, bulk_density, width, length, depth;                    ///< what is to be carried
     Text friction, friction_uncertainty, posterior;                        ///< of the material
+    Text grain_diameter, rolling_friction;                                 ///< of its grains
     Text rpm, frequency, stroke, amplitude, vibration_angle, inclination;  ///< ranges of the drive
     Text machine_number, throw_number, landing_speed;                      ///< largest values
     Text confidence, discrepancy;                                          ///< of the answer
-    std::vector<std::string> models;    ///< point-mass, rolling-layer, surface
+    std::vector<std::string> models;    ///< point-mass, rolling-layer, atlas, surface
     std::string surface;                ///< folder of the campaign of the surface
     std::vector<std::string> places;    ///< KEY=VALUE of the surface's other inputs
     std::string objective = "fastest";  ///< what to be best at
@@ -33,6 +35,7 @@ struct DesignOptions {
   private:
     void add_material(CLI::App& command);
     void add_limits(CLI::App& command);
+    learn::KnownGrains read_grains() const;
     learn::KnownFriction read_friction(std::string& calibrated_model) const;
     std::vector<learn::DesignModel> read_models(learn::KnownFriction const& known) const;
 };

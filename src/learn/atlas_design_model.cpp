@@ -1,0 +1,148 @@
+#include "learn/atlas_design_model.hpp"
+
+#include "atlas/atlas.hpp"
+#include "atlas/tables.hpp"
+#include "core/error.hpp"
+#include "scenario/reader/design.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+enum Input : std::size_t {
+    throw_number_input,
+    tan_vibration_input,
+    tan_inclination_input,
+    friction_input,
+    amplitude_input,
+    depth_input,
+    grain_friction_input,
+    rolling_friction_input,
+    restitution_input
+};
+
+/// What of a layer a design does not know: its depth_input, which the mass flow decides, and the grains.
+constexpr std::array<Input, 4> unknown{depth_input, grain_friction_input, rolling_friction_input,
+                                       restitution_input};
+
+theory::Range range_of(Input input) {
+    return {atlas::inputs()[input].low, atlas::inputs()[input].high};
+}
+
+double middle_of(Input input) {
+    return (range_of(input).low + range_of(input).high) / 2;
+}
+
+/// The place of a drive, with what is not known in the middle of the atlas.
+atlas::Place place_of(theory::Drive const& d, double mu, KnownGrains const& grains) {
+    return {d.throw_number(),
+            std::tan(d.vibration_angle),
+            std::tan(d.inclination),
+            mu,
+            d.amplitude / grains.diameter,
+            middle_of(depth_input),
+            middle_of(grain_friction_input),
+            grains.rolling_friction.value_or(middle_of(rolling_friction_input)),
+            middle_of(restitution_input)};
+}
+
+/// By how much a place is beyond a range, relative to its width; at most zero inside.
+double beyond(Input input, double value) {
+    auto const [low, high] = range_of(input);
+    return std::max(low - value, value - high) / (high - low);
+}
+
+/// Standard deviation, in velocity efficiency, that the unknown inputs may cause: the root mean square over
+/// drives and frictions of the whole atlas.
+double sd_of_unknown(KnownGrains const& grains) {
+    constexpr int drives = 48, grains_each = 6;
+    double squares = 0;
+    int count = 0;
+    auto const points = scenario::sample_cube(scenario::SampleMethod::sobol, drives * grains_each,
+                                              static_cast<int>(atlas::inputs().size()), 1);
+    for (int i = 0; i < drives; ++i) {
+        std::vector<double> found;
+        for (int k = 0; k < grains_each; ++k) {
+            auto const first = static_cast<std::size_t>(i * grains_each);
+            auto const &drive = points[first], &other = points[first + static_cast<std::size_t>(k)];
+            atlas::Place place;
+            for (std::size_t input = 0; input < drive.size(); ++input) {
+                bool const is_unknown =
+                    std::ranges::find(unknown, static_cast<Input>(input)) != unknown.end();
+                auto const [low, high] = range_of(static_cast<Input>(input));
+                place.push_back(low + (high - low) * (is_unknown ? other : drive)[input]);
+            }
+            if (grains.rolling_friction) place[rolling_friction_input] = *grains.rolling_friction;
+            if (auto const value = atlas::value_at(place)) found.push_back(value->efficiency);
+        }
+        double mean = 0;
+        for (double const one : found) mean += one / static_cast<double>(found.size());
+        for (double const one : found) squares += (one - mean) * (one - mean);
+        count += std::max(0, static_cast<int>(found.size()) - 1);
+    }
+    return std::sqrt(squares / std::max(1, count));
+}
+
+theory::Range within(theory::Range const& space, theory::Range const& known, std::string_view what) {
+    theory::Range const both{std::max(space.low, known.low), std::min(space.high, known.high)};
+    if (both.low > both.high)
+        throw core::InputError(
+            fmt::format("the atlas of simulated layers ends before the limits of the {}", what));
+    return both;
+}
+
+}  // namespace
+
+DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
+    if (grains.rolling_friction && beyond(rolling_friction_input, *grains.rolling_friction) > 0) {
+        throw core::InputError(
+            fmt::format("a rolling friction of {:g} lies outside of the atlas, which has {:g} to {:g}",
+                        *grains.rolling_friction, range_of(rolling_friction_input).low,
+                        range_of(rolling_friction_input).high));
+    }
+    DesignModel model{.name = "the atlas", .discrepancy = discrepancy};
+    model.at = [grains, spread = sd_of_unknown(grains)](theory::Drive const& d,
+                                                        double mu) -> std::optional<ModelEfficiency> {
+        auto const value = atlas::value_at(place_of(d, mu, grains));
+        if (!value) return {};
+        return ModelEfficiency{value->efficiency,
+                               std::hypot(value->half_width / atlas::deviations_in_half_width, spread)};
+    };
+    model.narrowed = [grains](theory::DriveSpace space) {
+        auto const [shallow, steep] = range_of(tan_vibration_input);
+        auto const [down, up] = range_of(tan_inclination_input);
+        auto const [least, most] = range_of(amplitude_input);
+        space.vibration_angle =
+            within(space.vibration_angle, {std::atan(shallow), std::atan(steep)}, "vibration angle");
+        space.inclination = within(space.inclination, {std::atan(down), std::atan(up)}, "inclination");
+        space.amplitude =
+            within(space.amplitude, {least * grains.diameter, most * grains.diameter}, "stroke");
+        space.max_throw_number = std::min(space.max_throw_number, range_of(throw_number_input).high);
+        return space;
+    };
+    model.excess = [grains](theory::Drive const& d) {
+        atlas::Place const place = place_of(d, middle_of(friction_input), grains);
+        double most = -1;
+        for (std::size_t input = 0; input < place.size(); ++input)
+            most = std::max(most, beyond(static_cast<Input>(input), place[input]));
+        return most;
+    };
+    model.outside = [](theory::Drive const&, double mu,
+                       std::optional<double> deep) -> std::optional<std::string> {
+        auto const tell = [](std::string_view what, Input input, double value) {
+            return fmt::format("the atlas has a {} of {:g} to {:g}, and not {:.3g}", what,
+                               range_of(input).low, range_of(input).high, value);
+        };
+        if (beyond(friction_input, mu) > 0) return tell("friction", friction_input, mu);
+        if (deep && beyond(depth_input, *deep) > 0) return tell("depth in diameters", depth_input, *deep);
+        return {};
+    };
+    return model;
+}
+
+}  // namespace vibrotrough::learn
