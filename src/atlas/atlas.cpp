@@ -1,6 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
+#include "theory/point_mass.hpp"
 #include "theory/rolling_layer.hpp"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ constexpr double least_spread = 0.05, most_spread = 0.2;
 constexpr double most_restitution_difference = 0.2;
 /// Its place among inputs(); the first four are those of the point mass.
 constexpr std::size_t rolling_friction_input = 7;
+/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
+constexpr double farthest = 0.25;
 
 Surface const& surface() {
     static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
@@ -26,15 +29,18 @@ Surface const& surface() {
     return fitted;
 }
 
-/// Variance of the layers about the surface that neither it nor their own intervals explain.
-double extra_variance() {
-    static double const mean = [] {
+/// The part of the half-width that does not depend on the place: what the layers scatter about the surface
+/// beyond their own intervals, and their numerical errors.
+double common_half_width() {
+    static double const width = [] {
         auto const draws = surface().draws();
-        double sum = 0;
-        for (inference::Hyperparameters const& draw : draws) sum += draw.extra_noise * draw.extra_noise;
-        return sum / static_cast<double>(draws.size());
+        double scatter = 0;
+        for (inference::Hyperparameters const& draw : draws)
+            scatter += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
+        return std::hypot(deviations_in_half_width * std::sqrt(scatter),
+                          read_numerical_error(layers_table, "layers.csv"));
     }();
-    return mean;
+    return width;
 }
 
 /// Why a layer is of another kind than those of the atlas.
@@ -80,17 +86,18 @@ Place place_of(prepare::PreparedCase const& p) {
             (s.grains.restitution + t.restitution) / 2};
 }
 
-/// The velocity efficiency of the rolling-layer law with its published constants, to whose dry torque rolling
-/// friction adds, also where the law has not been tested; nothing when the layer has no mean speed.
+/// The trend of the atlas at a place; nothing when a rolling layer or a point mass has no mean speed there.
 std::optional<double> trend_at(Place const& place) {
+    theory::PointMass const point{place[0], place[1], place[2], place[3]};
     // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
     thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
     theory::RollingLaw law;
     law.dry_torque += place[rolling_friction_input];
     if (!last || last->first != law.dry_torque) last.emplace(law.dry_torque, theory::RollingLayerSolver(law));
-    auto const motion = last->second({place[0], place[1], place[2], place[3]}).motion;
-    if (!motion.converged && motion.outcome != theory::Outcome::unsettled) return {};
-    return motion.velocity_efficiency;
+    auto const motion = last->second(point).motion, sliding = theory::solve(point);
+    for (theory::Motion const& one : {motion, sliding})
+        if (!one.converged && one.outcome != theory::Outcome::unsettled) return {};
+    return trend_of(motion.velocity_efficiency, sliding.velocity_efficiency);
 }
 
 std::string range_text(std::string_view name, double value, double low, double high) {
@@ -132,8 +139,7 @@ std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
     SurfaceValue const value = surface().at(place, *trend);
-    return SurfaceValue{value.efficiency,
-                        std::hypot(value.half_width, deviations_in_half_width * std::sqrt(extra_variance()))};
+    return SurfaceValue{value.efficiency, std::hypot(value.half_width, common_half_width())};
 }
 
 Answer predict(prepare::PreparedCase const& prepared) {
@@ -141,9 +147,13 @@ Answer predict(prepare::PreparedCase const& prepared) {
     if (!answer.is_inside()) return answer;
     Place const place = place_of(prepared);
     answer.outside = out_of_range(prepared, place);
+    for (std::size_t k = 0; k < place.size(); ++k) {
+        auto const& [name, low, high] = inputs()[k];
+        if (std::max(low - place[k], place[k] - high) > farthest * (high - low)) return answer;
+    }
     auto const value = value_at(place);
     if (!value) {
-        answer.outside.push_back({"rolling_layer", "a rolling layer without a mean speed"});
+        answer.outside.push_back({"theory", "a point mass or rolling layer without a mean speed"});
         return answer;
     }
     answer.efficiency = value->efficiency;

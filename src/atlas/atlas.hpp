@@ -30,18 +30,18 @@ struct Answer {
 int simulated_layers();
 
 /// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
-/// Nothing when a rolling layer has no mean speed there. The half-width contains what the layers scatter
-/// beyond their own intervals.
+/// Nothing when theory or law have no mean speed there. The half-width contains what the layers scatter
+/// beyond their own intervals, and their numerical errors.
 std::optional<SurfaceValue> value_at(Place const& place);
 
 /// Predicts the velocity efficiency of a layer from those that were simulated for the atlas
 /// (validation/atlas): a Surface over the numbers without a dimension on which the efficiency of a layer of
-/// spheres depends, whose trend is the rolling-layer law. The half-width contains what the layers scatter
-/// beyond their own intervals.
+/// spheres depends, whose trend is the rolling-layer law (trend_of() in tables.hpp). The half-width contains
+/// what the layers scatter beyond their own intervals, and their numerical errors.
 ///
 /// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, an open trough,
 /// a drive that is no sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of the
-/// ranges has one, which is an extrapolation.
+/// ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::atlas

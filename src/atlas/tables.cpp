@@ -42,6 +42,10 @@ std::vector<SurfaceInput> const& inputs() {
     return all;
 }
 
+double trend_of(double rolling_layer, double theory) {
+    return std::min(rolling_layer, std::max(theory, 1.0));
+}
+
 std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file) {
     core::CsvReader reader(text, file, format());
     Columns const columns(reader);
@@ -49,10 +53,20 @@ std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& 
     while (reader.next()) {
         Place place;
         for (SurfaceInput const& input : inputs()) place.push_back(columns.number(input.key));
-        points.push_back({columns.text("case"), place, columns.number("rolling_layer"),
+        points.push_back({columns.text("case"), place,
+                          trend_of(columns.number("rolling_layer"), columns.number("theory")),
                           columns.number("efficiency"), columns.number("half_width")});
     }
     return points;
+}
+
+double read_numerical_error(std::string_view text, std::string const& file) {
+    core::CsvReader reader(text, file, format());
+    Columns const columns(reader);
+    double sum = 0;
+    int count = 0;
+    for (; reader.next(); ++count) sum += columns.number("numerical_error");
+    return count == 0 ? 0 : sum / count;
 }
 
 std::vector<inference::Hyperparameters> read_draws(std::string_view text, std::string const& file) {

@@ -16,10 +16,20 @@ extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, li
 /// table of layers.
 std::vector<SurfaceInput> const& inputs();
 
-/// Reads a table of layers: CSV with the columns `case`, those of inputs(), rolling_layer (the trend),
-/// efficiency, half_width, and others that are not read. Lines that begin with # are comments.
+/// The trend of the atlas: the velocity efficiency of the rolling-layer law with its published constants, to
+/// whose dry torque rolling friction adds; but no more than 1 or that of the point mass, because downhill the
+/// law says up to 1.4 of layers that have 1.0 to 1.15.
+double trend_of(double rolling_layer, double theory);
+
+/// Reads a table of layers: CSV with the columns `case`, those of inputs(), theory, rolling_layer,
+/// efficiency, half_width, numerical_error, and others that are not read. Lines that begin with # are
+/// comments.
 /// @throws core::CsvError that names line and column
 std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file);
+
+/// The mean of the bounds of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a
+/// small box, the time step. More layers do not make it smaller.
+double read_numerical_error(std::string_view text, std::string const& file);
 
 /// Reads draws of the hyperparameters of a surface: CSV with the columns deviation, extra_noise, and the
 /// length of each of inputs(). @throws core::CsvError that names line and column

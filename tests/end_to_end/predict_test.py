@@ -8,6 +8,7 @@ import unittest
 from trough_program import EndToEndTest
 
 DEEPER = {"layer.grains": 100}  # 3.6 diameters
+CUBES = {"grains.shape": "cube", "grains.diameter_spread": 0}
 
 
 class Predict(EndToEndTest):
@@ -17,9 +18,9 @@ class Predict(EndToEndTest):
         return done.stdout
 
     def test_every_case_of_the_file(self):
-        sweep = {"trough.throw_number": [1.5, 2.0, 4.0]}
+        sweep = {"trough.throw_number": [1.5, 2.0, 3.5]}
         cases = json.loads(self.predict(DEEPER, "--json", sweep=sweep))
-        self.assertEqual([case["case"] for case in cases], ["throw_number 1.5", "throw_number 2", "throw_number 4"])
+        self.assertEqual([case["case"] for case in cases], ["throw_number 1.5", "throw_number 2", "throw_number 3.5"])
         self.assertEqual([case["inside"] for case in cases], [True, True, False])
         self.assertEqual(cases[2]["outside"], ["throw_number"])
         for case in cases:
@@ -32,12 +33,12 @@ class Predict(EndToEndTest):
         self.assertEqual([float(row["efficiency"]) for row in rows], [case["efficiency"] for case in cases])
         text = self.predict(DEEPER, sweep=sweep)
         self.assertIn(f"{cases[0]['efficiency']:.3f} +- {cases[0]['half_width']:.3f}", text)
-        self.assertIn("outside: throw_number 4 (the atlas has 0.7 to 3.2)", text)
+        self.assertIn("outside: throw_number 3.5 (the atlas has 0.7 to 3.2)", text)
 
     def test_another_kind_of_layer_is_not_predicted(self):
-        (cubes,) = json.loads(self.predict({"grains.shape": "cube", "layer.grains": 100}, "--json"))
+        (cubes,) = json.loads(self.predict(CUBES, "--json"))
         self.assertEqual((cubes["efficiency"], cubes["inside"], cubes["outside"]), (None, False, ["grains.shape"]))
-        self.assertIn("outside: grains of the shape cube", self.predict({"grains.shape": "cube"}))
+        self.assertIn("outside: grains of the shape cube", self.predict(CUBES))
 
     def test_a_wrong_file(self):
         for given, said in ((self.folder / "gone.toml", "there is no such file"), (self.write_campaign({"trough.friction": -1}), "trough.friction")):
