@@ -148,12 +148,21 @@ def judge(run: ValidationCase) -> None:
     own = math.sqrt(max(0.0, rms["atlas"] ** 2 - noise**2))
     run.finding("we: the atlas misses layers by at most 0.04 (root mean square, less the noise of the simulations)", own <= 0.04,
                 f"{own:.3f}; the law alone {rms['rolling_layer']:.3f}, the point mass {rms['theory']:.3f}")
+    others = judge_decisions(run)
+    if not run.control:
+        scores = {"layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
+
+
+def judge_decisions(run: ValidationCase) -> dict[str, object]:
+    """How well the atlas predicts the layers of validation/decisions; scores by name."""
     run.follows("decisions.csv", DECISIONS, predict_decisions(run))
     others = [{key: float(row[key]) for key in DECISIONS[1:]} for row in run.table("decisions.csv")]
     inside = sum(abs(row["efficiency"] - row["atlas"]) <= math.hypot(row["half_width"], row["atlas_half_width"]) for row in others)
     rms = {key: math.sqrt(float(np.mean([(row["efficiency"] - row[key]) ** 2 for row in others]))) for key in ("atlas", "theory")}
     run.finding("we: the layers of validation/decisions lie within their intervals, too", bool(inside >= scipy.stats.binom.ppf(0.025, len(others), 0.95)),
                 f"{inside} of {len(others)}; root mean square {rms['atlas']:.3f}, of the point mass {rms['theory']:.3f}")
+    return {"decisions": len(others), "decisions_held": inside, "decisions_rms": f"{rms['atlas']:.3f}", "decisions_rms_theory": f"{rms['theory']:.3f}"}
 
 
 def draw(run: ValidationCase) -> None:
