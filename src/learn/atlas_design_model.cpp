@@ -68,7 +68,7 @@ double sd_of_unknown(KnownGrains const& grains) {
     for (int i = 0; i < drives; ++i) {
         std::vector<double> found;
         for (int k = 0; k < grains_each; ++k) {
-            auto const first = static_cast<std::size_t>(i * grains_each);
+            auto const first = static_cast<std::size_t>(i) * std::size_t{grains_each};
             auto const &drive = points[first], &other = points[first + static_cast<std::size_t>(k)];
             atlas::Place place;
             for (std::size_t input = 0; input < drive.size(); ++input) {
