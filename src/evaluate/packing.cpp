@@ -7,6 +7,7 @@
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
 #include "evaluate/rolling.hpp"
+#include "evaluate/wear.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,7 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
         measure_layer(record, prepared, files, phases);
         measure_rolling(record, prepared, files, phases);
     }
+    read_wear(record, prepared, files);
     return record;
 }
 

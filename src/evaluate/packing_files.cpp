@@ -25,7 +25,8 @@ std::string digest_of_layer(PackingFiles const& files) {
     std::vector<std::string_view> pieces{files.phases.content};
     for (std::size_t i = 0; i < files.snapshots.size(); ++i) {
         // An open trough has no phases.
-        bool const is_open = names[i].starts_with("along.") || names[i].starts_with("left.");
+        bool const is_open =
+            names[i].starts_with("along.") || names[i].starts_with("left.") || names[i].starts_with("wear.");
         if (files.phases.content.empty() && !is_open) continue;
         pieces.emplace_back(names[i]);
         pieces.emplace_back(files.snapshots[i].content);
@@ -48,7 +49,8 @@ PackingFiles read_packing_files(fs::path const& folder) {
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
         bool const is_dump = name.starts_with("left.") && name.ends_with(".dump");
-        if (is_dump || name.starts_with("profiles.") || name.starts_with("surface.") ||
+        bool const is_wear = name.starts_with("wear.") && name.ends_with(".vtk");
+        if (is_dump || is_wear || name.starts_with("profiles.") || name.starts_with("surface.") ||
             name.starts_with("along."))
             files.snapshots.push_back(core::read_text_file(entry.path()));
     }

@@ -5,6 +5,7 @@
 #include "store/open_quantities.hpp"
 #include "store/quantity.hpp"
 #include "store/stage_quantities.hpp"
+#include "store/wear_quantities.hpp"
 
 #include <limits>
 
@@ -363,7 +364,7 @@ std::vector<Quantity> const& quantities() {
         for (auto const& part :
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
               start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
-              material_quantities(), open_quantities(), stage_quantities()})
+              material_quantities(), open_quantities(), stage_quantities(), wear_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

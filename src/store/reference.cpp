@@ -4,6 +4,7 @@
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/stage_quantities.hpp"
+#include "store/wear_quantities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@ constexpr std::string_view real_type = "float64", whole_type = "int32", word_typ
 /// What there is one value of in a table of a packing.
 std::string_view shape_of(std::string_view group) {
     if (group == "profiles") return "bins";
+    if (group == "wear") return "triangles";
     return group == "surface" ? "columns" : "samples";
 }
 
@@ -65,7 +67,7 @@ void add_packings(std::vector<NameInFile>& names) {
         add(names, ends ? "cycle_ends/<packing>/" : "series/<packing>/", real_type,
             ends ? "cycles + 1" : "cycles", series.entry);
     }
-    for (auto const* const tables : {&packing_tables(), &rolling_tables()}) {
+    for (auto const* const tables : {&packing_tables(), &rolling_tables(), &wear_tables()}) {
         for (PackingTable const& table : *tables)
             add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
                 table.entry);

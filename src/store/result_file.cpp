@@ -11,6 +11,7 @@
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/stage_quantities.hpp"
+#include "store/wear_quantities.hpp"
 
 #include <map>
 #include <span>
@@ -203,6 +204,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         scenario::parse_campaign(record.scenario_toml, path.string() + ":/scenario", source).cases.front();
     for (std::size_t i = 0; record.scenario.measure.rolling && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], rolling_tables());
+    for (std::size_t i = 0; record.scenario.measure.wear && i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], wear_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
@@ -272,6 +275,7 @@ std::string result_bytes(CaseRecord const& record) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
         if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
+        if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
         if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
     }

@@ -46,8 +46,11 @@ class TroughWriter {
   public:
     /// `source` must outlive the writer.
     explicit TroughWriter(FrameSource const& source);
-    /// Writes the trough at `time` (s). @throws MissingError when the disk refuses
-    void write(std::filesystem::path const& path, TroughPosition const& position, double time);
+    /// Writes the trough at `time` (s), with the wear of each triangle unless it is empty.
+    /// @throws MissingError when the disk refuses
+    void write(std::filesystem::path const& path, TroughPosition const& position, std::vector<float>& wear,
+               double time);
+    std::size_t triangles() const;  ///< number of triangles
 
     /// m, lower and upper bounds of x, y and z at rest.
     std::array<double, 6> bounds() const;

@@ -9,6 +9,7 @@
 #include "view/scene.hpp"
 #include "view/trough_motion.hpp"
 #include "view/vtk_files.hpp"
+#include "view/wear_frames.hpp"
 
 #include <algorithm>
 #include <array>
@@ -106,7 +107,12 @@ void check_motion(FrameSource const& source, TroughPosition const& position) {
 class FrameExport {
   public:
     FrameExport(FrameSource const& source, fs::path const& target)
-        : source_(source), target_(target), trough_(source), grains_(source), block_(trough_.bounds()) {
+        : source_(source),
+          target_(target),
+          trough_(source),
+          wear_(source),
+          grains_(source),
+          block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
         for (char const* const object : objects) core::make_folder(target / object);
         if (has_contacts(source.folder)) {
@@ -120,7 +126,7 @@ class FrameExport {
         std::string const name = fmt::format("{:06}.vtp", files_.size());
         double const surface = trough_.bounds()[4] + position.z;
         grains_.write(target_ / "grains" / name, frame, surface, time);
-        trough_.write(target_ / "trough" / name, position, time);
+        trough_.write(target_ / "trough" / name, position, wear_.at(frame.step, trough_.triangles()), time);
         write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(), surface, time);
         if (point_mass_) {
             auto const block = block_.at(point_mass_->at(time), position.z, grains_.mean_velocity());
@@ -160,6 +166,7 @@ class FrameExport {
     FrameSource const& source_;
     fs::path target_;
     TroughWriter trough_;
+    WearFrames wear_;
     GrainWriter grains_;
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;

@@ -35,7 +35,8 @@ struct FrameSource {
                           ///< may be empty
     Colour colour = Colour::velocity;             ///< what the scene colours the grains by
     std::vector<scenario::DrivePart> parts = {};  ///< of a drive with stages, in place of `drive`
-    int steps_per_cycle = 0;                      ///< of the engine, when there are parts
+    int steps_per_cycle = 0;                      ///< of the engine, when there are parts or wear
+    std::filesystem::path wear = {};              ///< holds wear.STEP.vtk; empty when there is no wear
 
     /// The time of a step of the engine, s.
     double time_of(long step) const;

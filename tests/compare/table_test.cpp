@@ -91,7 +91,11 @@ std::vector<std::string> const contract{"case",
                                         "time_to_speed_s",
                                         "time_to_speed_half_width_s",
                                         "stopping_distance_m",
-                                        "stopping_distance_half_width_m"};
+                                        "stopping_distance_half_width_m",
+                                        "wear_rate_w_per_m2",
+                                        "wear_rate_half_width_w_per_m2",
+                                        "specific_wear_j_per_t_m",
+                                        "specific_wear_half_width_j_per_t_m"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

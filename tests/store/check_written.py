@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "materials": (4,), "stages": (1,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "triangles": (2,), "materials": (4,), "stages": (1,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -61,7 +61,7 @@ def check_file(path, heading, reference):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|wear)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -133,6 +133,10 @@ def check_result_values(file):
     check_mass_flow(file)
     assert list(file["phases/1"]["phase"]) == [0.25, 0.5, 0.75, 1.0, 1.25]
     assert list(file["surface/2"]["height"])[-1] > list(file["surface/1"]["height"])[-1]
+    # Energies per area and time, and per mass and way; packings with 2 and 2.5, 0.5 and 1.
+    assert case["wear_rate"] == 2.25 and case["specific_wear"] == 0.75
+    assert math.isclose(case["specific_wear_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
+    assert list(file["wear/2"]["rate"]) == [1.5, 3.0] and list(file["wear/1"]["x"]) == [0.01, 0.02]
     assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])
     packings = file["packings"]
     assert [text.decode() for text in packings["rolling_problem"]] == ["", "no file"]

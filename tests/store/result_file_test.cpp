@@ -7,6 +7,7 @@
 #include "scenario/reader/written_campaign.hpp"
 #include "store/hdf5_memory_file.hpp"
 #include "store/material_quantities.hpp"
+#include "store/wear_quantities.hpp"
 
 #include <cmath>
 #include <csignal>
@@ -52,6 +53,10 @@ void expect_equal_layer(PackingRecord read, PackingRecord written) {
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
     for (PackingTable const& table : rolling_tables())
         EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
+    for (PackingTable const& table : wear_tables())
+        EXPECT_EQ(table.field(read), table.field(written)) << table.group << "/" << table.entry.name;
+    EXPECT_EQ(read.wear.rate, written.wear.rate);
+    EXPECT_EQ(read.wear.per_conveyed, written.wear.per_conveyed);
     EXPECT_EQ(read.rolling_problem, written.rolling_problem);
     EXPECT_EQ(read.rolling.coordination_number, written.rolling.coordination_number);
     EXPECT_EQ(read.motion.mode, written.motion.mode);

@@ -30,6 +30,8 @@ inline void fill_layer(PackingRecord& packing, double first) {
     }
     packing.profiles.phase = {0, 0, 3, 3};  // two phases of two bins
     packing.profiles.height = {0.001, 0.0025, 0.001, 0.0025};
+    packing.wear = {2.0 + first, 0.5 + first,  {0.01, 0.02},       {0.005, 0.006},
+                    {0, 0},      {1e-5, 1e-5}, {1.5, 2.5 + first}, {}};
     packing.rolling.coordination_number = 2.5 + first;
     for (PackingTable const& table : rolling_tables())
         for (int i = 0; i < 5; ++i) table.field(packing).push_back(value += 0.25);
@@ -55,8 +57,12 @@ inline CaseRecord sample_record(std::string const& id = "0123456789abcdef", doub
                        .restitution = 0.6,
                        .rolling_friction = 0.0};
     scenario.layer = {.length = 0.036, .width = 0.018, .height = {}, .grains = 500};
-    scenario.measure = {
-        .packings = 2, .confidence = 0.95, .half_width = 0.02, .max_cycles = 200, .rolling = true};
+    scenario.measure = {.packings = 2,
+                        .confidence = 0.95,
+                        .half_width = 0.02,
+                        .max_cycles = 200,
+                        .rolling = true,
+                        .wear = true};
     scenario.output = {.frames_per_cycle = 0};
 
     PackingRecord first{};

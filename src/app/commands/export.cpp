@@ -86,7 +86,8 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
                         planned.prepared->machine_number, trough.friction),
         .colour = colour,
         .parts = drive_parts(planned.prepared->stages),
-        .steps_per_cycle = planned.prepared->time.steps_per_cycle};
+        .steps_per_cycle = planned.prepared->time.steps_per_cycle,
+        .wear = planned.scenario().measure.wear ? packing : fs::path()};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
     auto exported = view::export_frames(source, target, [&](int written, int all) {

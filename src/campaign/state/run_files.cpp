@@ -57,7 +57,8 @@ bool is_run_file(std::string_view name) {
     }
     return std::ranges::find(names, name) != names.end() || is_numbered(name, "checkpoint.", ".restart") ||
            is_numbered(name, "profiles.", ".txt") || is_numbered(name, "surface.", ".txt") ||
-           is_numbered(name, "along.", ".txt") || is_numbered(name, "left.", ".dump");
+           is_numbered(name, "along.", ".txt") || is_numbered(name, "left.", ".dump") ||
+           is_numbered(name, "wear.", ".vtk");
 }
 
 bool is_frame_file(std::string_view name) {
