@@ -9,23 +9,11 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
-#include <stdexcept>
 
-#include <boost/math/special_functions/erf.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double least_friction = 0.01;  // a normal distribution is cut here
-constexpr int value_count = 9;           // that stand for a distribution of the friction
-constexpr double in_the_tail = 0.0015;   // of the distribution, on each side, in which limits are not kept
-constexpr std::size_t least_draws = 100;
-
-double normal_quantile(double p) {
-    return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
-}
 
 theory::PointMass point_of(theory::Drive const& d, double friction) {
     return {std::clamp(d.throw_number(), 1e-6, 1e4), std::tan(d.vibration_angle), std::tan(d.inclination),
@@ -33,55 +21,6 @@ theory::PointMass point_of(theory::Drive const& d, double friction) {
 }
 
 }  // namespace
-
-KnownFriction normal_friction(double median, double sd) {
-    if (!(median >= least_friction && sd >= 0))
-        throw std::invalid_argument(
-            fmt::format("a friction of {:g} +- {:g} makes no sense: it must be at least {:g}", median, sd,
-                        least_friction));
-    KnownFriction known{median, std::max(least_friction, median - 3 * sd), median + 3 * sd, {}, {}};
-    if (sd == 0) {
-        known.values.push_back(median);
-        return known;
-    }
-    // The middles of equally likely parts, spread so that they have the standard uncertainty of the whole.
-    std::vector<double> middles;
-    double squares = 0;
-    for (int i = 0; i < value_count; ++i) {
-        middles.push_back(normal_quantile((i + 0.5) / value_count));
-        squares += middles.back() * middles.back() / value_count;
-    }
-    for (double const middle : middles)
-        known.values.push_back(std::max(least_friction, median + sd * middle / std::sqrt(squares)));
-    return known;
-}
-
-KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<double> const& discrepancy) {
-    if (friction.size() < least_draws || (!discrepancy.empty() && discrepancy.size() != friction.size()))
-        throw std::invalid_argument(
-            fmt::format("the posterior has {} draws of the friction; at least {} are needed", friction.size(),
-                        least_draws));
-    std::vector<std::size_t> order(friction.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::sort(order, {}, [&](std::size_t i) { return friction[i]; });
-    if (friction[order.front()] < 1e-3)
-        throw std::invalid_argument("a friction of the posterior is below 0.001");
-    auto const at = [&](double share) {
-        auto const last = static_cast<double>(order.size() - 1);
-        return friction[order[static_cast<std::size_t>(std::lround(share * last))]];
-    };
-    KnownFriction known{at(0.5), at(in_the_tail), at(1 - in_the_tail), {}, {}};
-    // Each value is the middle of a group of equally many neighbouring draws.
-    for (std::size_t i = 0; i < std::size_t{value_count}; ++i) {
-        known.values.push_back(at((static_cast<double>(i) + 0.5) / value_count));
-        if (discrepancy.empty()) continue;
-        std::size_t const first = i * order.size() / value_count, last = (i + 1) * order.size() / value_count;
-        double squares = 0;
-        for (std::size_t k = first; k < last; ++k) squares += std::pow(discrepancy[order[k]], 2);
-        known.discrepancies.push_back(std::sqrt(squares / static_cast<double>(last - first)));
-    }
-    return known;
-}
 
 double DesignModel::missed(theory::Drive const& drive, std::optional<double> depth) const {
     if (discrepancy) return *discrepancy;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "learn/known_friction.hpp"
 #include "learn/model_errors.hpp"
 #include "theory/drive_search.hpp"
 #include "theory/rolling_layer.hpp"
@@ -11,25 +12,6 @@
 #include <vector>
 
 namespace vibrotrough::learn {
-
-/// The friction of a material on the trough, and how sure it is.
-struct KnownFriction {
-    double median;               ///< of its distribution
-    double low, high;            ///< ends of its central 99.7 %, within which a design keeps every limit
-    std::vector<double> values;  ///< that are equally likely, in rising order
-    /// Standard deviation, in velocity efficiency, of what the calibrated model misses, beside each value;
-    /// empty when the friction comes from no calibration.
-    std::vector<double> discrepancies;
-};
-
-/// A friction that is distributed normally, cut at 0.01. @param sd  its standard uncertainty, >= 0
-/// @throws std::invalid_argument when the median is below 0.01 or sd is negative
-KnownFriction normal_friction(double median, double sd);
-
-/// The posterior of a calibration. @param friction  at least 100 draws
-/// @param discrepancy  the draws of the model discrepancy beside them, in velocity efficiency, or none
-/// @throws std::invalid_argument when there are too few draws or a friction is below 1e-3
-KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<double> const& discrepancy);
 
 /// What a model says of a drive.
 struct ModelEfficiency {

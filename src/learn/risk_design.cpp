@@ -1,5 +1,6 @@
 #include "learn/risk_design.hpp"
 
+#include "core/error.hpp"
 #include "learn/machine_keys.hpp"
 #include "learn/risk_search.hpp"
 #include "theory/design.hpp"
@@ -7,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,10 +22,12 @@ constexpr double near_limit = 0.01;     // relative: a limit so close counts as 
 constexpr double depth_step = 1e-4;     // m, to which the depth is rounded up
 constexpr double largest_loss = 0.005;  // of the merit, by rounding the drive
 constexpr int exchanges = 8;
+constexpr int corrections = 3;             // of what the search expects of the sure speed
+constexpr double least_draws_in_tail = 5;  // of a posterior, beyond the confidence
 
 void check(DesignTask const& t) {
     theory::check(t.space);
-    bool const material = !t.friction.values.empty() && t.friction.low > 0 && t.bulk_density > 0;
+    bool const material = t.friction.low > 0 && t.bulk_density > 0;
     bool const trough = t.width > 0 && t.length >= 0 && t.mass_flow > 0 && t.depth.low > 0 &&
                         t.depth.low <= t.depth.high && (!t.landing_speed || *t.landing_speed > 0);
     bool const models = !t.models.empty() && std::ranges::all_of(t.models, [](DesignModel const& m) {
@@ -30,6 +35,14 @@ void check(DesignTask const& t) {
     });
     if (!material || !trough || !models || !(t.confidence >= 0.5 && t.confidence <= 0.999))
         throw std::invalid_argument("a number of the design is out of range");
+    auto const draws = static_cast<double>(t.friction.draws.size());
+    if (draws > 0 && (1 - t.confidence) * draws < least_draws_in_tail - 1e-9) {
+        throw core::InputError(fmt::format(
+            "a confidence of {:g} cannot be resolved: of the {:g} draws of the posterior fewer than {:g} lie "
+            "beyond it; ask for at most {:.4g}",
+            t.confidence, draws, least_draws_in_tail,
+            std::floor(1e4 * (1 - least_draws_in_tail / draws)) / 1e4));
+    }
 }
 
 /// The drives that all limits allow, before any speed is looked at.
@@ -71,20 +84,19 @@ theory::Drive rounded(theory::Drive const& d, theory::DriveSpace const& s, doubl
             on_grid(d.inclination, s.inclination, scale * degree / 2, above(3))};
 }
 
-/// The drive on the coarsest grid that costs little and keeps every limit.
+/// The drive on the coarsest grid that costs little and keeps every limit; as it is when there is none.
 theory::Drive rounded(RiskSearch& search, theory::Drive const& drive, Objective objective, bool must_reach) {
     double const merit = search.merit(drive, objective);
     for (double scale : {1.0, 0.1, 0.01, 0.001}) {
-        std::optional<theory::Drive> best;
-        double best_merit = merit - largest_loss * std::abs(merit);
+        std::vector<std::pair<double, theory::Drive>> candidates;
         for (unsigned corner = 0; corner < 16; ++corner) {
             theory::Drive const one = rounded(drive, search.space(), scale, corner);
             double const value = search.merit(one, objective);
-            if (value < best_merit || !search.keeps_limits(one, must_reach)) continue;
-            best_merit = value;
-            best = one;
+            if (value >= merit - largest_loss * std::abs(merit)) candidates.emplace_back(value, one);
         }
-        if (best) return *best;
+        std::ranges::stable_sort(candidates, std::greater(), &std::pair<double, theory::Drive>::first);
+        for (auto const& [value, one] : candidates)
+            if (search.keeps_limits(one, must_reach)) return one;
     }
     return drive;
 }
@@ -162,6 +174,25 @@ void describe_motion(DesignTask const& task, RiskDesign& d) {
         theory::plastic_quantities(motion, point, {d.drive.amplitude, task.space.gravity}).mean_power;
 }
 
+/// The best machine that reaches the mass flow, rounded; nothing when none is better than the fastest one.
+/// The search knows the sure speed by few frictions: where many say that what it found does not reach the
+/// mass flow, it expects less and begins again.
+std::optional<theory::Drive> best_that_reaches(RiskSearch& search, theory::Drive const& fastest) {
+    Objective const objective = search.task().objective;
+    search.trust_at(fastest);
+    for (int i = 0; i < corrections; ++i) {
+        auto const found = best_at_every_friction(search, objective, true);
+        if (!found) return {};
+        theory::Drive const drive = rounded(search, *found, objective, true);
+        if (search.sure_speed(drive) >= search.needed()) {
+            if (search.merit(drive, objective) > search.merit(fastest, objective)) return drive;
+            return {};
+        }
+        search.trust_at(*found);
+    }
+    return {};
+}
+
 RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive) {
     RiskDesign d{};
     d.drive = drive;
@@ -213,15 +244,14 @@ std::vector<double> quantile_shares() {
 RiskDesign design_with_risk(DesignTask const& task) {
     check(task);
     RiskSearch search(task, allowed_space(task));
-    auto drive = best_at_every_friction(search, Objective::fastest, false);
-    if (!drive) throw std::invalid_argument("no machine keeps all limits, whatever it carries");
-    bool const reaches = search.sure_speed(*drive) >= search.needed();
-    Objective const objective = reaches ? task.objective : Objective::fastest;
-    if (objective != Objective::fastest) {
-        auto const better = best_at_every_friction(search, objective, true);
-        if (better && search.merit(*better, objective) > search.merit(*drive, objective)) drive = better;
+    auto const fastest = best_at_every_friction(search, Objective::fastest, false);
+    if (!fastest) throw std::invalid_argument("no machine keeps all limits, whatever it carries");
+    bool const reaches = search.sure_speed(*fastest) >= search.needed();
+    if (reaches && task.objective != Objective::fastest) {
+        if (auto const better = best_that_reaches(search, *fastest)) return described(task, search, *better);
     }
-    return described(task, search, rounded(search, *drive, objective, reaches));
+    return described(task, search,
+                     rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
 }
 
 }  // namespace vibrotrough::learn

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace vibrotrough::learn {
 namespace {
@@ -31,6 +33,30 @@ std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, d
     return theory::plastic_quantities(motion, point, {d.amplitude});
 }
 
+/// What a model says of a drive, by parts of the friction.
+SpeedDistribution speeds_by(DesignModel const& model, theory::Drive const& drive, std::optional<double> depth,
+                            std::vector<FrictionPart> const& parts) {
+    double const usually_missed = model.missed(drive, depth), trough = drive.trough_speed();
+    SpeedDistribution d;
+    for (FrictionPart const& part : parts) {
+        auto const value = model.at(drive, part.friction);
+        // A material that runs away has no speed that could be used.
+        double const mean = value ? value->efficiency * trough : -1e3, known = value ? value->sd() : 0;
+        auto const add = [&](double share, double missed) {
+            d.shares.push_back(share);
+            d.means.push_back(mean);
+            d.sds.push_back(trough * std::hypot(known, missed));
+        };
+        if (!model.uses_calibrated_discrepancy || part.discrepancies.empty()) {
+            add(part.share, usually_missed);
+            continue;
+        }
+        for (double const missed : part.discrepancies)
+            add(part.share / static_cast<double>(part.discrepancies.size()), missed);
+    }
+    return d;
+}
+
 }  // namespace
 
 double landing_speed(theory::Drive const& drive, double friction) {
@@ -42,8 +68,9 @@ double landing_speed(theory::Drive const& drive, double friction) {
 double SpeedDistribution::probability_above(double speed) const {
     double sum = 0;
     for (std::size_t i = 0; i < means.size(); ++i)
-        sum += sds[i] > 0 ? normal_share_above((speed - means[i]) / sds[i]) : (means[i] >= speed ? 1 : 0);
-    return sum / static_cast<double>(means.size());
+        sum += shares[i] *
+               (sds[i] > 0 ? normal_share_above((speed - means[i]) / sds[i]) : (means[i] >= speed ? 1 : 0));
+    return sum;
 }
 
 double SpeedDistribution::exceeded_with(double probability) const {
@@ -52,16 +79,31 @@ double SpeedDistribution::exceeded_with(double probability) const {
         low = std::min(low, means[i] - 6 * sds[i]);
         high = std::max(high, means[i] + 6 * sds[i]);
     }
-    for (int i = 0; i < 50; ++i) {
-        double const middle = (low + high) / 2;
-        (probability_above(middle) >= probability ? low : high) = middle;
-    }
-    return low;
+    high += 1e-9 * std::max(1.0, std::abs(high));
+    auto const surplus = [&](double speed) { return probability_above(speed) - probability * (1 - 1e-12); };
+    double const at_low = surplus(low), at_high = surplus(high);
+    if (at_low <= 0) return low;
+    if (at_high >= 0) return high;
+    std::uintmax_t most = 60;
+    return boost::math::tools::toms748_solve(surplus, low, high, at_low, at_high,
+                                             boost::math::tools::eps_tolerance<double>(36), most)
+        .first;
 }
 
 RiskSearch::RiskSearch(DesignTask const& task, theory::DriveSpace space)
-    : task_(task), space_(space), landing_frictions_{task.friction.low} {
+    : task_(task),
+      space_(space),
+      few_(task.friction.parts(few_parts(task.confidence))),
+      many_(task.friction.parts(many_parts(task.confidence))),
+      landing_frictions_{task.friction.low} {
     if (task.friction.high > task.friction.low) landing_frictions_.push_back(task.friction.high);
+    // The search takes all draws of a part together.
+    for (FrictionPart& part : few_) {
+        if (part.discrepancies.empty()) continue;
+        double squares = 0;
+        for (double const one : part.discrepancies) squares += one * one;
+        part.discrepancies = {std::sqrt(squares / static_cast<double>(part.discrepancies.size()))};
+    }
 }
 
 double RiskSearch::needed() const {
@@ -70,32 +112,33 @@ double RiskSearch::needed() const {
 
 SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t number,
                                      std::optional<double> depth) const {
-    DesignModel const& model = task_.models[number];
-    double const usually_missed = model.missed(drive, depth);
-    SpeedDistribution d;
-    for (std::size_t i = 0; i < task_.friction.values.size(); ++i) {
-        auto const value = model.at(drive, task_.friction.values[i]);
-        double const missed = model.uses_calibrated_discrepancy && !task_.friction.discrepancies.empty()
-                                  ? task_.friction.discrepancies[i]
-                                  : usually_missed;
-        // A material that runs away has no speed that could be used.
-        d.means.push_back(value ? value->efficiency * drive.trough_speed() : -1e3);
-        d.sds.push_back(drive.trough_speed() * std::hypot(value ? value->sd() : 0, missed));
-    }
-    return d;
+    return speeds_by(task_.models[number], drive, depth, many_);
+}
+
+double RiskSearch::sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const {
+    double least = infinity;
+    for (DesignModel const& model : task_.models)
+        least = std::min(least, speeds_by(model, drive, {}, parts).exceeded_with(task_.confidence));
+    return least;
 }
 
 double RiskSearch::sure_speed(theory::Drive const& drive) const {
-    double least = infinity;
-    for (std::size_t i = 0; i < task_.models.size(); ++i)
-        least = std::min(least, speeds(drive, i).exceeded_with(task_.confidence));
-    return least;
+    return sure_speed(drive, many_);
+}
+
+double RiskSearch::expected_sure_speed(theory::Drive const& drive) const {
+    return correction_ * sure_speed(drive, few_);
+}
+
+void RiskSearch::trust_at(theory::Drive const& drive) {
+    double const few = sure_speed(drive, few_), many = sure_speed(drive, many_);
+    if (few > 0 && many > 0) correction_ = many / few;
 }
 
 double RiskSearch::merit(theory::Drive const& drive, Objective objective) const {
     switch (objective) {
         case Objective::fastest:
-            return sure_speed(drive);
+            return expected_sure_speed(drive);
         case Objective::gentlest_landing: {
             double hardest = 0;
             for (double const friction : landing_frictions_)
@@ -108,7 +151,7 @@ double RiskSearch::merit(theory::Drive const& drive, Objective objective) const 
             auto const quantities = quantities_of(drive, task_.friction.median);
             if (!quantities) return -infinity;
             // Of the layer that carries the mass flow.
-            return -quantities->mean_power / std::max(1e-9, sure_speed(drive));
+            return -quantities->mean_power / std::max(1e-9, expected_sure_speed(drive));
         }
     }
     return 0;
@@ -140,10 +183,11 @@ void RiskSearch::keep_landing_at(double friction, double speed) {
 }
 
 bool RiskSearch::keeps_limits(theory::Drive const& drive, bool must_reach) const {
-    if (excess(space_, drive) > 0 || (must_reach && sure_speed(drive) < needed())) return false;
+    if (excess(space_, drive) > 0) return false;
     for (DesignModel const& model : task_.models)
         if (model.excess(drive) > 0) return false;
-    return !task_.landing_speed || worst_landing(drive).speed <= *task_.landing_speed;
+    if (task_.landing_speed && worst_landing(drive).speed > *task_.landing_speed) return false;
+    return !must_reach || sure_speed(drive) >= needed();
 }
 
 std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_reach) const {
@@ -160,7 +204,7 @@ std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_rea
     }
     if (must_reach)
         excesses.emplace_back(
-            [this](theory::Drive const& drive) { return 1 - sure_speed(drive) / needed(); });
+            [this](theory::Drive const& drive) { return 1 - expected_sure_speed(drive) / needed(); });
     int free = 0;
     for (theory::Range const& range :
          {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})

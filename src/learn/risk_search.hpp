@@ -8,9 +8,9 @@
 // Internal to the design with risk (risk_design.cpp).
 namespace vibrotrough::learn {
 
-/// The conveying speeds of a drive: a mixture of normal distributions, one per value of the friction.
+/// The conveying speeds of a drive: a mixture of normal distributions, at least one per part of the friction.
 struct SpeedDistribution {
-    std::vector<double> means, sds;  ///< m/s; equally likely
+    std::vector<double> shares, means, sds;  ///< -, m/s, m/s
 
     /// Probability of a speed above one. @param speed  m/s
     double probability_above(double speed) const;
@@ -27,12 +27,17 @@ class RiskSearch {
 
     /// m/s, needed for the mass flow at the largest depth.
     double needed() const;
-    /// Of one of the task's models, by its place in their list.
+    /// By the many parts of the friction, of one of the task's models by its place in their list.
     /// @param depth  of the layer, in diameters of its grains, if it is known
     SpeedDistribution speeds(theory::Drive const& drive, std::size_t model,
                              std::optional<double> depth = {}) const;
-    /// m/s, reached with the task's confidence by all models; below zero when the material runs away.
+    /// m/s, reached with the task's confidence by all models; below zero when the material runs away. By the
+    /// many parts of the friction.
     double sure_speed(theory::Drive const& drive) const;
+    /// The same by the few parts, by which best() searches; corrected by trust_at().
+    double expected_sure_speed(theory::Drive const& drive) const;
+    /// From now on the few parts give what the many do at this drive.
+    void trust_at(theory::Drive const& drive);
     /// What is made as large as possible.
     double merit(theory::Drive const& drive, Objective objective) const;
 
@@ -55,8 +60,12 @@ class RiskSearch {
     theory::DriveSpace const& space() const { return space_; }  ///< that the limits allow
 
   private:
+    double sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const;
+
     DesignTask const& task_;
     theory::DriveSpace space_;
+    std::vector<FrictionPart> few_, many_;   ///< of the friction
+    double correction_ = 1;                  ///< of the sure speed by the few
     std::vector<double> landing_frictions_;  ///< at which best() keeps the landing speed
     double aim_ = 1;  ///< of the landing speed, relative to its limit; lowered when a friction repeats
 };

@@ -172,7 +172,7 @@ void check_friction(std::vector<atlas::SurfaceInput> const& inputs, double campa
             "it, too",
             known.median, input->low, input->high));
     }
-    if (known.values.front() < input->low || known.values.back() > input->high)
+    if (known.low < input->low || known.high > input->high)
         remarks.push_back(
             fmt::format("The friction may lie outside the range {:g} to {:g} of the campaign, where the "
                         "surface only continues what it knows.",

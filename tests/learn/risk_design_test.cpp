@@ -1,5 +1,6 @@
 #include "learn/risk_design.hpp"
 
+#include "core/error.hpp"
 #include "learn/design_report.hpp"
 #include "theory/design.hpp"
 #include "theory/point_mass.hpp"
@@ -14,6 +15,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <boost/math/special_functions/erf.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -121,6 +123,49 @@ RC_GTEST_PROP(RiskDesign, BreaksNoLimitAtAnyFriction, ()) {
         double const speed = theory::engineer_quantities(motion, {m.amplitude}).impact_speed;
         RC_ASSERT(speed <= d.landing_speed * (1 + 1e-5));
     }
+}
+
+/// A random number between 0 and 1.
+double uniform() {
+    return between(0, 1);
+}
+
+/// How often the machine of a design carries the mass flow by a model, from random frictions of a normal
+/// distribution, each of another one of its equal parts. What the model misses is taken into account exactly.
+double tried_probability(DesignTask const& task, double median, double sd, RiskDesign const& d,
+                         DesignModel const& model, int tries) {
+    double const needed = task.mass_flow / (task.bulk_density * task.width * d.depth);
+    double sum = 0;
+    for (int i = 0; i < tries; ++i) {
+        double const share = std::clamp((i + uniform()) / tries, 1e-9, 1 - 1e-9);
+        double const mu = std::max(0.01, median - sd * std::sqrt(2.0) * boost::math::erfc_inv(2 * share));
+        auto const value = model.at(d.drive, mu);
+        if (!value) continue;
+        double const missed = std::hypot(value->sd(), *model.discrepancy) * d.drive.trough_speed();
+        double const excess = value->efficiency * d.drive.trough_speed() - needed * (1 - 1e-9);
+        sum += missed > 0 ? 0.5 * std::erfc(-excess / (missed * std::sqrt(2.0))) : (excess >= 0 ? 1 : 0);
+    }
+    return sum / tries;
+}
+
+// The probability that is printed is the distribution's, within half a point, also with a model without an
+// error of its own, whose speed is not smooth in the friction; and it is at least the confidence that was
+// asked. Random errors of trying: below 0.1 point, as each friction is drawn from its own part of 20,000.
+RC_GTEST_PROP(RiskDesign, ProbabilityIsTheDistributions, ()) {
+    DesignTask task = any_task();
+    double const median = between(0.2, 0.6), sd = between(0.005, 0.05);
+    task.friction = normal_friction(median, sd);
+    task.models = {point_mass_design_model(*rc::gen::element(0.0, 0.002, 0.01))};
+    task.confidence = *rc::gen::element(0.5, 0.8, 0.95, 0.99, 0.999);
+    task.depth.high = 0.1;
+    RiskDesign const d = design_with_risk(task);
+    double const tried = tried_probability(task, median, sd, d, task.models.front(), 20000);
+    RC_ASSERT(std::abs(tried - d.probability) <= 0.005);
+    if (d.feasible) RC_ASSERT(tried >= task.confidence - std::min(0.005, (1 - task.confidence) / 2));
+    // The depth is that of the sure speed, rounded up to 0.1 mm.
+    if (!d.feasible || d.depth <= task.depth.low) return;
+    double const depth = task.mass_flow / (task.bulk_density * task.width * d.sure_speed);
+    RC_ASSERT(d.depth >= depth * (1 - 1e-9) && d.depth <= depth + 1.001e-4);
 }
 
 // The numbers are those that a workshop sets: what is printed is what was judged.
@@ -282,8 +327,7 @@ TEST(RiskDesign, RulesOfThumb) {
                 1e-3);
 }
 
-// Draws of a normal distribution give the distribution back (the values of the exact one are spread by a
-// tenth of its standard deviation to keep its variance); the discrepancy beside each friction goes along.
+// Draws of a normal distribution give the distribution back; the discrepancy beside each friction goes along.
 TEST(RiskDesign, PosteriorIsReadAsItsDistribution) {
     std::vector<double> friction, discrepancy;
     KnownFriction const exact = normal_friction(0.3, 0.02);
@@ -296,11 +340,14 @@ TEST(RiskDesign, PosteriorIsReadAsItsDistribution) {
     EXPECT_NEAR(known.median, 0.3, 0.001);
     EXPECT_NEAR(known.low, exact.low, 0.004);
     EXPECT_NEAR(known.high, exact.high, 0.004);
-    ASSERT_EQ(known.values.size(), exact.values.size());
-    for (std::size_t i = 0; i < exact.values.size(); ++i)
-        EXPECT_NEAR(known.values[i], exact.values[i], 0.003) << i;
-    EXPECT_NEAR(known.discrepancies.front(), 0.01, 1e-12);
-    EXPECT_NEAR(known.discrepancies.back(), 0.04, 1e-12);
+    auto const parts = known.parts(few_parts(0.95)), exact_parts = exact.parts(few_parts(0.95));
+    ASSERT_EQ(parts.size(), exact_parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        EXPECT_NEAR(parts[i].friction, exact_parts[i].friction, 0.003) << i;
+        EXPECT_NEAR(parts[i].share, exact_parts[i].share, 1e-3) << i;
+    }
+    EXPECT_EQ(parts.front().discrepancies, std::vector<double>(160, 0.01));  // 4 % of the draws
+    EXPECT_EQ(parts.back().discrepancies, std::vector<double>(160, 0.04));
     EXPECT_THROW(drawn_friction({0.3, 0.4}, {}), std::invalid_argument);
 }
 
@@ -318,6 +365,15 @@ TEST(RiskDesign, SenselessTasksAreRefused) {
     task.space.inclination = {0.4, 0.5};  // steeper than the lowest friction
     EXPECT_THROW(design_with_risk(task), std::invalid_argument);
     EXPECT_THROW(normal_friction(0, 0.1), std::invalid_argument);
+    // Of 400 draws, four lie beyond 99 %.
+    task = pellets();
+    std::vector<double> draws;
+    for (int i = 0; i < 400; ++i) draws.push_back(0.3 + 1e-4 * i);
+    task.friction = drawn_friction(draws, {});
+    task.confidence = 0.99;
+    EXPECT_THROW(design_with_risk(task), core::InputError);
+    task.confidence = 0.9875;
+    EXPECT_NO_THROW(design_with_risk(task));
 }
 
 }  // namespace
