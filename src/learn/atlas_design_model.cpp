@@ -125,6 +125,11 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
         space.max_throw_number = std::min(space.max_throw_number, range_of(throw_number_input).high);
         return space;
     };
+    auto const [gentle, vigorous] = range_of(throw_number_input);
+    auto const [small, large] = range_of(amplitude_input);
+    model.known_range =
+        fmt::format("throw numbers of {:g} to {:g} and strokes of {:.3g} to {:.3g} mm", gentle, vigorous,
+                    2e3 * small * grains.diameter, 2e3 * large * grains.diameter);
     model.excess = [grains](theory::Drive const& d) {
         atlas::Place const place = place_of(d, middle_of(friction_input), grains);
         double most = -1;

@@ -1,5 +1,6 @@
 #include "learn/design_model.hpp"
 
+#include "learn/machine_keys.hpp"
 #include "theory/design.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/limits.hpp"
@@ -78,6 +79,11 @@ DesignModel rolling_layer_design_model(theory::RollingLaw const& law, std::optio
         return ModelEfficiency{eta, 0};
     };
     model.is_rolling = true;
+    model.known_range =
+        fmt::format("throw numbers of {:g} to {:g} and vibration angles of {:.3g} to {:.3g} degrees",
+                    theory::tested_level.throw_number.low, theory::tested_level.throw_number.high,
+                    std::atan(theory::tested_tan_vibration_angle.low) / degree,
+                    std::atan(theory::tested_tan_vibration_angle.high) / degree);
     model.narrowed = theory::within_tested_range;
     model.excess = [](theory::Drive const& d) { return theory::tested_excess(d); };
     return model;

@@ -35,7 +35,8 @@ struct DesignModel {
     std::function<theory::DriveSpace(theory::DriveSpace)> narrowed = {};
     /// How far a drive is outside what the model knows, relatively; zero or less inside.
     std::function<double(theory::Drive const&)> excess = {};
-    bool is_point_mass = false;  ///< whether it is the theory alone
+    std::string known_range = {};  ///< where it is known, for people; empty: everywhere, or told elsewhere
+    bool is_point_mass = false;    ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
     bool is_rolling = false;  ///< whether it is the law of rolling layers

@@ -104,6 +104,54 @@ std::string own_uncertainty(ModelForecast const& f) {
         half_width(f.efficiency->statistics_sd), half_width(f.efficiency->numerics_sd));
 }
 
+/// How many troughs of the task's width carry the mass flow side by side.
+int troughs_needed(DesignTask const& t, RiskDesign const& d) {
+    return static_cast<int>(std::ceil(*d.width_needed / t.width - 1e-9));
+}
+
+/// What the fastest machine carries at the confidence, as a sentence.
+std::string most_that_is_carried(DesignTask const& t, RiskDesign const& d) {
+    double const flow = t.bulk_density * t.width * t.depth.high * d.sure_speed;
+    return fmt::format("The fastest one carries {:.3g} t/h so surely, in a layer of {:.4g} mm.",
+                       tonnes_per_hour * flow, 1e3 * t.depth.high);
+}
+
+/// The machines for the speeds of the drive that can be had; empty when any can.
+std::string speeds_text(RiskDesign const& d) {
+    if (d.speeds_tried.empty()) return "";
+    std::string text = fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "speed of the drive",
+                                   "stroke", "sure", "layer", "machine number", "probability");
+    text += fmt::format("{:<24} {:>9} {:>9} {:>10}\n", "1/min", "mm", "m/s", "mm");
+    for (SpeedTried const& one : d.speeds_tried) {
+        std::string const speed = fmt::format("{:.4g}", 60 * one.frequency);
+        if (one.why_none) {
+            text += fmt::format("{:<24} {}\n", speed, *one.why_none);
+            continue;
+        }
+        auto const known = [&](std::string const& words) { return one.untested ? "not known" : words; };
+        text += fmt::format("{:<24} {:>9.4g} {:>9} {:>10.4g} {:>17.3g} {:>12}\n", speed, 2e3 * one.amplitude,
+                            known(fmt::format("{:.3g}", one.sure_speed)), 1e3 * one.depth, one.machine_number,
+                            known(fmt::format("{:.1f} %", 100 * one.probability)));
+    }
+    return text;
+}
+
+Json as_json(SpeedTried const& one) {
+    Json json{{"rpm", 60 * one.frequency}, {"feasible", one.feasible}};
+    if (one.why_none) {
+        json["why_none"] = *one.why_none;
+        return json;
+    }
+    auto const known = [&](double value) { return one.untested ? Json(nullptr) : Json(value); };
+    json["stroke_mm"] = 2e3 * one.amplitude;
+    json["sure_speed_m_per_s"] = known(one.sure_speed);
+    json["layer_depth_mm"] = 1e3 * one.depth;
+    json["probability"] = known(one.probability);
+    json["machine_number"] = one.machine_number;
+    json["landing_speed_m_per_s"] = one.landing_speed;
+    return json;
+}
+
 }  // namespace
 
 std::string name_of(Objective objective) {
@@ -132,11 +180,19 @@ std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
     if (d.feasible)
         return fmt::format("This trough carries {:.4g} t/h with a probability of {:.4g} % or more.", wanted,
                            100 * t.confidence);
-    return fmt::format(
-        "No machine within the limits carries {:.4g} t/h with a probability of {:.4g} %; the fastest one "
-        "does "
-        "with {:.1f} %.",
-        wanted, 100 * t.confidence, 100 * d.probability);
+    std::string text =
+        fmt::format("No machine within the limits carries {:.4g} t/h with a probability of {:.4g} %", wanted,
+                    100 * t.confidence);
+    // Beyond this, a probability says no more than "never".
+    if (d.probability >= 0.001)
+        text += fmt::format("; the fastest one does with {:.1f} %", 100 * d.probability);
+    if (!d.width_needed)
+        return text +
+               ". So surely, even the fastest one conveys nothing: ask for a lower confidence, or know the "
+               "friction better.";
+    return text + fmt::format(". {} It would take a trough {:.4g} mm wide, or {} troughs side by side.",
+                              most_that_is_carried(t, d), std::ceil(1e3 * *d.width_needed),
+                              troughs_needed(t, d));
 }
 
 std::string design_text(DesignTask const& t, RiskDesign const& d) {
@@ -158,6 +214,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
                             known(fmt::format("{:.1f} %", 100 * f.probability)));
     }
     for (ModelForecast const& f : d.forecasts) text += own_uncertainty(f);
+    text += speeds_text(d);
     double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
     text += fmt::format(
         "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "
@@ -196,11 +253,15 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"sure_speed_m_per_s", if_known(d, d.sure_speed)},
               {"untested", d.untested ? Json(*d.untested) : Json(nullptr)},
               {"objective", name_of(t.objective)},
+              {"width_needed_m", d.width_needed ? Json(*d.width_needed) : Json(nullptr)},
+              {"troughs_needed", d.width_needed ? Json(troughs_needed(t, d)) : Json(nullptr)},
               {"models", Json::array()},
+              {"speeds_compared", Json::array()},
               {"active_limits", d.active_limits},
               {"rules_of_thumb", rules_of_thumb(d)},
               {"warnings", d.warnings}};
     for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(d, f));
+    for (SpeedTried const& one : d.speeds_tried) json["speeds_compared"].push_back(as_json(one));
     return json;
 }
 

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "learn/machine_keys.hpp"
 #include "learn/risk_search.hpp"
-#include "theory/design.hpp"
+#include "learn/way_out.hpp"
 #include "theory/plastic_quantities.hpp"
 
 #include <algorithm>
@@ -43,14 +43,6 @@ void check(DesignTask const& t) {
             t.confidence, draws, least_draws_in_tail,
             std::floor(1e4 * (1 - least_draws_in_tail / draws)) / 1e4));
     }
-}
-
-/// The drives that all limits allow, before any speed is looked at.
-theory::DriveSpace allowed_space(DesignTask const& task) {
-    theory::DriveSpace space = task.space;
-    space.inclination = theory::with_friction_margin(space.inclination, task.friction.low);
-    for (DesignModel const& model : task.models) space = model.narrowed(space);
-    return space;
 }
 
 /// The best drive that keeps the limit of the landing speed at every friction.
@@ -208,6 +200,8 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     for (DesignModel const& model : task.models)
         if (!d.untested) d.untested = model.untested(drive, task.friction.median, in_grains);
     d.feasible = d.feasible && !d.untested;
+    if (!d.feasible && !d.untested && d.sure_speed > 0)
+        d.width_needed = task.mass_flow / (task.bulk_density * task.depth.high * d.sure_speed);
     double const flow = per_depth * d.depth;
     d.probability = 1;
     for (std::size_t i = 0; i < task.models.size(); ++i) {
@@ -233,6 +227,69 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     return d;
 }
 
+/// The best machine whose speed of the drive may be anything within its range.
+RiskDesign design_at_any_speed(DesignTask const& task) {
+    theory::DriveSpace const space = allowed_space(task);
+    // The search begins at the least vigorous drive.
+    theory::Drive const weakest{space.frequency.low, space.amplitude.low, space.vibration_angle.low,
+                                (space.inclination.low + space.inclination.high) / 2};
+    if (theory::excess(space, weakest) > 0) throw std::invalid_argument(why_no_machine(task));
+    RiskSearch search(task, space);
+    auto const fastest = best_at_every_friction(search, Objective::fastest, false);
+    if (!fastest) throw std::invalid_argument(why_no_machine(task));
+    bool const reaches = search.sure_speed(*fastest) >= search.needed();
+    if (reaches && task.objective != Objective::fastest) {
+        if (auto const better = best_that_reaches(search, *fastest)) return described(task, search, *better);
+    }
+    return described(task, search,
+                     rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
+}
+
+/// How good a machine is, to be compared with one for another speed of the drive: first whether it reaches
+/// the mass flow, then the objective; without the mass flow, the sure speed.
+std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
+    if (!d.feasible) return {false, d.sure_speed};
+    switch (task.objective) {
+        case Objective::fastest:
+            break;
+        case Objective::gentlest_landing:
+            return {true, -d.landing_speed};
+        case Objective::least_machine_number:
+            return {true, -d.machine_number};
+        case Objective::least_power:
+            return {true, -d.power_per_mass / d.sure_speed};
+    }
+    return {true, d.sure_speed};
+}
+
+RiskDesign best_of_speeds(DesignTask const& task) {
+    std::optional<RiskDesign> best;
+    std::vector<SpeedTried> tried;
+    for (double const frequency : task.frequencies) {
+        DesignTask one = task;
+        one.frequencies.clear();
+        one.space.frequency = {frequency, frequency};
+        try {
+            RiskDesign const design = design_at_any_speed(one);
+            tried.push_back({frequency, design.feasible, design.drive.amplitude, design.sure_speed,
+                             design.depth, design.probability, design.machine_number, design.landing_speed,
+                             design.untested});
+            if (!best || worth(task, design) > worth(task, *best)) best = design;
+        } catch (std::invalid_argument const& error) {
+            tried.push_back({.frequency = frequency, .why_none = error.what()});
+        }
+    }
+    if (!best) {
+        std::string text;
+        for (SpeedTried const& one : tried)
+            text += fmt::format("{}at {:.4g} 1/min {}", text.empty() ? "" : "; ", 60 * one.frequency,
+                                *one.why_none);
+        throw std::invalid_argument(text);
+    }
+    best->speeds_tried = tried;
+    return *best;
+}
+
 }  // namespace
 
 std::vector<double> quantile_shares() {
@@ -243,15 +300,7 @@ std::vector<double> quantile_shares() {
 
 RiskDesign design_with_risk(DesignTask const& task) {
     check(task);
-    RiskSearch search(task, allowed_space(task));
-    auto const fastest = best_at_every_friction(search, Objective::fastest, false);
-    if (!fastest) throw std::invalid_argument("no machine keeps all limits, whatever it carries");
-    bool const reaches = search.sure_speed(*fastest) >= search.needed();
-    if (reaches && task.objective != Objective::fastest) {
-        if (auto const better = best_that_reaches(search, *fastest)) return described(task, search, *better);
-    }
-    return described(task, search,
-                     rounded(search, *fastest, reaches ? task.objective : Objective::fastest, reaches));
+    return task.frequencies.empty() ? design_at_any_speed(task) : best_of_speeds(task);
 }
 
 }  // namespace vibrotrough::learn

@@ -30,6 +30,22 @@ struct DesignTask {
     std::optional<double> landing_speed;        ///< m/s, largest speed of an impact on the trough
     double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
     Objective objective = Objective::fastest;  ///< what to be best at
+    /// Hz, of the drives that can be had, of which the best is chosen; empty: any within the space.
+    std::vector<double> frequencies = {};
+};
+
+/// The machine for one of the speeds of the drive that can be had.
+struct SpeedTried {
+    double frequency;           ///< Hz
+    bool feasible = false;      ///< as in RiskDesign, like all that follows
+    double amplitude = 0;       ///< m
+    double sure_speed = 0;      ///< m/s
+    double depth = 0;           ///< m
+    double probability = 0;     ///< that the mass flow is reached
+    double machine_number = 0;  ///< K
+    double landing_speed = 0;   ///< m/s
+    std::optional<std::string> untested = {};
+    std::optional<std::string> why_none = {};  ///< why there is no machine, without a full stop
 };
 
 /// What one model says of a design.
@@ -68,6 +84,10 @@ struct RiskDesign {
     double power_per_mass;  ///< W/kg, that the trough gives to the point mass at the median of the friction
     /// Whether the mass flow can be reached within the limits at the stated confidence, which must be known.
     bool feasible;
+    /// m, of the trough that would carry the mass flow at the confidence with this drive and the largest
+    /// depth; only when the mass flow is not reached and some speed is sure.
+    std::optional<double> width_needed;
+    std::vector<SpeedTried> speeds_tried;    ///< one for each of the task's frequencies
     std::vector<std::string> active_limits;  ///< what holds it back
     std::vector<std::string> warnings;       ///< where a model is known to be wrong, in whole sentences
 };
@@ -86,7 +106,9 @@ struct RiskDesign {
 /// (exchange method of semi-infinite programming, J.W. Blankenship and J.E. Falk, J. Optim. Theory Appl. 19
 /// (1976) 261-281).
 ///
-/// @throws std::invalid_argument when a limit is out of range, and when no drive keeps all of them
+/// @throws std::invalid_argument when a limit is out of range, and when no drive keeps all of them: the
+/// message names the limits in the way
+/// @throws core::InputError when fewer than five draws of the friction lie beyond the confidence
 RiskDesign design_with_risk(DesignTask const& task);
 
 /// m/s, the largest speed of an impact of the plastic point mass at a drive; 0 without flight, infinite when

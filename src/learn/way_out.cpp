@@ -1,0 +1,136 @@
+#include "learn/way_out.hpp"
+
+#include "learn/machine_keys.hpp"
+#include "theory/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double given_up = 1e4;  // a largest value that no longer limits
+constexpr theory::DriveSearchSettings short_search{4000, 1000};
+
+/// A limit of a task.
+struct Limit {
+    char const *name, *unit;
+    double in_unit;         ///< what one in SI is in the unit
+    theory::Range allowed;  ///< of a quantity above zero
+    theory::DriveFunction value;
+    std::function<void(DesignTask&)> give_up;
+};
+
+/// The hardest landing of the point mass at the least, the middle and the largest friction.
+double hardest_landing(KnownFriction const& friction, theory::Drive const& drive) {
+    return std::max({landing_speed(drive, friction.low), landing_speed(drive, friction.median),
+                     landing_speed(drive, friction.high)});
+}
+
+/// The drive that is best in something among those that keep all limits of a task, whatever it carries.
+std::optional<theory::Drive> best_within(DesignTask const& task, theory::DriveFunction const& merit) {
+    std::vector<theory::DriveFunction> excesses;
+    for (DesignModel const& model : task.models)
+        if (!model.is_point_mass) excesses.push_back(model.excess);
+    if (task.landing_speed)
+        excesses.emplace_back([&](theory::Drive const& drive) {
+            return hardest_landing(task.friction, drive) / *task.landing_speed - 1;
+        });
+    try {
+        return theory::best_drive(allowed_space(task), merit, excesses, short_search);
+    } catch (std::invalid_argument const&) {
+        return {};
+    }
+}
+
+/// A value to three digits, beyond the one that is needed.
+std::string next_value(double needed, bool above) {
+    double const unit = std::pow(10, std::floor(std::log10(needed)) - 2);
+    return fmt::format("{:.4g}", (above ? std::ceil(needed / unit) : std::floor(needed / unit)) * unit);
+}
+
+/// The limits that may be given up one at a time. All angles and slopes of a trough that conveys are allowed
+/// then, any stroke up to 200 mm and any speed up to 12,000 1/min.
+std::vector<Limit> limits_of(DesignTask const& task) {
+    using theory::Drive;
+    theory::DriveSpace const& space = task.space;
+    double const g = space.gravity;
+    std::vector<Limit> limits{
+        {"machine number",
+         "",
+         1,
+         {0, space.max_machine_number},
+         [=](Drive const& d) { return d.machine_number(g); },
+         [](DesignTask& t) { t.space.max_machine_number = given_up; }},
+        {"throw number",
+         "",
+         1,
+         {0, space.max_throw_number},
+         [=](Drive const& d) { return d.throw_number(g); },
+         [](DesignTask& t) { t.space.max_throw_number = given_up; }},
+        {"stroke", " mm", 2000, space.amplitude, [](Drive const& d) { return d.amplitude; },
+         [](DesignTask& t) {
+             t.space.amplitude = {1e-6, 0.1};
+         }},
+        {"speed of the drive", " 1/min", 60, space.frequency, [](Drive const& d) { return d.frequency; },
+         [](DesignTask& t) {
+             t.space.frequency = {0.5, 200};
+         }},
+        {"vibration angle", " degrees", 1 / degree, space.vibration_angle,
+         [](Drive const& d) { return d.vibration_angle; },
+         [](DesignTask& t) {
+             t.space.vibration_angle = {degree, 89 * degree};
+         }}};
+    if (task.landing_speed)
+        limits.push_back({"landing speed",
+                          " m/s",
+                          1,
+                          {0, *task.landing_speed},
+                          [&task](Drive const& d) { return hardest_landing(task.friction, d); },
+                          [](DesignTask& t) { t.landing_speed.reset(); }});
+    return limits;
+}
+
+/// The value of a limit that lets a machine through when all others stay; nothing when there is none.
+std::optional<std::string> way_past(Limit const& limit, DesignTask task) {
+    limit.give_up(task);
+    auto const beyond_range = [&](theory::Drive const& d) {
+        return std::max(limit.value(d) / limit.allowed.high, limit.allowed.low / limit.value(d));
+    };
+    auto const drive = best_within(task, [&](theory::Drive const& d) { return -std::log(beyond_range(d)); });
+    if (!drive || beyond_range(*drive) <= 1) return {};
+    double const value = limit.value(*drive);
+    bool const above = value > limit.allowed.high;
+    return fmt::format("a {} of {}{} or {}", limit.name, next_value(limit.in_unit * value, above), limit.unit,
+                       above ? "more" : "less");
+}
+
+}  // namespace
+
+theory::DriveSpace allowed_space(DesignTask const& task) {
+    theory::DriveSpace space = task.space;
+    space.inclination = theory::with_friction_margin(space.inclination, task.friction.low);
+    for (DesignModel const& model : task.models) space = model.narrowed(space);
+    return space;
+}
+
+std::string why_no_machine(DesignTask const& task) {
+    std::vector<std::string> ways, known;
+    for (DesignModel const& model : task.models)
+        if (!model.known_range.empty())
+            known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
+    for (Limit const& limit : limits_of(task))
+        if (auto const way = way_past(limit, task)) ways.push_back(*way);
+    std::string text = "no machine keeps all limits, whatever it carries";
+    if (!known.empty()) text += fmt::format("; {}", fmt::join(known, ", "));
+    if (ways.empty()) return text + "; no limit alone is the reason";
+    return text + fmt::format("; {} would let one through", fmt::join(ways, ", or "));
+}
+
+}  // namespace vibrotrough::learn
