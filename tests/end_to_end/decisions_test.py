@@ -115,6 +115,15 @@ class Engineer(EndToEndTest):
         self.assertEqual(answer.returncode, 1, answer.stderr)
         self.assertIn("No machine within the limits carries 900 t/h", answer.stdout)
         self.assertIn("layer depth <= 60 mm", answer.stdout)
+        self.assertRegex(answer.stdout, r"a trough \d+ mm wide, or \d+ troughs side by side")
+
+    def test_the_best_of_the_speeds_that_can_be_had(self):
+        words = ["--friction", "0.3", "--machine-number", "4", "--objective", "least-machine-number"]
+        design = self.design(*words, "--rpm", "960,1450,2900")
+        first, second, third = design["speeds_compared"]
+        self.assertEqual([one["rpm"] for one in (first, second, third)], [960, 1450, 2900])
+        self.assertIn("a stroke of 0.85 mm or less", third["why_none"])
+        self.assertEqual(design["machine_number"], min(one["machine_number"] for one in (first, second) if one["feasible"]))
 
     def test_what_is_wrong_is_refused(self):
         task = ["design", "--mass-flow", "12 t/h", *TROUGH]
@@ -126,6 +135,8 @@ class Engineer(EndToEndTest):
             (["--posterior", str(not_a_calibration)], "holds no calibrated friction"),
             (["--friction", "0.3", "--model", "surface"], "--surface DIR"),
             (["--friction", "0.3", "--inclination", "20 deg"], "no machine fits"),
+            (["--friction", "0.3", "--model", "rolling-layer", "--machine-number", "1.5"], "throw numbers of 1.25 to 2.6"),
+            (["--friction", "0.3", "--rpm", "960,5"], "decimal comma"),
         ):
             answer = self.call(*task, *words)
             self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)

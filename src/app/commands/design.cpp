@@ -72,7 +72,11 @@ is what your own simulated campaign says. Landing speed, power and mode are alwa
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains; its grains are assumed, so put in what you know of yours.
 
-A range is "LOW to HIGH"; a single value fixes the quantity.
+5. Where no machine carries the mass flow so surely, the answer says how wide a trough would, or how many side by
+side. Where the limits exclude every machine, each one that alone would have to give way is named, with the value.
+
+A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds of the drive (--rpm 960,1450,2900)
+a machine is found for each; the best by the objective is printed, and what the others gave.
 
 Exit codes:
     0  the mass flow is reached

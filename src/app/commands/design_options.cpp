@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -32,6 +33,20 @@ void refuse_both(char const* first, Text const& a, char const* second, Text cons
         fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
 }
 
+/// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
+std::vector<double> read_listed_speeds(Text const& rpm) {
+    std::vector<double> frequencies;
+    if (!rpm || rpm->find(',') == std::string::npos) return {};
+    std::stringstream pieces(*rpm);
+    for (std::string piece; std::getline(pieces, piece, ',');) {
+        constexpr std::ptrdiff_t most_decimals = 2;
+        if (std::ranges::count_if(piece, [](char c) { return c >= '0' && c <= '9'; }) <= most_decimals)
+            return {};
+        frequencies.push_back(read_turns("--rpm", piece));
+    }
+    return frequencies;
+}
+
 theory::DriveSpace read_space(DesignOptions const& o) {
     theory::DriveSpace space;
     auto const quantity = [](char const* option, char const* unit, char const* example) {
@@ -42,7 +57,10 @@ theory::DriveSpace read_space(DesignOptions const& o) {
     };
     refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
     refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
-    if (o.rpm) {
+    if (auto const listed = read_listed_speeds(o.rpm); !listed.empty()) {
+        auto const [low, high] = std::ranges::minmax(listed);
+        space.frequency = {low, high};
+    } else if (o.rpm) {
         space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
                                      [](std::string const& text) { return read_turns("--rpm", text); });
     }
@@ -177,7 +195,10 @@ void DesignOptions::add_limits(CLI::App& command) {
     };
     add("--stroke", stroke, "Range of 2 r; default: \"1 mm to 30 mm\"");
     add("--amplitude", amplitude, "Range of r, half the stroke, instead of --stroke");
-    add("--rpm", rpm, "Range of the drive's turns per minute; default: \"300 to 3600\"");
+    add("--rpm", rpm,
+        "Range of the drive's turns per minute, or the speeds that can be had, such as 960,1450,2900, of "
+        "which "
+        "the best is chosen; default: \"300 to 3600\"");
     add("--frequency", frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
     add("--vibration-angle", vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", inclination, "Range of alpha, uphill positive; default: level");
@@ -252,6 +273,7 @@ learn::DesignTask DesignOptions::task() const {
     };
     learn::DesignTask task{};
     task.space = read_space(*this);
+    task.frequencies = read_listed_speeds(rpm);
     std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
     task.bulk_density = quantity("--bulk-density", bulk_density, "kg/m3", "600 kg/m3");
     task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
