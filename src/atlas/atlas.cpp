@@ -29,16 +29,14 @@ Surface const& surface() {
     return fitted;
 }
 
-/// The part of the half-width that does not depend on the place: what the layers scatter about the surface
-/// beyond their own intervals, and their numerical errors.
-double common_half_width() {
+/// Half-width of what the layers scatter about the surface beyond their own intervals.
+double scatter_half_width() {
     static double const width = [] {
         auto const draws = surface().draws();
-        double scatter = 0;
+        double variance = 0;
         for (inference::Hyperparameters const& draw : draws)
-            scatter += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
-        return std::hypot(deviations_in_half_width * std::sqrt(scatter),
-                          read_numerical_error(layers_table, "layers.csv"));
+            variance += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
+        return deviations_in_half_width * std::sqrt(variance);
     }();
     return width;
 }
@@ -135,11 +133,17 @@ int simulated_layers() {
     return static_cast<int>(surface().points().size());
 }
 
+double numerical_error() {
+    static double const mean = read_numerical_error(layers_table, "layers.csv");
+    return mean;
+}
+
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
     SurfaceValue const value = surface().at(place, *trend);
-    return SurfaceValue{value.efficiency, std::hypot(value.half_width, common_half_width())};
+    return SurfaceValue{value.efficiency,
+                        std::hypot(value.half_width, scatter_half_width(), numerical_error())};
 }
 
 Answer predict(prepare::PreparedCase const& prepared) {

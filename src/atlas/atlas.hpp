@@ -29,6 +29,10 @@ struct Answer {
 /// How many layers were simulated for the atlas.
 int simulated_layers();
 
+/// The part of every half-width that stands for numerical errors of the simulated layers: the mean of their
+/// bounds, in velocity efficiency.
+double numerical_error();
+
 /// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
 /// Nothing when theory or law have no mean speed there. The half-width contains what the layers scatter
 /// beyond their own intervals, and their numerical errors.

@@ -110,8 +110,11 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
                                                         double mu) -> std::optional<ModelEfficiency> {
         auto const value = atlas::value_at(place_of(d, mu, grains));
         if (!value) return {};
+        double const whole = value->half_width, numerics = atlas::numerical_error();
+        double const statistics = std::sqrt(whole * whole - numerics * numerics);
         return ModelEfficiency{value->efficiency,
-                               std::hypot(value->half_width / atlas::deviations_in_half_width, spread)};
+                               std::hypot(statistics / atlas::deviations_in_half_width, spread),
+                               numerics / atlas::deviations_in_half_width};
     };
     model.narrowed = [grains](theory::DriveSpace space) {
         auto const [shallow, steep] = range_of(tan_vibration_input);
