@@ -150,7 +150,9 @@ def judge(run: ValidationCase) -> None:
                 f"{own:.3f}; the law alone {rms['rolling_layer']:.3f}, the point mass {rms['theory']:.3f}")
     others = judge_decisions(run)
     if not run.control:
-        scores = {"layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        every = run.table("predicted.csv")
+        all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)
+        scores = {"all": len(every), "all_held": all_held, "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
 
 
