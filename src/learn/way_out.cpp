@@ -127,7 +127,7 @@ std::string why_no_machine(DesignTask const& task) {
             known.push_back(fmt::format("{} knows {}", model.name, model.known_range));
     for (Limit const& limit : limits_of(task))
         if (auto const way = way_past(limit, task)) ways.push_back(*way);
-    std::string text = "no machine keeps all limits, whatever it carries";
+    std::string text = "the limits exclude every machine, whatever it carries";
     if (!known.empty()) text += fmt::format("; {}", fmt::join(known, ", "));
     if (ways.empty()) return text + "; no limit alone is the reason";
     return text + fmt::format("; {} would let one through", fmt::join(ways, ", or "));

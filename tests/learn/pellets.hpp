@@ -1,0 +1,21 @@
+#pragma once
+
+#include "learn/risk_design.hpp"
+
+namespace vibrotrough::learn {
+
+/// 12 t/h of pellets on a trough 0.3 m wide.
+inline DesignTask pellets() {
+    DesignTask task{};
+    task.space.max_machine_number = 4;
+    task.models = {point_mass_design_model()};
+    task.friction = normal_friction(0.3, 0.03);
+    task.bulk_density = 600;
+    task.width = 0.3;
+    task.length = 3;
+    task.mass_flow = 12 / 3.6;
+    task.depth = {0.005, 0.04};
+    return task;
+}
+
+}  // namespace vibrotrough::learn
