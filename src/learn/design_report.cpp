@@ -190,7 +190,7 @@ std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
         return text +
                ". So surely, even the fastest one conveys nothing: ask for a lower confidence, or know the "
                "friction better.";
-    return text + fmt::format(". {} It would take a trough {:.4g} mm wide, or {} troughs side by side.",
+    return text + fmt::format(". {} It would take a trough {:.0f} mm wide, or {} troughs side by side.",
                               most_that_is_carried(t, d), std::ceil(1e3 * *d.width_needed),
                               troughs_needed(t, d));
 }
