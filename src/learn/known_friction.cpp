@@ -95,8 +95,8 @@ std::vector<double> many_parts(double confidence) {
         ends.insert(ends.end(), {share, 1 - share});
     }
     std::ranges::sort(ends);
-    auto const [first, last] = std::ranges::unique(ends, [](double a, double b) { return b - a < 1e-9; });
-    ends.erase(first, last);
+    auto const is_same = [](double a, double b) { return b - a < 1e-9; };
+    ends.erase(std::unique(ends.begin(), ends.end(), is_same), ends.end());
     return ends;
 }
 

@@ -36,15 +36,15 @@ struct DesignTask {
 
 /// The machine for one of the speeds of the drive that can be had.
 struct SpeedTried {
-    double frequency;           ///< Hz
-    bool feasible = false;      ///< as in RiskDesign, like all that follows
-    double amplitude = 0;       ///< m
-    double sure_speed = 0;      ///< m/s
-    double depth = 0;           ///< m
-    double probability = 0;     ///< that the mass flow is reached
-    double machine_number = 0;  ///< K
-    double landing_speed = 0;   ///< m/s
-    std::optional<std::string> untested = {};
+    double frequency;                          ///< Hz
+    bool feasible = false;                     ///< as in RiskDesign, like all that follows
+    double amplitude = 0;                      ///< m
+    double sure_speed = 0;                     ///< m/s
+    double depth = 0;                          ///< m
+    double probability = 0;                    ///< that the mass flow is reached
+    double machine_number = 0;                 ///< K
+    double landing_speed = 0;                  ///< m/s
+    std::optional<std::string> untested = {};  ///< why its probability is not known
     std::optional<std::string> why_none = {};  ///< why there is no machine, without a full stop
 };
 
