@@ -21,6 +21,10 @@ std::string indented(nlohmann::ordered_json const& value, std::size_t blanks) {
 
 }  // namespace
 
+nlohmann::ordered_json number_or_null(std::optional<double> const& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 void print_with_list(nlohmann::ordered_json const& head, std::size_t count,
                      std::function<nlohmann::ordered_json(std::size_t i)> const& element) {
     std::string_view const end = "]\n}";

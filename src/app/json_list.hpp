@@ -2,10 +2,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 namespace vibrotrough::app {
+
+/// A number, or null where it is not known.
+nlohmann::ordered_json number_or_null(std::optional<double> const& value);
 
 /// Prints a JSON object with a list of any length at its end, element by element, so that only one of them is
 /// in memory: 100,000 cases as a whole would take hundreds of megabytes.

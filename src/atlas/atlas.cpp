@@ -18,8 +18,6 @@ constexpr double least_width = 20;
 constexpr double least_spread = 0.05, most_spread = 0.2;
 /// Grain and trough have the same restitution in the atlas; others may be so far apart.
 constexpr double most_restitution_difference = 0.2;
-/// Its place among inputs(); the first four are those of the point mass.
-constexpr std::size_t rolling_friction_input = 7;
 /// Further beyond a range than this, in widths of it, the atlas says nothing at all.
 constexpr double farthest = 0.25;
 
@@ -53,6 +51,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     add(is_clump(s.grains), "grains.shape", fmt::format("grains of the shape {}", s.grains.shape));
     add(p.materials.size() > 1, "materials", "several materials");
     add(s.grains.rotation == scenario::Rotation::blocked, "grains.rotation", "grains that do not rotate");
+    add(s.engine.contact == scenario::ContactModel::hooke, "engine.contact", "contacts other than Hertz'");
     add(s.engine.cohesion > 0, "engine.cohesion", "cohesion");
     add(s.engine.extra != nullptr || s.engine.templates != nullptr, "engine",
         "commands of the engine of your own");
@@ -86,7 +85,8 @@ Place place_of(prepare::PreparedCase const& p) {
 
 /// The trend of the atlas at a place; nothing when a rolling layer or a point mass has no mean speed there.
 std::optional<double> trend_at(Place const& place) {
-    theory::PointMass const point{place[0], place[1], place[2], place[3]};
+    theory::PointMass const point{place[throw_number_input], place[tan_vibration_input],
+                                  place[tan_inclination_input], place[friction_input]};
     // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
     thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
     theory::RollingLaw law;

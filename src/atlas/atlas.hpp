@@ -44,8 +44,8 @@ std::optional<SurfaceValue> value_at(Place const& place);
 /// what the layers scatter beyond their own intervals, and their numerical errors.
 ///
 /// A layer of another kind (clumps, several materials, side walls closer than 20 diameters, an open trough,
-/// a drive that is no sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of the
-/// ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
+/// a drive that is not a sinusoid, ...) has no efficiency. A layer of the same kind with inputs outside of
+/// the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
 }  // namespace vibrotrough::atlas

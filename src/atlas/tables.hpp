@@ -3,6 +3,7 @@
 #include "atlas/surface.hpp"
 #include "inference/gaussian_process.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,19 @@ namespace vibrotrough::atlas {
 
 extern std::string_view const layers_table;  ///< validation/atlas/layers.csv when the program was built
 extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, likewise
+
+/// The inputs of the atlas in their order. The first four are those of the point mass.
+enum Input : std::size_t {
+    throw_number_input,
+    tan_vibration_input,
+    tan_inclination_input,
+    friction_input,
+    amplitude_input,  ///< over the diameter
+    depth_input,      ///< over the diameter
+    grain_friction_input,
+    rolling_friction_input,
+    restitution_input,
+};
 
 /// The inputs of the atlas, without a dimension, with the range of each. Their keys are the columns of the
 /// table of layers.

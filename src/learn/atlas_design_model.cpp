@@ -14,27 +14,15 @@
 namespace vibrotrough::learn {
 namespace {
 
-enum Input : std::size_t {
-    throw_number_input,
-    tan_vibration_input,
-    tan_inclination_input,
-    friction_input,
-    amplitude_input,
-    depth_input,
-    grain_friction_input,
-    rolling_friction_input,
-    restitution_input
-};
+/// What of a layer a design does not know: its depth, which the mass flow decides, and the grains.
+constexpr std::array<atlas::Input, 4> unknown{atlas::depth_input, atlas::grain_friction_input,
+                                              atlas::rolling_friction_input, atlas::restitution_input};
 
-/// What of a layer a design does not know: its depth_input, which the mass flow decides, and the grains.
-constexpr std::array<Input, 4> unknown{depth_input, grain_friction_input, rolling_friction_input,
-                                       restitution_input};
-
-theory::Range range_of(Input input) {
+theory::Range range_of(atlas::Input input) {
     return {atlas::inputs()[input].low, atlas::inputs()[input].high};
 }
 
-double middle_of(Input input) {
+double middle_of(atlas::Input input) {
     return (range_of(input).low + range_of(input).high) / 2;
 }
 
@@ -45,14 +33,14 @@ atlas::Place place_of(theory::Drive const& d, double mu, KnownGrains const& grai
             std::tan(d.inclination),
             mu,
             d.amplitude / grains.diameter,
-            middle_of(depth_input),
-            middle_of(grain_friction_input),
-            grains.rolling_friction.value_or(middle_of(rolling_friction_input)),
-            middle_of(restitution_input)};
+            middle_of(atlas::depth_input),
+            middle_of(atlas::grain_friction_input),
+            grains.rolling_friction.value_or(middle_of(atlas::rolling_friction_input)),
+            middle_of(atlas::restitution_input)};
 }
 
 /// By how much a place is beyond a range, relative to its width; at most zero inside.
-double beyond(Input input, double value) {
+double beyond(atlas::Input input, double value) {
     auto const [low, high] = range_of(input);
     return std::max(low - value, value - high) / (high - low);
 }
@@ -73,11 +61,11 @@ double sd_of_unknown(KnownGrains const& grains) {
             atlas::Place place;
             for (std::size_t input = 0; input < drive.size(); ++input) {
                 bool const is_unknown =
-                    std::ranges::find(unknown, static_cast<Input>(input)) != unknown.end();
-                auto const [low, high] = range_of(static_cast<Input>(input));
+                    std::ranges::find(unknown, static_cast<atlas::Input>(input)) != unknown.end();
+                auto const [low, high] = range_of(static_cast<atlas::Input>(input));
                 place.push_back(low + (high - low) * (is_unknown ? other : drive)[input]);
             }
-            if (grains.rolling_friction) place[rolling_friction_input] = *grains.rolling_friction;
+            if (grains.rolling_friction) place[atlas::rolling_friction_input] = *grains.rolling_friction;
             if (auto const value = atlas::value_at(place)) found.push_back(value->efficiency);
         }
         double mean = 0;
@@ -99,11 +87,11 @@ theory::Range within(theory::Range const& space, theory::Range const& known, std
 }  // namespace
 
 DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
-    if (grains.rolling_friction && beyond(rolling_friction_input, *grains.rolling_friction) > 0) {
+    if (grains.rolling_friction && beyond(atlas::rolling_friction_input, *grains.rolling_friction) > 0) {
         throw core::InputError(
             fmt::format("a rolling friction of {:g} lies outside of the atlas, which has {:g} to {:g}",
-                        *grains.rolling_friction, range_of(rolling_friction_input).low,
-                        range_of(rolling_friction_input).high));
+                        *grains.rolling_friction, range_of(atlas::rolling_friction_input).low,
+                        range_of(atlas::rolling_friction_input).high));
     }
     DesignModel model{.name = "the atlas", .discrepancy = discrepancy};
     model.at = [grains, spread = sd_of_unknown(grains)](theory::Drive const& d,
@@ -117,37 +105,38 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
                                numerics / atlas::deviations_in_half_width};
     };
     model.narrowed = [grains](theory::DriveSpace space) {
-        auto const [shallow, steep] = range_of(tan_vibration_input);
-        auto const [down, up] = range_of(tan_inclination_input);
-        auto const [least, most] = range_of(amplitude_input);
+        auto const [shallow, steep] = range_of(atlas::tan_vibration_input);
+        auto const [down, up] = range_of(atlas::tan_inclination_input);
+        auto const [least, most] = range_of(atlas::amplitude_input);
         space.vibration_angle =
             within(space.vibration_angle, {std::atan(shallow), std::atan(steep)}, "vibration angle");
         space.inclination = within(space.inclination, {std::atan(down), std::atan(up)}, "inclination");
         space.amplitude =
             within(space.amplitude, {least * grains.diameter, most * grains.diameter}, "stroke");
-        space.max_throw_number = std::min(space.max_throw_number, range_of(throw_number_input).high);
+        space.max_throw_number = std::min(space.max_throw_number, range_of(atlas::throw_number_input).high);
         return space;
     };
-    auto const [gentle, vigorous] = range_of(throw_number_input);
-    auto const [small, large] = range_of(amplitude_input);
+    auto const [gentle, vigorous] = range_of(atlas::throw_number_input);
+    auto const [small, large] = range_of(atlas::amplitude_input);
     model.known_range =
         fmt::format("throw numbers of {:g} to {:g} and strokes of {:.3g} to {:.3g} mm", gentle, vigorous,
                     2e3 * small * grains.diameter, 2e3 * large * grains.diameter);
     model.excess = [grains](theory::Drive const& d) {
-        atlas::Place const place = place_of(d, middle_of(friction_input), grains);
+        atlas::Place const place = place_of(d, middle_of(atlas::friction_input), grains);
         double most = -1;
         for (std::size_t input = 0; input < place.size(); ++input)
-            most = std::max(most, beyond(static_cast<Input>(input), place[input]));
+            most = std::max(most, beyond(static_cast<atlas::Input>(input), place[input]));
         return most;
     };
     model.outside = [](theory::Drive const&, double mu,
                        std::optional<double> deep) -> std::optional<std::string> {
-        auto const tell = [](std::string_view what, Input input, double value) {
+        auto const tell = [](std::string_view what, atlas::Input input, double value) {
             return fmt::format("the atlas has a {} of {:g} to {:g}, and not {:.3g}", what,
                                range_of(input).low, range_of(input).high, value);
         };
-        if (beyond(friction_input, mu) > 0) return tell("friction", friction_input, mu);
-        if (deep && beyond(depth_input, *deep) > 0) return tell("depth in diameters", depth_input, *deep);
+        if (beyond(atlas::friction_input, mu) > 0) return tell("friction", atlas::friction_input, mu);
+        if (deep && beyond(atlas::depth_input, *deep) > 0)
+            return tell("depth in diameters", atlas::depth_input, *deep);
         return {};
     };
     return model;

@@ -5,6 +5,8 @@
 #include "prepare/prepared_case.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/single_case.hpp"
+#include "theory/point_mass.hpp"
+#include "theory/rolling_layer.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -64,6 +66,7 @@ TEST(Atlas, DoesNotPredictLayersOfAnotherKind) {
           std::tuple{"friction = 0.23", "friction = 0.23\nside_wall_friction = 0.2",
                      "trough.side_wall_friction"},
           std::tuple{"friction = 0.23", "friction = 0.23\nalong_phase = \"30 deg\"", "trough"},
+          std::tuple{"[measure]", "[engine]\ncontact = \"hooke\"\n\n[measure]", "engine.contact"},
           std::tuple{"[measure]", "[engine]\ncohesion = \"1 kJ/m3\"\n\n[measure]", "engine.cohesion"}}) {
         std::string text = with(from, to, inside_layer);
         if (std::string(name).starts_with("grains."))  // rolling friction is only for spheres that rotate
@@ -92,6 +95,38 @@ TEST(Atlas, TablesAreReadBack) {
     EXPECT_EQ(static_cast<int>(read_layers(layers_table, "layers.csv").size()), simulated_layers());
     EXPECT_THROW(read_layers("case,throw_number\na,1\n", "layers.csv"), core::CsvError);
     EXPECT_THROW(read_draws("deviation\nx\n", "draws.csv"), core::CsvError);
+}
+
+// The stored trend of each layer is what the program works out: the constants of the law, and how rolling
+// friction adds, are those with which the table was made. Tolerance: five digits in the table.
+TEST(Atlas, TheStoredTrendIsThatOfTheProgram) {
+    for (SurfacePoint const& one : read_layers(layers_table, "layers.csv")) {
+        theory::PointMass const point{one.place[throw_number_input], one.place[tan_vibration_input],
+                                      one.place[tan_inclination_input], one.place[friction_input]};
+        theory::RollingLaw law;
+        law.dry_torque += one.place[rolling_friction_input];
+        double const rolling = theory::solve(theory::RollingLayer{point, law}).motion.velocity_efficiency;
+        EXPECT_NEAR(one.theory, trend_of(rolling, theory::solve(point).velocity_efficiency), 2e-5)
+            << one.case_id;
+    }
+}
+
+// validation/atlas/design.py has the same ranges: its layers lie within those of the program and fill them.
+// The sequence comes back to five values of the friction between grains, 0.35 to 0.75, so that four fifths
+// are asked.
+TEST(Atlas, TheLayersFillTheRanges) {
+    auto const points = read_layers(layers_table, "layers.csv");
+    for (std::size_t k = 0; k < inputs().size(); ++k) {
+        double low = points.front().place[k], high = low;
+        for (SurfacePoint const& one : points) {
+            low = std::min(low, one.place[k]);
+            high = std::max(high, one.place[k]);
+        }
+        double const width = inputs()[k].high - inputs()[k].low;
+        EXPECT_GE(low, inputs()[k].low) << inputs()[k].key;
+        EXPECT_LE(high, inputs()[k].high) << inputs()[k].key;
+        EXPECT_GT(high - low, 0.8 * width) << inputs()[k].key;
+    }
 }
 
 // Every simulated layer lies within the interval that the surface has at its own place, but for the share

@@ -152,7 +152,8 @@ def judge(run: ValidationCase) -> None:
     if not run.control:
         every = run.table("predicted.csv")
         all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)
-        scores = {"all": len(every), "all_held": all_held, "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        least, most = scipy.stats.binom.ppf([0.025, 0.975], len(every), 0.95)
+        scores = {"all": len(every), "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
 
 

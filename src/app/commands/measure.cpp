@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 #include "app/exit_code.hpp"
+#include "app/json_list.hpp"
 #include "core/text.hpp"
 #include "evaluate/by_hand.hpp"
 #include "measure/estimate.hpp"
@@ -24,10 +25,6 @@ struct MeasureArguments {
     std::string scenario;
     bool json = false;
 };
-
-Json number(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 std::optional<double> theory(evaluate::HandRun const& run) {
     theory::Motion const motion = solve(run.prepared.point_mass);
@@ -92,14 +89,14 @@ void print_json(evaluate::HandRun const& run) {
         packings.push_back(describe(one, run.prepared.scenario.measure, run.cycles_used));
     std::string const open = not_covered(run.prepared.scenario.engine);
     Json const json{{"outcome", name_of(run.outcome)},
-                    {"efficiency", number(e.mean)},
-                    {"efficiency_half_width", number(e.half_width)},
-                    {"efficiency_numerical_error", number(numerical_error(run))},
-                    {"efficiency_whole_half_width", number(whole_half_width(run))},
+                    {"efficiency", number_or_null(e.mean)},
+                    {"efficiency_half_width", number_or_null(e.half_width)},
+                    {"efficiency_numerical_error", number_or_null(numerical_error(run))},
+                    {"efficiency_whole_half_width", number_or_null(whole_half_width(run))},
                     {"confidence", run.prepared.scenario.measure.confidence},
                     {"speed_m_per_s", speed(e.mean)},
                     {"speed_half_width_m_per_s", speed(whole_half_width(run))},
-                    {"efficiency_theory", number(theory(run))},
+                    {"efficiency_theory", number_or_null(theory(run))},
                     {"cycles_used", run.cycles_used},
                     {"cycles_discarded", e.discarded},
                     {"cycles_measured", e.measured},

@@ -1,5 +1,6 @@
 #include "app/commands/predict_layers.hpp"
 
+#include "app/json_list.hpp"
 #include "atlas/atlas.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
@@ -48,10 +49,6 @@ std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
                           prepared.velocity_scale});
     }
     return layers;
-}
-
-Json number_or_null(std::optional<double> const& value) {
-    return value ? Json(*value) : Json(nullptr);
 }
 
 Json as_json(PredictedLayer const& layer) {
