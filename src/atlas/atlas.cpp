@@ -138,6 +138,19 @@ double numerical_error() {
     return mean;
 }
 
+Place error_lengths() {
+    auto const draws = surface().draws();
+    Place lengths;
+    for (std::size_t k = 0; k < inputs().size(); ++k) {
+        std::vector<double> all;
+        for (inference::Hyperparameters const& draw : draws)
+            all.push_back(draw.lengths(static_cast<Eigen::Index>(k)));
+        std::ranges::sort(all);
+        lengths.push_back(all[all.size() / 2] * (inputs()[k].high - inputs()[k].low));
+    }
+    return lengths;
+}
+
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};

@@ -33,6 +33,10 @@ int simulated_layers();
 /// bounds, in velocity efficiency.
 double numerical_error();
 
+/// The lengths over which the error of the rolling-layer law changes, as the layers of the atlas tell:
+/// medians of the draws of its process, one for each of inputs() (tables.hpp) and in its unit.
+Place error_lengths();
+
 /// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
 /// Nothing when theory or law have no mean speed there. The half-width contains what the layers scatter
 /// beyond their own intervals, and their numerical errors.

@@ -32,9 +32,6 @@ double DesignModel::missed(theory::Drive const& drive, std::optional<double> dep
 std::optional<std::string> DesignModel::untested(theory::Drive const& drive, double friction,
                                                  std::optional<double> depth) const {
     theory::PointMass const point = point_of(drive, friction);
-    if (is_rolling) {
-        if (auto why = theory::outside_tested_range(point, depth)) return why;
-    }
     if (outside) {
         if (auto why = outside(drive, friction, depth)) return why;
     }
@@ -72,13 +69,15 @@ DesignModel rolling_layer_design_model(theory::RollingLaw const& law, std::optio
     DesignModel model{.name = "the rolling-layer law",
                       .discrepancy = discrepancy,
                       .errors = rolling_layer_errors(),
-                      .is_rolling = true};
+                      .is_slow = true};
     model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
         double const eta = (*solver)(point_of(d, friction)).motion.velocity_efficiency;
         if (!std::isfinite(eta)) return {};
         return ModelEfficiency{eta, 0};
     };
-    model.is_rolling = true;
+    model.outside = [](theory::Drive const& d, double friction, std::optional<double> depth) {
+        return theory::outside_tested_range(point_of(d, friction), depth);
+    };
     model.known_range =
         fmt::format("throw numbers of {:g} to {:g} and vibration angles of {:.3g} to {:.3g} degrees",
                     theory::tested_level.throw_number.low, theory::tested_level.throw_number.high,

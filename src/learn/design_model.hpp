@@ -39,7 +39,7 @@ struct DesignModel {
     bool is_point_mass = false;    ///< whether it is the theory alone
     /// Whether the discrepancies of a calibrated friction replace `discrepancy`.
     bool uses_calibrated_discrepancy = false;
-    bool is_rolling = false;  ///< whether it is the law of rolling layers
+    bool is_slow = false;  ///< whether an answer takes a hundred times as long as one of the point mass
     /// Further reasons why its error is not known, see untested(); empty: none.
     std::function<std::optional<std::string>(theory::Drive const&, double friction,
                                              std::optional<double> depth)>

@@ -289,16 +289,19 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
     return json;
 }
 
-std::string design_campaign(DesignTask const& t, RiskDesign const& d, double diameter) {
+std::string design_campaign(DesignTask const& t, RiskDesign const& d, CheckedLayer const& layer) {
     theory::Drive const& m = d.drive;
-    double const mm = 1e3 * diameter, depth = std::max(1e3 * d.depth, 3 * mm);
+    double const rolling = t.rolling_friction.value_or(0);
+    std::string const rotation =
+        rolling > 0 ? fmt::format("rotation = \"rolling\"\nrolling_friction = {:.4g}\n", rolling) : "";
+    double const mm = 1e3 * layer.diameter, depth = std::max(1e3 * d.depth, 3 * mm);
     // Waves and convection need a part that is as long as the layer is deep and as the stroke along the
     // trough.
     double const stroke_along = 2e3 * m.amplitude * std::cos(m.vibration_angle);
-    double const length = std::ceil(std::max({12 * mm, 1.1 * depth, 1.1 * stroke_along}));
+    double const length = std::ceil(std::max({layer.box_length * mm, 1.1 * depth, 1.1 * stroke_along}));
     return fmt::format(
         R"(# Checks a design of 'vibrotrough design' with grains: {:.4g} t/h on a trough {:.4g} m wide, layer {:.4g} mm deep.
-# The grains are assumed: spheres of {:.4g} mm that roll freely. Put in what you know of yours.
+# The grains are assumed: spheres of {:.4g} mm that roll {}. Put in what you know of yours.
 #     vibrotrough check FILE
 #     vibrotrough run FILE
 #     vibrotrough compare runs/design_check        # mass flow in t/h with its interval
@@ -322,7 +325,7 @@ bulk_density = "{:.6g} kg/m3"
 poisson_ratio = 0.35
 friction = 0.5                    # assumed
 restitution = 0.5                 # assumed
-
+{}
 [layer]
 length = "{:.4g} mm"              # of a part of the trough, continued periodically
 width = "{:.4g} mm"
@@ -330,14 +333,16 @@ height = "{:.4g} mm"
 
 [measure]
 packings = 4
-half_width = 0.05
+half_width = {:.4g}
 
 [sweep]
 "trough.friction" = [{}]
 )",
-        tonnes_per_hour * t.mass_flow, t.width, 1e3 * d.depth, mm, m.inclination / degree,
+        tonnes_per_hour * t.mass_flow, t.width, 1e3 * d.depth, mm,
+        rolling > 0 ? "against rolling friction" : "freely", m.inclination / degree,
         m.vibration_angle / degree, 2e3 * m.amplitude, 60 * m.frequency, t.width, t.friction.median, mm,
-        t.bulk_density, length, 6 * mm, depth, frictions(t.friction));
+        t.bulk_density, rotation, length, layer.box_width * mm, depth, layer.half_width,
+        frictions(t.friction));
 }
 
 }  // namespace vibrotrough::learn

@@ -8,6 +8,15 @@
 
 namespace vibrotrough::learn {
 
+/// The layer that a campaign simulates of a design.
+struct CheckedLayer {
+    double diameter;           ///< m, of the grains, > 0
+    double half_width = 0.05;  ///< wanted of its velocity efficiency
+    /// In diameters: of the part that is continued periodically. It is longer than this where the depth or
+    /// the stroke asks for it.
+    double box_length = 12, box_width = 6;
+};
+
 /// How an objective is called on the command line, in JSON and in sentences: "least-machine-number".
 std::string name_of(Objective objective);
 
@@ -28,7 +37,6 @@ nlohmann::ordered_json design_page_data(DesignTask const& task, RiskDesign const
 
 /// The text of a campaign file that simulates a design with spheres, at the median and at the ends of the
 /// central 95 % of the friction. What the task does not know of the grains is assumed, and the file says so.
-/// @param diameter  m, of the grains, > 0
-std::string design_campaign(DesignTask const& task, RiskDesign const& design, double diameter);
+std::string design_campaign(DesignTask const& task, RiskDesign const& design, CheckedLayer const& layer);
 
 }  // namespace vibrotrough::learn

@@ -185,7 +185,9 @@ std::optional<theory::Drive> best_that_reaches(RiskSearch& search, theory::Drive
     return {};
 }
 
-RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive) {
+/// @param given_depth  m, of a layer that is there; nothing: as deep as the mass flow needs
+RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive,
+                     std::optional<double> given_depth = {}) {
     RiskDesign d{};
     d.drive = drive;
     d.throw_number = drive.throw_number(task.space.gravity);
@@ -194,7 +196,9 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     d.feasible = d.sure_speed >= search.needed();
     double const per_depth = task.bulk_density * task.width;  // kg/s for each m of depth and m/s of speed
     double const depth = d.sure_speed > 0 ? task.mass_flow / (per_depth * d.sure_speed) : task.depth.high;
-    d.depth = std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high);
+    d.depth = given_depth.value_or(
+        std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high));
+    if (given_depth) d.feasible = depth <= *given_depth * (1 + 1e-9);
     std::optional<double> in_grains;
     if (task.grain_diameter) in_grains = d.depth / *task.grain_diameter;
     for (DesignModel const& model : task.models)
@@ -301,6 +305,12 @@ std::vector<double> quantile_shares() {
 RiskDesign design_with_risk(DesignTask const& task) {
     check(task);
     return task.frequencies.empty() ? design_at_any_speed(task) : best_of_speeds(task);
+}
+
+RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth) {
+    check(task);
+    RiskSearch search(task, allowed_space(task));
+    return described(task, search, drive, depth);
 }
 
 }  // namespace vibrotrough::learn

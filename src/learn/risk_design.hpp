@@ -26,8 +26,9 @@ struct DesignTask {
     double length = 0;                ///< m, of the trough, for power and time; 0 when it is not known
     double mass_flow;                 ///< kg/s, that is to be reached, > 0
     theory::Range depth{0.002, 0.1};  ///< m, of the layer
-    std::optional<double> grain_diameter = {};  ///< m, if it is known
-    std::optional<double> landing_speed;        ///< m/s, largest speed of an impact on the trough
+    std::optional<double> grain_diameter = {};    ///< m, if it is known
+    std::optional<double> rolling_friction = {};  ///< coefficient of the grains, if it is known
+    std::optional<double> landing_speed;          ///< m/s, largest speed of an impact on the trough
     double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
     Objective objective = Objective::fastest;  ///< what to be best at
     /// Hz, of the drives that can be had, of which the best is chosen; empty: any within the space.
@@ -110,6 +111,10 @@ struct RiskDesign {
 /// message names the limits in the way
 /// @throws core::InputError when fewer than five draws of the friction lie beyond the confidence
 RiskDesign design_with_risk(DesignTask const& task);
+
+/// The same for a machine that is there: what the models say of it, with a layer of its own depth.
+/// @param depth  m, > 0
+RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth);
 
 /// m/s, the largest speed of an impact of the plastic point mass at a drive; 0 without flight, infinite when
 /// it runs away.

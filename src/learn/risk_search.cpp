@@ -15,10 +15,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int landings_looked_at = 65;
-/// Drives looked at per quantity that may be chosen. A rolling layer takes a hundred times as long as a point
-/// mass.
+/// Drives looked at per quantity that may be chosen; fewer with a model that is slow.
 constexpr int global_evaluations = 2000, local_evaluations = 500;
-constexpr int global_evaluations_of_rolling = 700, local_evaluations_of_rolling = 300;
+constexpr int slow_global_evaluations = 700, slow_local_evaluations = 300;
 
 double normal_share_above(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
@@ -210,10 +209,10 @@ std::optional<theory::Drive> RiskSearch::best(Objective objective, bool must_rea
          {space_.frequency, space_.amplitude, space_.vibration_angle, space_.inclination})
         free += range.low < range.high ? 1 : 0;
     free = std::max(1, free);
-    bool const is_rolling = std::ranges::any_of(task_.models, &DesignModel::is_rolling);
+    bool const is_slow = std::ranges::any_of(task_.models, &DesignModel::is_slow);
     theory::DriveSearchSettings const settings{
-        free * (is_rolling ? global_evaluations_of_rolling : global_evaluations),
-        free * (is_rolling ? local_evaluations_of_rolling : local_evaluations)};
+        free * (is_slow ? slow_global_evaluations : global_evaluations),
+        free * (is_slow ? slow_local_evaluations : local_evaluations)};
     return theory::best_drive(
         space_, [&](theory::Drive const& drive) { return merit(drive, objective); }, excesses, settings);
 }

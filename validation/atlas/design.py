@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import qmc
 
 # Inputs without a dimension and their ranges: those of src/atlas/tables.cpp, as a test of the atlas makes sure.
 RANGES = {
@@ -12,10 +13,33 @@ RANGES = {
 }  # fmt: skip
 DIAMETER = 3  # mm, of base.toml
 CHUNK = 16  # layers of a campaign
-SEED = 20261126  # of the layers that judge
+SEED = 20261126  # of the layers that judge, and of the Sobol sequences
+# Campaigns of the atlas' own layers: of the additive recurrence, of a Sobol sequence over the whole domain, and of one over the part
+# in which the first campaigns left the largest errors, uphill and weakly thrown.
+RECURRENCE, WHOLE, UPHILL = 5, 4, 2
+UPHILL_PART = {"throw_number": (0.7, 2.2), "tan_inclination": (0.0, 0.1)}
 
 
-def evenly(count: int, start: int) -> NDArray[np.float64]:
+def own_layers(campaign: int) -> NDArray[np.float64]:
+    """The layers of a campaign, points of the unit cube."""
+    if campaign < RECURRENCE:
+        return recurrence(CHUNK, CHUNK * campaign)
+    if campaign < RECURRENCE + WHOLE:
+        return sobol(WHOLE * CHUNK, SEED)[CHUNK * (campaign - RECURRENCE) :][:CHUNK]
+    low, high = (np.array([to_unit(name, UPHILL_PART.get(name, RANGES[name])[end]) for name in RANGES]) for end in (0, 1))
+    return low + (high - low) * sobol(UPHILL * CHUNK, SEED + 1)[CHUNK * (campaign - RECURRENCE - WHOLE) :][:CHUNK]
+
+
+def to_unit(name: str, value: float) -> float:
+    low, high = RANGES[name]
+    return (value - low) / (high - low)
+
+
+def sobol(count: int, seed: int) -> NDArray[np.float64]:
+    return np.asarray(qmc.Sobol(len(RANGES), seed=seed).random(count))
+
+
+def recurrence(count: int, start: int) -> NDArray[np.float64]:
     """Points `start` to `start + count` of the additive recurrence with the generalised golden ratio, in the unit cube
     (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018)."""
     dimensions, ratio = len(RANGES), 2.0

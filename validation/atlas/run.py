@@ -20,8 +20,8 @@ import figure_style  # noqa: E402
 from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E402
 from validation_case import ValidationCase, read_table  # noqa: E402
 
-CHUNKS = 5  # campaigns of the atlas' own layers
-HELD_OUT = {"h0": 15, "h1": 15, "h2": 10}  # campaigns of random layers, and how many each has
+CAMPAIGNS = design.RECURRENCE + design.WHOLE + design.UPHILL  # of the atlas' own layers
+HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 16}  # campaigns of random layers, and how many each has
 SEEN = 21  # the first of them were known when the trend was chosen; the others judge
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome"]
@@ -45,8 +45,28 @@ def campaign_at(run: ValidationCase, unit: Floats, changes: dict[str, Any]) -> s
 
 
 def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, Any]) -> list[list[object]]:
-    """Simulates layers at points of the unit cube; rows of COLUMNS."""
-    return [row_of(run, row) for row in run_campaign(run.program, run.runs / name, campaign_at(run, unit, changes), run.jobs)]
+    """Simulates layers at points of the unit cube; rows of COLUMNS. A campaign whose cases all stand in the tables is not simulated
+    again: a case's id says all that its result depends on, but for versions of the program and the engine."""
+    text = campaign_at(run, unit, changes)
+    stored = {row["case"]: row for table in ("layers.csv", "apart.csv", "held_out.csv") for row in read_table(FOLDER / table)}
+    cases = ids_of(run, text)
+    if all(case in stored for case in cases):
+        return [[stored[case][column] for column in COLUMNS] for case in cases]
+    return [row_of(run, row) for row in run_campaign(run.program, run.runs / name, text, run.jobs)]
+
+
+def ids_of(run: ValidationCase, text: str) -> list[str]:
+    """The ids of a campaign's cases, in the order of its file."""
+    return [case["case"] for case in ask(run, "plan", text)["cases"]]
+
+
+def ask(run: ValidationCase, command: str, text: str) -> Any:
+    """What `vibrotrough COMMAND --json` says of a campaign file."""
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+        file.write(text)
+        file.flush()
+        answer = subprocess.run([run.program, command, file.name, "--json"], capture_output=True, text=True, check=True)
+    return json.loads(answer.stdout)
 
 
 def row_of(run: ValidationCase, row: Row) -> list[object]:
@@ -76,7 +96,7 @@ def is_known(row: list[object]) -> bool:
 
 
 def simulate(run: ValidationCase) -> None:
-    rows = [row for number in range(CHUNKS) for row in layers_at(run, f"p{number}", design.evenly(design.CHUNK, design.CHUNK * number), {})]
+    rows = [row for number in range(CAMPAIGNS) for row in layers_at(run, f"p{number}", design.own_layers(number), {})]
     run.write_table("layers.csv", COLUMNS, [row for row in rows if is_known(row)])
     run.write_table("apart.csv", COLUMNS, [row for row in rows if not is_known(row)])
     points, held_out, first = design.at_random(sum(HELD_OUT.values())), [], 0
@@ -93,18 +113,9 @@ def simulate(run: ValidationCase) -> None:
     run.write_table("same.csv", ["layer", "throw_number", "efficiency", "half_width"], same)
 
 
-def ask(run: ValidationCase, text: str) -> list[dict[str, Any]]:
-    """What the atlas that the program holds says of each case of a campaign."""
-    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
-        file.write(text)
-        file.flush()
-        answer = subprocess.run([run.program, "predict", file.name, "--json"], capture_output=True, text=True, check=True)
-    return list(json.loads(answer.stdout))
-
-
 def predict(run: ValidationCase) -> list[list[object]]:
     """Predictions of the random layers; rows of PREDICTED."""
-    answers = ask(run, campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    answers = ask(run, "predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
     rows: list[list[object]] = []
     for row in run.table("held_out.csv"):
         answer = answers[int(row["number"])]
@@ -121,7 +132,7 @@ def predict_decisions(run: ValidationCase) -> list[list[object]]:
         text += f'"{key}" = {toml_value([float(row[column]) for row in layers])}\n'
     return [
         [row["domain"], *(f"{float(row[key]):.4f}" for key in ("throw_number", "efficiency", "half_width", "theory")), f"{answer['efficiency']:.4f}", f"{answer['half_width']:.4f}"]
-        for row, answer in zip(layers, ask(run, text), strict=True)
+        for row, answer in zip(layers, ask(run, "predict", text), strict=True)
         if answer["inside"]
     ]
 

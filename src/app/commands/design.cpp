@@ -2,13 +2,16 @@
 #include "app/commands/common_options.hpp"
 #include "app/commands/design_options.hpp"
 #include "app/decision_page.hpp"
+#include "app/design_verification.hpp"
 #include "app/exit_code.hpp"
+#include "app/learning.hpp"
 #include "app/standard_streams.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "learn/design_report.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -22,30 +25,95 @@ namespace {
 struct DesignArguments {
     DesignOptions task;
     std::string campaign, page, python;
-    bool json = false;
+    bool json = false, verify = false;
+    Text budget, jobs;
+    VerificationOptions verification;
 };
 
-int run_design(DesignArguments const& options) {
-    learn::DesignTask const task = options.task.task();
-    learn::RiskDesign design;
+learn::DesignTask read_task(DesignArguments const& options) {
+    learn::DesignTask task = options.task.task();
+    bool const is_simulated = options.verify || !options.campaign.empty();
+    bool const asks_atlas = std::ranges::find(options.task.models, "atlas") != options.task.models.end();
+    if (task.rolling_friction && !is_simulated && !asks_atlas)
+        throw core::InputError(
+            "--rolling-friction: neither the point mass nor the rolling-layer law knows it; write --model "
+            "atlas, --verify or --campaign as well, or leave it out");
+    if (!options.verify) {
+        if (options.budget) throw core::InputError("--budget: belongs to --verify");
+        return task;
+    }
+    if (!task.grain_diameter)
+        throw core::InputError(
+            "--verify: simulates the layer and needs the size of its grains; write --grain-diameter \"3 "
+            "mm\"");
+    if (!task.rolling_friction)
+        throw core::InputError(
+            "--verify: simulates the layer and needs its rolling friction; write --rolling-friction 0.1, or "
+            "0 "
+            "for spheres that roll freely");
+    return task;
+}
+
+/// Verifies the design unless it was not asked for; tells how.
+VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask const& task) {
     try {
-        design = learn::design_with_risk(task);
+        if (!options.verify) return {task, learn::design_with_risk(task), {}};
+        VerificationOptions how = options.verification;
+        if (options.budget) how.budget = read_core_time(*options.budget);
+        if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
+        return verify_design(task, how);
     } catch (std::invalid_argument const& error) {
         throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
     }
+}
+
+int run_design(DesignArguments const& options) {
+    VerifiedDesign const found = find_design(options, read_task(options));
+    if (found.is_interrupted) return interrupted;
+    learn::DesignTask const& task = found.task;
+    learn::RiskDesign const& design = found.design;
     if (!options.campaign.empty()) {
         core::write_file_atomically(
-            options.campaign, learn::design_campaign(task, design, task.grain_diameter.value_or(0.003)));
+            options.campaign, learn::design_campaign(task, design, {task.grain_diameter.value_or(0.003)}));
         tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(options.campaign));
     }
     if (!options.page.empty())
         write_decision_page(learn::design_page_data(task, design), "design", options.page, options.python);
     if (options.json) {
-        fmt::print("{}\n", learn::design_json(task, design).dump(2));
+        auto json = learn::design_json(task, design);
+        if (options.verify) json["verification"] = learn::verification_json(found.verification);
+        fmt::print("{}\n", json.dump(2));
     } else {
+        if (options.verify) fmt::print("{}\n", learn::verification_text(task, found.verification));
         fmt::print("{}", learn::design_text(task, design));
     }
-    return design.feasible ? all_well : some_cases_failed;
+    bool const is_good = !options.verify || found.verification.verdict == learn::Verdict::verified;
+    return design.feasible && is_good ? all_well : some_cases_failed;
+}
+
+void add_verification(CLI::App& command, DesignArguments& options) {
+    auto const add = [&](CLI::Option* option) { option->group("Verification"); };
+    add(command.add_flag(
+        "--verify", options.verify,
+        "Simulate the machine at its own depth, with grains of --grain-diameter and "
+        "--rolling-friction; correct the models with the result, and repeat until both agree"));
+    add(command
+            .add_option(
+                "--budget", options.budget,
+                "Core time of all simulations; default: \"1 core-hours\". A machine that would exceed "
+                "it is not begun")
+            ->type_name("TIME"));
+    add(command
+            .add_option("--output", options.verification.output,
+                        "Folder of the simulations, from which a later call goes on")
+            ->type_name("DIR")
+            ->capture_default_str());
+    add(command.add_option("--jobs", options.jobs, "Cores to use; default: all"));
+    add(command
+            .add_option("--liggghts", options.verification.engine,
+                        "The LIGGGHTS program; default: liggghts on the PATH")
+            ->type_name("PATH"));
+    add(command.add_flag("--quiet", options.verification.quiet, "Show no progress of the simulations"));
 }
 
 constexpr char const* help =
@@ -75,15 +143,20 @@ checks the design with grains; its grains are assumed, so put in what you know o
 5. Where no machine carries the mass flow so surely, the answer says how wide a trough would, or how many side by
 side. Where the limits exclude every machine, each one that alone would have to give way is named, with the value.
 
+6. --verify simulates what the models propose: the machine at its own depth, at the median of the friction and at
+the ends of its central 95 %. The models are corrected with what the layers say, and the next machine is proposed,
+until a machine's simulation agrees with what was promised of it and its mass flow is reached so surely. Of the grains
+their diameter and rolling friction are yours; the rest is assumed, as machine_N.toml in the folder says.
+
 A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds of the drive (--rpm 960,1450,2900)
 a machine is found for each; the best by the objective is printed, and what the others gave.
 
 Exit codes:
     0  the mass flow is reached
     1  it is not: the fastest machine within the limits is printed; or the error of the model is
-       not known there, so that no probability is given
+       not known there, so that no probability is given; or the machine was not verified
     2  the input is wrong, or no machine keeps all limits
-    3  something is missing: Python with its modules, for --page
+    3  something is missing: Python with its modules, for --page; LIGGGHTS, for --verify
 
 Examples:
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
@@ -92,7 +165,10 @@ Examples:
   vibrotrough theory calibrate speeds.csv --free friction --posterior friction.json
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
       --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \
-      --page design.html --campaign check_design.toml)";
+      --page design.html --campaign check_design.toml
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "400 mm" --friction 0.3 --rpm 960 \
+      --machine-number 4 --grain-diameter "3.5 mm" --rolling-friction 0.1 --model rolling-layer \
+      --verify --budget "2 core-hours")";
 
 }  // namespace
 
@@ -110,6 +186,7 @@ void add_design(CLI::App& program, int& exit_code) {
                      "Write a page of one screen about the design into this HTML file")
         ->type_name("FILE");
     add_python(*command, options->python);
+    add_verification(*command, *options);
     command->add_flag("--json", options->json, "Print JSON");
     command->footer(help);
     command->callback([options, &exit_code] { exit_code = run_design(*options); });

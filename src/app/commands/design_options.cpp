@@ -183,7 +183,8 @@ void DesignOptions::add_material(CLI::App& command) {
         "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
         "default is \"3 mm\"");
     add("--rolling-friction", rolling_friction,
-        "Of the grains, for the atlas; default: not known, anything between 0 and 0.2");
+        "Of the grains, for the atlas and for layers that are simulated; default: not known, for the "
+        "atlas anything between 0 and 0.2, and 0 in the campaign");
     add("--posterior", posterior,
         "In place of both: the file that 'vibrotrough theory calibrate --posterior FILE' wrote, or what its "
         "--json printed");
@@ -230,7 +231,8 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
 learn::KnownGrains DesignOptions::read_grains() const {
     if (!grain_diameter)
         throw core::InputError(
-            "--model atlas: needs the size of the grains; write --grain-diameter \"3 mm\"");
+            "--model atlas, --rolling-friction and --verify need the size of the grains; write "
+            "--grain-diameter \"3 mm\"");
     learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm")};
     if (rolling_friction)
         grains.rolling_friction = read_number_within("--rolling-friction", *rolling_friction, "0.05", 0, 1);
@@ -249,9 +251,6 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         throw core::InputError("--surface: is not among the models; write --model surface");
     if (surface.empty() && !places.empty())
         throw core::InputError("--at: belongs to a surface; write --surface DIR, or leave it out");
-    if (rolling_friction && std::ranges::find(names, "atlas") == names.end())
-        throw core::InputError(
-            "--rolling-friction: belongs to the atlas; write --model atlas, or leave it out");
     std::vector<learn::DesignModel> all;
     for (std::string const& name : names) {
         if (name == "point-mass")
@@ -287,6 +286,7 @@ learn::DesignTask DesignOptions::task() const {
         });
     if (grain_diameter)
         task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
+    if (rolling_friction) task.rolling_friction = read_grains().rolling_friction;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     task.models = read_models(task.friction);

@@ -3,6 +3,7 @@
 #include "app/exit_code.hpp"
 #include "app/learning.hpp"
 #include "app/progress_log.hpp"
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"

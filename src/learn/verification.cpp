@@ -1,0 +1,111 @@
+#include "learn/verification.hpp"
+
+#include "learn/machine_keys.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double seconds_per_hour = 3600;
+
+std::string first_words(DesignTask const& task, Verification const& v) {
+    switch (v.verdict) {
+        case Verdict::verified:
+            return fmt::format(
+                "Verified: this machine was simulated at its own depth, and reaches the mass flow with "
+                "{:.1f} % "
+                "({:.4g} % asked)",
+                100 * v.machines.back().probability, 100 * task.confidence);
+        case Verdict::no_machine:
+            return v.machines.empty()
+                       ? "No machine within the limits is expected to do it, and none was simulated"
+                       : "No machine within the limits does it, as simulated layers say";
+        case Verdict::budget:
+            return "Not verified within the budget";
+        case Verdict::not_steady:
+            return "Not verified";
+    }
+    return "";
+}
+
+char const* name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::verified:
+            return "verified";
+        case Verdict::no_machine:
+            return "no-machine";
+        case Verdict::budget:
+            return "budget";
+        case Verdict::not_steady:
+            return "not-steady";
+    }
+    return "";
+}
+
+}  // namespace
+
+bool ComparedLayer::agrees() const {
+    return std::abs(promised - simulated) <= std::hypot(promised_half_width, simulated_half_width);
+}
+
+std::string verification_text(DesignTask const& task, Verification const& v) {
+    std::string text = first_words(task, v);
+    if (!v.why.empty()) text += ": " + v.why;
+    text += fmt::format(". Core time: {:.3g} h.\n\n", v.core_time / seconds_per_hour);
+    text +=
+        fmt::format("{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16} {:>8} {:>12}\n", "machine", "stroke",
+                    "speed", "angle", "depth", "friction", "promised", "simulated", "", "probability");
+    text += fmt::format("{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16}\n", "", "mm", "1/min", "deg", "mm",
+                        "", "efficiency", "efficiency");
+    int number = 0;
+    for (SimulatedMachine const& m : v.machines) {
+        ++number;
+        for (ComparedLayer const& layer : m.layers) {
+            bool const first = &layer == &m.layers.front();
+            text +=
+                fmt::format("{:<8} {:>7.4g} {:>7.4g} {:>6.3g} {:>7.3g} {:>9.3f} {:>16} {:>16} {:>8} {:>12}\n",
+                            number, 2e3 * m.drive.amplitude, 60 * m.drive.frequency,
+                            m.drive.vibration_angle / degree, 1e3 * m.depth, layer.friction,
+                            fmt::format("{:.3f} +- {:.3f}", layer.promised, layer.promised_half_width),
+                            fmt::format("{:.3f} +- {:.3f}", layer.simulated, layer.simulated_half_width),
+                            layer.agrees() ? "agree" : "differ",
+                            first ? fmt::format("{:.1f} %", 100 * m.probability) : "");
+        }
+    }
+    return text;
+}
+
+Json verification_json(Verification const& v) {
+    Json json{{"verdict", name_of(v.verdict)},
+              {"why", v.why},
+              {"core_hours", v.core_time / seconds_per_hour},
+              {"machines", Json::array()}};
+    for (SimulatedMachine const& m : v.machines) {
+        Json layers = Json::array();
+        for (ComparedLayer const& layer : m.layers) {
+            layers.push_back({{"friction", layer.friction},
+                              {"promised", layer.promised},
+                              {"promised_half_width", layer.promised_half_width},
+                              {"simulated", layer.simulated},
+                              {"simulated_half_width", layer.simulated_half_width},
+                              {"agrees", layer.agrees()}});
+        }
+        json["machines"].push_back({{"campaign", m.campaign},
+                                    {"stroke_mm", 2e3 * m.drive.amplitude},
+                                    {"rpm", 60 * m.drive.frequency},
+                                    {"vibration_angle_deg", m.drive.vibration_angle / degree},
+                                    {"inclination_deg", m.drive.inclination / degree},
+                                    {"layer_depth_mm", 1e3 * m.depth},
+                                    {"probability", m.probability},
+                                    {"layers", layers}});
+    }
+    return json;
+}
+
+}  // namespace vibrotrough::learn
