@@ -83,6 +83,26 @@ def theory(cases: list[Case]) -> str:
             f"theory {worst['efficiency_theory']:.2f}: there the layer is {side} than the theory says.")
 
 
+def atlas(cases: list[Case]) -> str:
+    """What the atlas of simulated layers says of the cases inside of it; empty when there are none."""
+    known = [case for case in cases if case.get("efficiency") is not None and case.get("efficiency_atlas") is not None]
+    if not known:
+        return ""
+
+    def excess(case: Case) -> float:
+        widths = (case.get("efficiency_whole_half_width") or 0.0) + case["efficiency_atlas_half_width"]
+        return float(abs(case["efficiency"] - case["efficiency_atlas"]) - widths)
+
+    agree = sum(excess(case) <= 0 for case in known)
+    cases_of = f"{agree} of the {len(known)} cases" if len(known) > 1 else f"{'the' if agree else 'not the'} only case"
+    first = f"The atlas of simulated layers agrees with {cases_of} inside of it, within both intervals."
+    if agree == len(known):
+        return first
+    worst = max(known, key=excess)
+    return (f"{first} It is furthest off {place_of(worst)}: it says \u03b7 = {worst['efficiency_atlas']:.2f} \u00b1 "
+            f"{worst['efficiency_atlas_half_width']:.2f}, and the layer has {worst['efficiency']:.2f}. One of them is wrong there.")
+
+
 def conclusion(cases: list[Case]) -> list[str]:
-    """Sentences about the outcome, the speeds and the theory."""
-    return [sentence for sentence in (speeds(cases), theory(cases), outcomes(cases)) if sentence]
+    """Sentences about the outcome, the speeds, the theory and the atlas."""
+    return [sentence for sentence in (speeds(cases), theory(cases), atlas(cases), outcomes(cases)) if sentence]

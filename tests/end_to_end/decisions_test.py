@@ -125,6 +125,49 @@ class Engineer(EndToEndTest):
         self.assertIn("a stroke of 0.85 mm or less", third["why_none"])
         self.assertEqual(design["machine_number"], min(one["machine_number"] for one in (first, second) if one["feasible"]))
 
+    def verify(self, *words, flow="6 t/h", wanted=0):
+        """`design --verify` of a thin layer of large grains, whose simulation takes 15 s of processor time."""
+        answer = self.call("design", "--mass-flow", flow, "--bulk-density", "600 kg/m3", "--width", "400 mm", "--friction", "0.3", "--rpm", "960",
+                           "--machine-number", "4", "--layer-depth", "10 mm to 40 mm", "--grain-diameter", "12 mm", "--rolling-friction", "0.1",
+                           "--model", "rolling-layer", "--objective", "least-machine-number", "--verify", "--quiet", "--json", *words,
+                           cwd=self.folder)
+        self.assertEqual(answer.returncode, wanted, answer.stderr)
+        return json.loads(answer.stdout)
+
+    def test_a_machine_is_verified_by_its_own_layer(self):
+        design = self.verify()
+        found = design["verification"]
+        self.assertEqual(found["verdict"], "verified", found)
+        machine = found["machines"][-1]
+        self.assertTrue(all(layer["agrees"] for layer in machine["layers"]))
+        self.assertGreaterEqual(machine["probability"], 0.95)
+        # The answer is the machine that was simulated, and its model is what the layer was.
+        for key in ("stroke_mm", "rpm", "vibration_angle_deg", "layer_depth_mm"):
+            self.assertAlmostEqual(design[key], machine[key], 9)
+        campaign = self.folder / machine["campaign"]
+        layer = tomllib.loads(campaign.read_text(encoding="utf-8"))["layer"]
+        self.assertAlmostEqual(float(layer["height"].split()[0]), machine["layer_depth_mm"], 6)
+        rows = json.loads(self.call("compare", campaign.with_suffix(""), "--json").stdout)
+        self.assertAlmostEqual(rows[0]["efficiency"], machine["layers"][0]["simulated"], 9)
+        # Called again it simulates nothing, and what was simulated is what is promised now.
+        (result,) = campaign.with_suffix("").rglob("result.h5")
+        stamp = result.stat().st_mtime_ns
+        again = self.verify()["verification"]["machines"]
+        self.assertEqual(len(again), len(found["machines"]))
+        self.assertEqual(again[-1]["layers"], machine["layers"])
+        self.assertEqual(result.stat().st_mtime_ns, stamp)
+
+    def test_a_verification_begins_no_machine_that_exceeds_its_budget(self):
+        design = self.verify("--budget", "1 s", wanted=1)
+        self.assertEqual(design["verification"]["verdict"], "budget")
+        self.assertIn("core-hours, and 0.00028 are left", design["verification"]["why"])
+        self.assertEqual(design["verification"]["machines"], [])
+
+    def test_no_machine_is_simulated_that_is_not_expected_to_do(self):
+        design = self.verify(flow="60 t/h", wanted=1)
+        self.assertEqual((design["verification"]["verdict"], design["verification"]["machines"]), ("no-machine", []))
+        self.assertFalse((self.folder / "runs" / "design" / "machine_1.toml").exists())
+
     def test_what_is_wrong_is_refused(self):
         task = ["design", "--mass-flow", "12 t/h", *TROUGH]
         not_a_calibration = self.folder / "no.json"
@@ -137,6 +180,10 @@ class Engineer(EndToEndTest):
             (["--friction", "0.3", "--inclination", "20 deg"], "no machine fits"),
             (["--friction", "0.3", "--model", "rolling-layer", "--machine-number", "1.5"], "throw numbers of 1.25 to 2.6"),
             (["--friction", "0.3", "--rpm", "960,5"], "decimal comma"),
+            (["--friction", "0.3", "--verify"], "write --grain-diameter"),
+            (["--friction", "0.3", "--verify", "--grain-diameter", "3 mm"], "write --rolling-friction 0.1, or 0"),
+            (["--friction", "0.3", "--budget", "1 core-hours"], "belongs to --verify"),
+            (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1"], "neither the point mass"),
         ):
             answer = self.call(*task, *words)
             self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)

@@ -163,6 +163,13 @@ def check_words(scripts):
                               "largest at friction 0.3, where the layer reaches \u03b7 = 0.80 and the theory 0.51"), said
     assert said[2].startswith("All 2 cases are finished"), said
     assert conclusion([case])[1].endswith("agrees with the layer to within the interval."), conclusion([case])
+    # The atlas is told of where it has something to say, and where it differs by more than both intervals.
+    inside = dict(case, efficiency_atlas=0.53, efficiency_atlas_half_width=0.08)
+    far = dict(inside, label="friction 0.3", efficiency=0.8)
+    assert "agrees with the only case inside of it" in conclusion([inside])[2], conclusion([inside])
+    assert conclusion([inside, far, case])[2] == (
+        "The atlas of simulated layers agrees with 1 of the 2 cases inside of it, within both intervals. It is furthest off at friction 0.3: "
+        "it says \u03b7 = 0.53 \u00b1 0.08, and the layer has 0.80. One of them is wrong there."), conclusion([inside, far, case])
     assert conclusion([])[0] == "No speed is known yet." and "no cases" in conclusion([])[-1]
     unknown = dict(case, outcome="not-steady", efficiency=None, conveying_speed_m_per_s=None)
     assert conclusion([unknown]) == ["No speed is known yet.", "0 of 1 cases are finished; the others are: 1 not-steady."]
