@@ -13,10 +13,10 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "end_to_end"))
 from private_slurm import RUN_ON_SLURM, PrivateSlurm  # noqa: E402
 from trough_program import EndToEndTest, campaign_text, engines_in, wait_until, without_wall_time  # noqa: E402
 
-# Soft grains in a small box have numerical errors of 0.06, which leave 0.04 to statistics. Few grains fluctuate much, so that four
-# packings are not enough at this confidence.
-HALF_WIDTH = 0.07
-CHANGES = {"layer.grains": 30, "measure.packings": 4, "measure.max_packings": 24, "measure.half_width": HALF_WIDTH, "measure.confidence": 0.999}
+# Grains as soft as these have a numerical error of 0.13, and few steps in a cycle. What is left for statistics is less than four packings
+# of so few grains reach at this confidence.
+HALF_WIDTH = 0.2
+CHANGES = {"layer.grains": 30, "grains.youngs_modulus": "0.2 MPa", "measure.packings": 4, "measure.max_packings": 24, "measure.half_width": HALF_WIDTH, "measure.confidence": 0.999}
 SWEEP = {"trough.throw_number": [1.6, 2.4]}
 
 
@@ -41,7 +41,7 @@ class Precision(EndToEndTest):
             process = start()
             wait_until(lambda: engines_in(output) or process.poll() is not None, "an engine ran")
             try:
-                process.wait(moments.expovariate(1 / 3))
+                process.wait(moments.expovariate(1))
             except Exception:  # noqa: BLE001, S110 - not ended: that is the case that is wanted
                 pass
             for number in engines_in(output):
@@ -77,7 +77,10 @@ class Precision(EndToEndTest):
 
     def test_more_packings_continue_a_case_that_was_not_precise(self):
         # 24 cycles would not do: what may be left of their start-up does not become less with more packings.
-        one = {"trough.throw_number": 1.6, "measure.max_cycles": 96, "measure.max_packings": 60}
+        # This stiff, statistics and not softness decide.
+        asked = 0.12
+        one = {"trough.throw_number": 1.6, "grains.youngs_modulus": "0.3 MPa", "measure.half_width": asked, "measure.max_cycles": 96,
+               "measure.max_packings": 60}  # fmt: skip
         self.run_campaign(self.write(one | {"measure.max_packings": 4}, sweep=None), wanted=1)
         status = self.ask_json("status")
         self.assertEqual(status["finished"], 0)
@@ -90,7 +93,7 @@ class Precision(EndToEndTest):
         self.run_campaign(more)
         row = self.table()[0]
         self.assertEqual(row["outcome"], "finished")
-        self.assertLessEqual(row["efficiency_whole_half_width"], HALF_WIDTH)
+        self.assertLessEqual(row["efficiency_whole_half_width"], asked)
         self.assertGreater(max(int(name.rpartition("-")[2]) for name in self.take_starts()), 4, "new packings were run")
         # What is precise is not run again.
         self.run_campaign(more)
