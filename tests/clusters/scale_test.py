@@ -1,6 +1,6 @@
 """Ten thousand cases: what must not grow is counted, so that the answer does not depend on how busy the machine is.
 
-Instructions are counted by valgrind and memory by the kernel. Processor time is measured in tests/bench/campaign.
+Basic blocks are counted by valgrind and memory by the kernel. Processor time is measured in tests/bench/campaign.
 """
 
 import json
@@ -19,43 +19,42 @@ MOST_MEGABYTES = {"spheres": 100, "cubes": 200, "waveforms": 200}
 SIZES = (32, 128, 512)
 DRIVER_SIZES = (8, 32, 128)
 MOST_GROWTH = 1.02
-# Negative control: a step of so many instructions for each pair of cases would triple the cost of planning 10,000 cases, which take
-# 1.1 million instructions each. With it, the cost of one more case grows by a factor of 1.1.
-INSTRUCTIONS_PER_PAIR = 250
+# Negative control: a step of so many blocks for each pair of cases would triple the cost of planning 10,000 cases, which take
+# 0.11 million blocks each. With it, the cost of one more case grows by a factor of 1.1.
+BLOCKS_PER_PAIR = 25
 
 # How much more one case of cubes or of a measured waveform may cost than one of spheres.
 MOST_RATIO = 2.0
 
-# Millions of instructions per case of spheres, in an optimised build: half as many again as measured (check: a quarter). To let the
-# mustache library render every deck would take more than that. compare and run take the SHA-256 of each result (once and twice), 2.9 million
-# each in valgrind, which does not know the processor's own instructions for it; without, compare took 1.5 and run 1.4.
+# Millions of blocks per case of spheres, in an optimised build: half as many again as measured. To let the mustache library render
+# every deck would take more than that. compare and run take the SHA-256 of each result (once and twice).
 MOST_MILLIONS = {
-    "plan": 1.7,
-    "check": 1.8,
-    "status": 1.6,
-    "plan, finished": 1.9,
-    "status, finished": 1.8,
-    "compare --json": 6.1,
-    "compare --csv": 6.1,
-    "run, finished": 10.5,
-    "driver": 51.0,
+    "plan": 0.17,
+    "check": 0.17,
+    "status": 0.165,
+    "plan, finished": 0.185,
+    "status, finished": 0.18,
+    "compare --json": 0.39,
+    "compare --csv": 0.38,
+    "run, finished": 0.59,
+    "driver": 7.2,
 }
 
 
 def marginal(counts):
-    """{cases: instructions} of three sizes; instructions of one more case between the first two and between the last two."""
+    """{cases: blocks} of three sizes; blocks of one more case between the first two and between the last two."""
     (a, one), (b, two), (c, three) = sorted(counts.items())
     return (two - one) / (b - a), (three - two) / (c - b)
 
 
 def with_a_step_for_each_pair(counts):
-    return {cases: count + INSTRUCTIONS_PER_PAIR * cases**2 for cases, count in counts.items()}
+    return {cases: count + BLOCKS_PER_PAIR * cases**2 for cases, count in counts.items()}
 
 
 class Scale(ManyCases):
     def assert_linear(self, what, counts):
         first, second = marginal(counts)
-        print(f"{what}: {first / 1e6:.3f} million instructions per case, growing by a factor of {second / first:.3f}", flush=True)
+        print(f"{what}: {first / 1e6:.3f} million blocks per case, growing by a factor of {second / first:.3f}", flush=True)
         self.assertLess(second, MOST_GROWTH * first, what)
 
     def assert_cheap(self, what, counts):
@@ -66,14 +65,14 @@ class Scale(ManyCases):
         return {"plan": self.plan_arguments(campaign), "check": ["check", campaign, "--json"], "status": ["status", self.output, "--json"]}
 
     def count_queries(self, kind):
-        """{query: {cases: instructions}} while no case is finished."""
+        """{query: {cases: blocks}} while no case is finished."""
         counts = {}
         for cases in SIZES:
             self.output = self.folder / f"{kind}-{cases}"
             campaign = self.write_many(kind, cases)
             self.freeze(campaign, kind)
             for query, arguments in self.queries(campaign).items():
-                counts.setdefault(query, {})[cases] = self.count_instructions(*arguments)
+                counts.setdefault(query, {})[cases] = self.count_blocks(*arguments)
         return counts
 
     def test_queries(self):
@@ -105,7 +104,7 @@ class Scale(ManyCases):
                 "run, finished": self.driver_arguments(campaign),
             }
             for query, arguments in asked.items():
-                counts.setdefault(query, {})[cases] = self.count_instructions(*arguments)
+                counts.setdefault(query, {})[cases] = self.count_blocks(*arguments)
         for query, found in counts.items():
             with self.subTest(query=query):
                 self.assert_linear(query, found)
@@ -115,7 +114,7 @@ class Scale(ManyCases):
         counts = {}
         for cases in DRIVER_SIZES:
             self.output = self.folder / f"runs-{cases}"
-            counts[cases] = self.count_instructions(*self.driver_arguments(self.write_many("spheres", cases)))
+            counts[cases] = self.count_blocks(*self.driver_arguments(self.write_many("spheres", cases)))
             self.assertEqual(len(self.results()), cases)
         self.assert_linear("driver", counts)
         self.assert_cheap("driver", counts)
