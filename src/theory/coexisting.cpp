@@ -2,11 +2,9 @@
 
 #include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/conveyor_efficiency.hpp"
-#include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace vibrotrough::theory {
 namespace {
@@ -64,16 +62,14 @@ MotionSurvey::~MotionSurvey() = default;
 MotionSurvey::MotionSurvey(MotionSurvey&&) noexcept = default;
 MotionSurvey& MotionSurvey::operator=(MotionSurvey&&) noexcept = default;
 
-std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& input, Efficiency const& standard,
+std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& conveyor, Efficiency const& standard,
                                                        int starts) {
     using Mean = detail::ConveyorEfficiency::Mean;
-    detail::check_ranges(input);
+    detail::check_ranges(conveyor);
     std::vector<CoexistingMotion> found{{standard, 1}};
-    Conveyor const conveyor = detail::with_noticeable_forces(input);
     detail::ConveyorEfficiency& solver = memory_->solver;
     memory_->after_zero.clear();
-    auto const first = solver(conveyor, {}, Mean::left_out);
-    if (!first) return {};
+    solver(conveyor, {}, Mean::left_out);
     if (standard.outcome == Outcome::indifferent) return found;
     memory_->note_zeros(0);
     bool const one_friction = solver.waves().one_friction();
@@ -84,20 +80,23 @@ std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& input, Ef
     double const slip = 2 * solver.waves().vx().bound();
     for (int k = 1; k < starts; ++k) {
         MotionStart const start = start_number(k, fastest, slip);
-        auto answer = solver(conveyor, start, Mean::left_out, one_friction ? &memory_->after_zero : nullptr);
-        if (!answer) continue;
-        std::size_t which = solver.joined();
-        for (std::size_t i = 0; i < found.size() && which == none; ++i) {
-            if (same_motion(found[i].motion, *answer)) which = i;
+        try {
+            Efficiency answer =
+                solver(conveyor, start, Mean::left_out, one_friction ? &memory_->after_zero : nullptr);
+            std::size_t which = solver.joined();
+            for (std::size_t i = 0; i < found.size() && which == none; ++i) {
+                if (same_motion(found[i].motion, answer)) which = i;
+            }
+            if (which == none) {
+                if (answer.outcome == Outcome::unsettled) answer = solver(conveyor, start, Mean::wanted);
+                which = found.size();
+                found.push_back({answer, 0});
+            }
+            memory_->note_zeros(which);
+            found[which].share += 1;
+        } catch (PhaseError const&) {
+            continue;
         }
-        if (which == none) {
-            if (answer->outcome == Outcome::unsettled) answer = solver(conveyor, start, Mean::wanted);
-            if (!answer) continue;
-            which = found.size();
-            found.push_back({*answer, 0});
-        }
-        memory_->note_zeros(which);
-        found[which].share += 1;
     }
     double all = 0;
     for (CoexistingMotion const& one : found) all += one.share;

@@ -41,8 +41,7 @@ class MotionSurvey {
     MotionSurvey& operator=(MotionSurvey&&) noexcept;
 
     /// The motion from the standard start first, then the others, the one with most starts first. Starts
-    /// whose motion cannot be solved do not count. Empty for extreme inputs, of which other starts cannot be
-    /// followed.
+    /// whose motion cannot be solved do not count.
     /// @param standard  the answer of EfficiencySolver
     /// @param starts    >= 1, the standard start included
     /// @throws std::invalid_argument when an input is out of range

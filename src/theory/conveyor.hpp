@@ -12,8 +12,8 @@ namespace vibrotrough::theory {
 /// A harmonic of the trough's acceleration that is added to the fundamental -sin t (Eq. 22): -amplitude
 /// sin(order t + phase), in units of the acceleration amplitude of the fundamental in the same direction.
 struct Harmonic {
-    int order;         ///< 1 to 1000
-    double amplitude;  ///< of the acceleration, as a fraction of the fundamental's
+    int order;         ///< 1 to 100
+    double amplitude;  ///< of the acceleration, as a fraction of the fundamental's, up to 100
     double phase = 0;  ///< rad
 };
 
@@ -29,10 +29,10 @@ enum class FlightStart {
 /// Not covered: a layer with internal motion, a trough whose motion depends on the load, and infinite
 /// sequences of ever smaller rebounds (Zeno behaviour) below `slowest_rebound`.
 struct Conveyor {
-    PointMass point;             ///< its `friction` is the kinetic friction coefficient mu
-    double static_friction = 0;  ///< mu_s >= mu (Nedderman & Harding); 0: equal to the kinetic one
-    double restitution = 0;  ///< normal restitution coefficient e in [0, 1) (Eq. 23); the friction impulse is
-                             ///< mu (1 + e) times the approach velocity
+    PointMass point;                ///< its `friction` is the kinetic friction coefficient mu
+    double static_friction = 0;     ///< mu_s >= mu (Nedderman & Harding); 0: equal to the kinetic one
+    double restitution = 0;         ///< normal restitution coefficient e in [0, 0.99] (Eq. 23); the friction
+                                    ///< impulse is mu (1 + e) times the approach velocity
     double slowest_rebound = 1e-6;  ///< rebounds slower than this count as contact, in omega r sin(beta)
     /// Friction coefficient used instead of mu for the impulse of a landing (Eqs. 17, 18), >= 0. This
     /// parameter is not in the paper; validation/why_theory_fails describes what it can and cannot explain

@@ -3,7 +3,6 @@
 #include "theory/detail/contact.hpp"
 #include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/conveyor_efficiency.hpp"
-#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/flight.hpp"
 #include "theory/detail/input_check.hpp"
 #include "theory/detail/periodic.hpp"
@@ -111,21 +110,17 @@ Efficiency EfficiencySolver::operator()(PointMass const& input) {
     try {
         if (auto const answer = memory_->solve_periodic(detail::with_noticeable_forces(input)))
             return *answer;
-        Conveyor conveyor{};
-        conveyor.point = input;
-        return solve(conveyor);
     } catch (PhaseError const& error) {
         throw PhaseError(std::string(error.what()) + " (" + detail::inputs_text(input) + ")");
     }
+    Conveyor conveyor{};
+    conveyor.point = input;
+    return solve(conveyor);
 }
 
 Efficiency EfficiencySolver::solve(Conveyor const& input) {
     detail::check_ranges(input);
-    auto const quick = memory_->conveyors(detail::with_noticeable_forces(input));
-    if (quick) return *quick;
-    ConveyorMotion const m = detail::walked_motion(input);
-    return {m.motion.velocity_efficiency, mode_code(m.motion), m.motion.period_cycles, m.motion.outcome,
-            m.half_width};
+    return memory_->conveyors(input);
 }
 
 }  // namespace vibrotrough::theory

@@ -1,7 +1,7 @@
 #include "theory/conveyor.hpp"
-#include "theory/detail/conveyor_period.hpp"
 #include "theory/detail/wave.hpp"
 #include "theory/efficiency.hpp"
+#include "walked_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ TEST(ConveyorEfficiency, IsThatOfTheWalk) {
     for (int i = 0; i < 1500; ++i) {
         Conveyor const c = conveyors.next();
         Efficiency const fast = solver.solve(c);
-        ConveyorMotion const walk = detail::walked_motion(c);
+        ConveyorMotion const walk = walked_motion(c);
         Motion const& motion = walk.motion;
         if (motion.outcome == Outcome::unsettled) continue;
         EXPECT_EQ(fast.outcome, motion.outcome) << i;
@@ -101,7 +101,7 @@ TEST(ConveyorEfficiency, OfASlideThatNeverEnds) {
     c.air_drag = 0.1;
     double const expected = 4.7 / 0.3 * (0.5 - 0.2) / 0.1;
     EXPECT_NEAR(EfficiencySolver().solve(c).velocity_efficiency, expected, 1e-9 * expected);
-    EXPECT_NEAR(detail::walked_motion(c).motion.velocity_efficiency, expected, 1e-8 * expected);
+    EXPECT_NEAR(walked_motion(c).motion.velocity_efficiency, expected, 1e-8 * expected);
     EXPECT_EQ(solve(c).motion.mode, "P");
 }
 
@@ -116,7 +116,7 @@ TEST(ConveyorEfficiency, KnowsTheMeanWithoutAPeriod) {
         c.point = {throw_number, 0.5, 0, 0.3};
         c.restitution = 0.8;
         Efficiency const fast = solver.solve(c);
-        ConveyorMotion const walk = detail::walked_motion(c);
+        ConveyorMotion const walk = walked_motion(c);
         if (walk.motion.outcome != Outcome::unsettled) continue;
         ++without;
         EXPECT_EQ(fast.outcome, Outcome::unsettled);
@@ -143,7 +143,7 @@ TEST(ConveyorEfficiency, AgreesWithTheWalkWhichMotionsHaveAPeriod) {
         c.point = {1.5 + 3.5 * i / 150, 0.6, -0.1, 0.35};
         c.restitution = 0.5;
         Efficiency const fast = solver.solve(c);
-        ConveyorMotion const walk = detail::walked_motion(c);
+        ConveyorMotion const walk = walked_motion(c);
         Motion const& motion = walk.motion;
         if (fast.outcome != motion.outcome) {
             ++marginal;

@@ -11,7 +11,7 @@ void check_ranges(Conveyor const& c) {
     require_range(
         c.static_friction == 0 || (c.static_friction >= c.point.friction && c.static_friction <= 1e6),
         "static_friction", c.static_friction, "[friction, 1e6]");
-    require_range(c.restitution >= 0 && c.restitution < 1, "restitution", c.restitution, "[0, 1)");
+    require_range(c.restitution >= 0 && c.restitution <= 0.99, "restitution", c.restitution, "[0, 0.99]");
     require_range(c.slowest_rebound >= 1e-9 && c.slowest_rebound <= 1, "slowest_rebound", c.slowest_rebound,
                   "[1e-9, 1]");
     require_range(!c.landing_friction || (*c.landing_friction >= 0 && *c.landing_friction <= 1e6),
@@ -21,8 +21,8 @@ void check_ranges(Conveyor const& c) {
     require_range(std::abs(c.along_phase) <= 100, "along_phase", c.along_phase, "[-100, 100]");
     for (auto const* harmonics : {&c.along, &c.normal}) {
         for (Harmonic const& h : *harmonics) {
-            require_range(h.order >= 1 && h.order <= 1000, "order", h.order, "[1, 1000]");
-            require_range(std::abs(h.amplitude) <= 1e3, "amplitude", h.amplitude, "[-1000, 1000]");
+            require_range(h.order >= 1 && h.order <= 100, "order", h.order, "[1, 100]");
+            require_range(std::abs(h.amplitude) <= 100, "amplitude", h.amplitude, "[-100, 100]");
             require_range(std::abs(h.phase) <= 100, "phase", h.phase, "[-100, 100]");
         }
     }

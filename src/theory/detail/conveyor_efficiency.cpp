@@ -1,6 +1,8 @@
 #include "theory/detail/conveyor_efficiency.hpp"
 
+#include "theory/detail/conveyor_check.hpp"
 #include "theory/detail/periodic.hpp"
+#include "theory/detail/weak_forces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,46 +18,28 @@ namespace {
 // The last Newton step is added to first order. It is so small that it changes neither the mode nor the sum
 // of the phases.
 constexpr double velocity_tolerance = 1e-13;
-constexpr double least_drift = 1e-9;  // per period, of a mass that runs away
-constexpr double settled = 1e-11;     // change of the velocity from period to period
+// Per period, of a mass that runs away: the smaller one of this change of velocity and this share of
+// gravity's.
+constexpr double least_drift = 1e-9, least_share = 2e-3;
+constexpr double settled = 1e-11;  // change of the velocity from period to period
+constexpr double least_linear =
+    1e-6;                      // error of the velocity up to which Newton's last step is taken as exact
+constexpr double idle = 1e-9;  // share of gravity's pull by which friction may miss it as if it held it
 // Motions without a period. Batches become longer until the half-width is as wanted.
 constexpr int settling = 100, shortest_batch = 16, longest_batch = 128;  // cycles
 constexpr std::size_t batch_count = 20;
 constexpr int flights_per_batch = 8;
+constexpr int longest_period = 64;  // cycles, unless flights are so long that the orbit is stretched
 constexpr double wanted_half_width = 0.01;
 // One motion in ten without a period changes its manner over thousands of cycles, which batches do not show:
 // with this factor the intervals held 95 % of 500 means over 200,000 cycles, and without it 92 %.
 constexpr double slow_changes = 1.5;
 constexpr std::size_t most_notes = 20000;  // kept of a motion without a period, beside its last batch
 constexpr int most_periods = 3000;         // from rest
-constexpr double all_but_one = 1 - 1e-9;   // share of mu up to which gravity is plainly weaker than friction
-
-constexpr double repeat_match = 1e-9;  // of displacement and impact energy per cycle, period to period
+constexpr double repeat_match = 1e-9;      // of displacement and impact energy per cycle, period to period
 
 bool is_standard(MotionStart const& start) {
     return start.at.t == 0 && start.rebound == 0 && start.v == 0;
-}
-
-bool within(double x, double low, double high) {
-    return x >= low && x <= high;
-}
-
-/// Whether nothing is so large, small or close to a limit that rounding needs the care of solve().
-bool ordinary(Conveyor const& c) {
-    double const b = c.point.tan_vibration_angle, a = std::abs(c.point.tan_inclination);
-    EffectiveFriction const f = effective_friction(c);
-    bool good = within(c.point.throw_number, 1e-3, 50) && within(b, 1e-4, 1e3) &&
-                within(f.kinetic_friction * b, 1e-4, 100) && f.static_friction * b <= 100 &&
-                f.landing_friction * b <= 100 && a * b <= 100 && c.restitution <= 0.95 &&
-                c.slowest_rebound >= 1e-7 && (c.air_drag == 0 || within(c.air_drag, 1e-5, 10)) &&
-                within(std::abs(c.along_ratio), 0, 100) && c.flight_start == FlightStart::actual_velocity;
-    if (c.air_drag == 0) good = good && a < all_but_one * f.static_friction;
-    if (c.air_drag == 0 && f.static_friction <= f.kinetic_friction)
-        good = good && a < 0.999 * f.kinetic_friction;
-    for (auto const* harmonics : {&c.along, &c.normal}) {
-        for (Harmonic const& h : *harmonics) good = good && h.order <= 64 && std::abs(h.amplitude) <= 30;
-    }
-    return good;
 }
 
 }  // namespace
@@ -102,39 +86,67 @@ Tangent ConveyorEfficiency::follow_from_start() {
     return s;
 }
 
-/// With one friction coefficient the map of the velocity never expands differences.
-ConveyorEfficiency::Search ConveyorEfficiency::find_fixed_point() {
-    if (orbit_.in_contact) {
-        // The period starts where a slide begins, so that v = 0 is exact if there is a rest before it.
-        Crossings const& forward = waves_.slide(1).starts();
-        Crossings const& starts = forward.none() ? waves_.slide(-1).starts() : forward;
-        start_ = {0, 0, 1};
-        for (std::size_t i = 0; i < starts.count(); ++i) {
-            if (!starts.rises(i)) continue;
-            start_ = starts.zeros()[i];
-            break;
-        }
+/// Without flights the period starts where a slide begins, so that v = 0 is exact if there is a rest before
+/// it.
+void ConveyorEfficiency::start_at_slide() {
+    Crossings const& forward = waves_.slide(1).starts();
+    Crossings const& starts = forward.none() ? waves_.slide(-1).starts() : forward;
+    start_ = {0, 0, 1};
+    for (std::size_t i = 0; i < starts.count(); ++i) {
+        if (!starts.rises(i)) continue;
+        start_ = starts.zeros()[i];
+        break;
     }
-    double const fast = 1e4 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
+}
+
+/// Whether a mass that changes by `drift` in a period at the slip velocity v runs away: it is so fast that
+/// nothing stops it.
+bool ConveyorEfficiency::is_carried_off(double v, double drift) const {
+    double const pulled = std::abs(waves_.gravity()) * two_pi * orbit_.cycles;
+    double const least = std::min(least_drift, least_share * pulled) * std::abs(v) / fastest();
+    return is_fast(v) && drift * v > 0 && !(std::abs(drift) < least);
+}
+
+/// Whether v is beyond what any motion that repeats has, and nothing stops the mass.
+bool ConveyorEfficiency::is_fast(double v) const {
+    return slope_ == 1 && std::abs(v) > fastest();
+}
+
+double ConveyorEfficiency::fastest() const {
+    return 1e4 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
+}
+
+/// Whether nothing stops the mass in a period, and gravity and friction cancel each other to within rounding.
+bool ConveyorEfficiency::persists(double v, double drift) const {
+    double const pulled = std::abs(waves_.gravity()) * two_pi * orbit_.cycles;
+    return slope_ == 1 && std::abs(drift) <= idle * pulled + 1e-15 * (1 + std::abs(v));
+}
+
+/// With one friction coefficient the map of the velocity never expands differences.
+/// @param from  where the search begins
+ConveyorEfficiency::Search ConveyorEfficiency::find_fixed_point(double from) {
     bool runs_away = false;
     auto const map = [&](double v) {
         Tangent const after = follow_period(v);
         double const drift = after.v - v;
-        bool const faster = after.slope == 1 && std::abs(v) > fast && drift * v > 0;
-        if (!faster || std::abs(drift) < least_drift * std::abs(v) / fast) return after;
-        runs_away = true;
-        return Tangent{v, 0};
+        if (is_carried_off(v, drift)) {
+            runs_away = true;
+            return Tangent{v, 0};
+        }
+        // Where friction holds exactly what gravity pulls, any velocity persists at which nothing stops the
+        // mass. From rest it comes to the slowest of them.
+        bool const idles = persists(v, drift) && v * waves_.gravity() < 0;
+        return idles || is_fast(v) ? Tangent{v - std::copysign(1 + std::abs(v), v), 0} : after;
     };
-    FixedPoint const found = fixed_point(map, 0, velocity_tolerance);
+    FixedPoint const found = fixed_point(map, from, velocity_tolerance);
     if (runs_away) return Search::runs_away;
-    error_ = found.error;
-    return slope_ < 1 ? Search::found : Search::failed;
+    error_ = slope_ < 1 ? found.error : 0;
+    return Search::found;
 }
 
 /// With a larger static friction there can be several periodic motions. The map of the velocity is monotone:
 /// from rest it goes to the nearest one.
 ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_start() {
-    start_ = {0, 0, 1};
     double v = follow_from_start().v;
     ModeCode before = 0;
     double stride = 1, last = v, last_drift = 0;
@@ -142,10 +154,10 @@ ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_start() {
         Tangent after = follow_period(v);
         double const drift = after.v - v;
         error_ = 0;
-        if (std::abs(drift) <= settled * (1 + std::abs(v))) {
-            if (slope_ == 1) return Search::failed;
+        if (persists(v, drift)) return Search::found;
+        if (slope_ < 1 && std::abs(drift) <= settled * (1 + std::abs(v))) {
             error_ = drift / (1 - slope_);
-            return Search::found;
+            if (std::abs(error_) <= least_linear * (1 + std::abs(v))) return Search::found;
         }
         // Where nothing stops the mass, the drift is the same at any speed. A stride beyond that is taken
         // back.
@@ -154,6 +166,7 @@ ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_start() {
         if (plain) {
             bool const downhill = std::abs(waves_.gravity()) > waves_.kinetic_tangent() * waves_.weight();
             if (downhill && std::abs(v) > 10 && drift * v > 0) return Search::runs_away;
+            if (is_carried_off(v, drift)) return Search::runs_away;
             last = v;
             last_drift = drift;
             v += stride * drift;
@@ -180,12 +193,48 @@ ConveyorEfficiency::Search ConveyorEfficiency::iterate_from_start() {
         }
         v = after.v;
     }
-    return Search::failed;
+    // So slow a change is one by weak forces, beside which it does not matter whether the mass rests where
+    // its slip changes direction: the next fixed point is the one.
+    return find_fixed_point(v);
+}
+
+/// By the rule of Table 1 a faster mass can be slower after a period, so that only following it shows whether
+/// it repeats, and after how many periods of its flights.
+void ConveyorEfficiency::iterate_by_rule() {
+    std::vector<double> starts;
+    double v = follow_from_start().v;
+    error_ = 0;
+    auto const returns = [&](std::size_t n, double tolerance) {
+        return n <= starts.size() && std::abs(v - starts[starts.size() - n]) <= tolerance * (1 + std::abs(v));
+    };
+    for (int i = 0; i < most_periods; ++i) {
+        starts.push_back(v);
+        v = follow_period(v).v;
+        for (std::size_t n = 1; n * static_cast<std::size_t>(orbit_.cycles) <= longest_period; ++n) {
+            // An alternating approach meets the tolerance for 2 periods before it does for 1.
+            if (!returns(n, settled) || (n > 1 && returns(1, 1e3 * settled))) continue;
+            repeat_orbit(n);
+            follow_period(v);
+            return;
+        }
+    }
+    throw PhaseError("by the rule of Table 1 for the start of flights, this motion does not repeat");
+}
+
+/// Makes the period so many times as long.
+void ConveyorEfficiency::repeat_orbit(std::size_t times) {
+    std::size_t const count = orbit_.hops.size() - orbit_.first;
+    for (std::size_t i = 0; i < count * (times - 1); ++i) {
+        orbit_.hops.push_back(Hop(orbit_.hops[orbit_.first + i]));
+        leaps_.push_back(Leap(leaps_[orbit_.first + i]));
+    }
+    orbit_.cycles *= static_cast<int>(times);
+    orbit_known_ = false;
 }
 
 /// Follows at least so many cycles of a motion without a period, from the start of hop number `hop`, and adds
-/// hops where there are not enough. @return the mean slip velocity
-double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycles) {
+/// hops where there are not enough. @return the mean slip velocity; not a number when a flight is too long
+double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, double cycles) {
     FlightChain const chain(waves_);
     ContactLaw const law(waves_);
     double elapsed = 0, moved = 0;
@@ -203,8 +252,7 @@ double ConveyorEfficiency::follow_cycles(Tangent& s, std::size_t& hop, int cycle
         s = follow_hop(law, now, leap(waves_, now), s, hints_, record);
         elapsed += now.leave.t - now.start.t;
         longest_flight_ = std::max(longest_flight_, now.end.t - now.start.t);
-        if (longest_flight_ * flights_per_batch > two_pi * longest_batch)
-            throw PhaseError("flights are too long");
+        if (longest_flight_ * flights_per_batch > two_pi * longest_batch * unit_) return NAN;
     }
     cycles_followed_ += elapsed / two_pi;
     return moved / elapsed;
@@ -265,33 +313,81 @@ bool ConveyorEfficiency::repeats() const {
 }
 
 /// @param first  hop from which the cycles are followed; the leaps before it are known
-std::optional<Efficiency> ConveyorEfficiency::average(std::size_t first) {
-    if (mean_ == Mean::left_out) return Efficiency{0, 0, 0, Outcome::unsettled};
+Efficiency ConveyorEfficiency::average(std::size_t first) {
+    if (mean_ == Mean::left_out) return {0, 0, 0, Outcome::unsettled};
     orbit_.first = first;
+    for (unit_ = std::ceil(orbit_.stretch);;) {
+        if (auto const mean = average_of_batches()) return *mean;
+        // A flight can last thousands of cycles, and the mean over a part of one says nothing of the motion.
+        while (longest_flight_ * flights_per_batch > two_pi * longest_batch * unit_) unit_ *= 2;
+        unit_ *= 2;
+    }
+}
+
+/// Nothing when a flight is so long that a batch would have too few of them.
+std::optional<Efficiency> ConveyorEfficiency::average_of_batches() {
     Tangent s = follow_from_start();
-    std::size_t hop = first;
+    std::size_t hop = orbit_.first;
     longest_flight_ = 0;
-    follow_cycles(s, hop, settling);
+    if (std::isnan(follow_cycles(s, hop, settling * unit_))) return std::nullopt;
     batches_.clear();
     notes_.clear();
     double half_width = HUGE_VAL;
     cycles_followed_ = 0;
+    gains_.clear();
+    s.slope = 1;
     for (int cycles = shortest_batch;; cycles *= 2) {
         while (batches_.size() < batch_count) {
             if (notes_.size() > most_notes) notes_.clear();
-            batches_.push_back(follow_cycles(s, hop, cycles));
+            double const before = s.v;
+            batches_.push_back(follow_cycles(s, hop, cycles * unit_));
+            if (std::isnan(batches_.back())) return std::nullopt;
+            gains_.push_back((s.v - before) / (two_pi * cycles * unit_));
         }
         half_width = half_width_of(batches_);
-        bool const has_flights = longest_flight_ * flights_per_batch <= two_pi * cycles;
+        bool const has_flights = longest_flight_ * flights_per_batch <= two_pi * cycles * unit_;
         if (cycles == longest_batch || (has_flights && half_width <= wanted_half_width)) break;
         join_pairs(batches_);
+        join_pairs(gains_);
     }
-    double const fast = 10 * (1 + std::abs(waves_.vx().sine) + std::abs(waves_.vx().cosine));
-    if (!(std::abs(s.v) < fast)) return std::nullopt;  // it may run away
-    return Efficiency{mean_of(batches_), 0, 0, Outcome::unsettled, half_width};
+    if (gets_ever_faster(s)) return running_away();
+    double const mean = mean_of(batches_);
+    // Drag takes 1 / kappa to bring a mass that nothing stops to its speed, at which it gains no more.
+    double const kept = std::exp(-waves_.drag() * two_pi * cycles_followed_);
+    bool const is_free = kept > 1e-6 && std::abs(s.slope / kept - 1) < 1e-6;
+    if (waves_.drag() > 0 && is_free && std::abs(mean_of(gains_)) > waves_.drag() * half_width) {
+        for (std::size_t i = 0; i < batch_count; ++i) batches_[i] += gains_[i] / waves_.drag();
+        return Efficiency{mean_of(batches_), 0, 0, Outcome::unsettled, half_width_of(batches_)};
+    }
+    return Efficiency{mean, 0, 0, Outcome::unsettled, half_width};
 }
 
-std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
+/// Whether nothing has stopped the mass in any batch, and it was faster from each to the next. (20 means are
+/// in order by chance once in 1e18 times.)
+bool ConveyorEfficiency::gets_ever_faster(Tangent const& s) const {
+    double const downhill = -std::copysign(1.0, waves_.gravity());
+    auto const is_slower = [&](double p, double q) { return downhill * p < downhill * q; };
+    return waves_.drag() == 0 && s.slope == 1 && downhill * s.v > 0 &&
+           std::is_sorted(batches_.begin(), batches_.end(), is_slower);
+}
+
+Efficiency ConveyorEfficiency::running_away() const {
+    return {std::copysign(std::numeric_limits<double>::infinity(), -waves_.gravity()), 0, 0,
+            Outcome::runs_away};
+}
+
+/// What follows from the forces alone; nothing when the motion has to be found.
+std::optional<Efficiency> ConveyorEfficiency::without_motion(Conveyor const& c) const {
+    if (c.air_drag > 0) return std::nullopt;
+    EffectiveFriction const friction = effective_friction(c);
+    double const in_flights = orbit_.in_contact ? 0 : friction.landing_friction;
+    double const strongest = std::max(friction.static_friction, in_flights);
+    if (std::abs(c.point.tan_inclination) > strongest) return running_away();
+    if (strongest == 0) return Efficiency{0, 0, 0, Outcome::indifferent};
+    return std::nullopt;
+}
+
+Efficiency ConveyorEfficiency::solve(Conveyor const& c) {
     waves_.set(c);
     hints_ = {};  // those of another point would change the last bit
     if (!waves_.same_normal() || !orbit_known_) {
@@ -299,13 +395,11 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
         find_normal_orbit(waves_, from_, orbit_, after_zero_);
         // Its first hop is another one when a mean was wanted; and a later point may have another start.
         orbit_known_ = is_standard(from_) && !orbit_.in_doubt;
-        if (orbit_.joined != never) return Efficiency{0, 0, 0, Outcome::unsettled};
+        if (orbit_.joined != never) return {0, 0, 0, Outcome::unsettled};
     }
-    // Landings that hold exactly what gravity pulls leave any velocity as it is.
-    double const pull = std::abs(waves_.gravity()), held = waves_.landing_tangent() * waves_.weight();
-    if (!orbit_.in_contact && std::abs(pull - held) <= 1e-9 * pull) return std::nullopt;
-    bool const has_period = orbit_.cycles > 0 && orbit_.cycles <= 64;
-    bool const one_friction = waves_.one_friction();
+    if (auto const known = without_motion(c)) return *known;
+    bool const has_period = orbit_.cycles > 0 && (orbit_.cycles <= longest_period || orbit_.stretch > 1);
+    bool const by_rule = waves_.starts_by_rule(), one_friction = waves_.one_friction() && !by_rule;
     leaps_.resize(orbit_.hops.size());
     if (!has_period) {
         for (std::size_t i = 0; i < orbit_.first; ++i) leaps_[i] = leap(waves_, orbit_.hops[i]);
@@ -313,49 +407,49 @@ std::optional<Efficiency> ConveyorEfficiency::solve(Conveyor const& c) {
     }
     for (std::size_t i = one_friction ? orbit_.first : 0; i < orbit_.hops.size(); ++i)
         leaps_[i] = leap(waves_, orbit_.hops[i]);
-    Search const search = one_friction ? find_fixed_point() : iterate_from_start();
-    if (search == Search::found && orbit_.in_doubt && !repeats()) return average(0);
-    if (search == Search::failed) return std::nullopt;
-    if (search == Search::runs_away) {
-        double const infinity = std::numeric_limits<double>::infinity();
-        return Efficiency{std::copysign(infinity, -c.point.tan_inclination), 0, 0, Outcome::runs_away};
+    start_ = {0, 0, 1};
+    if (one_friction && orbit_.in_contact) start_at_slide();
+    Search search = Search::found;
+    if (by_rule) {
+        iterate_by_rule();
+    } else {
+        search = one_friction ? find_fixed_point(0) : iterate_from_start();
     }
+    if (search == Search::found && orbit_.in_doubt && !repeats()) return average(0);
+    if (search == Search::runs_away) return running_away();
     if (orbit_.in_contact) notes_.join_ends();
     double const eta = (displacement_ + derivative_ * error_) / (two_pi * orbit_.cycles);
-    if (!std::isfinite(eta)) return std::nullopt;
-    return Efficiency{eta, notes_.mode(orbit_), orbit_.cycles, Outcome::periodic};
+    if (!std::isfinite(eta)) throw PhaseError("the efficiency is not a finite number");
+    return {eta, notes_.mode(orbit_), orbit_.cycles, Outcome::periodic};
 }
 
-std::optional<Efficiency> ConveyorEfficiency::operator()(Conveyor const& conveyor, MotionStart const& start,
-                                                         Mean mean,
-                                                         std::vector<std::size_t> const* after_zero) {
-    if (!ordinary(conveyor)) return std::nullopt;
+Efficiency ConveyorEfficiency::operator()(Conveyor const& conveyor, MotionStart const& start, Mean mean,
+                                          std::vector<std::size_t> const* after_zero) {
     orbit_known_ = orbit_known_ && is_standard(start);
     from_ = start;
     mean_ = mean;
     after_zero_ = after_zero;
     try {
-        return solve(conveyor);
-    } catch (PhaseError const&) {
-        return std::nullopt;
+        return solve(with_noticeable_forces(conveyor));
+    } catch (PhaseError const& error) {
+        throw PhaseError(std::string(error.what()) + " (" + inputs_text(conveyor) + ")");
     }
 }
 
-std::optional<ConveyorMotion> ConveyorEfficiency::motion(Conveyor const& conveyor) {
+ConveyorMotion ConveyorEfficiency::motion(Conveyor const& conveyor) {
     keep_ = true;
-    auto const found = (*this)(conveyor);
+    Efficiency const found = (*this)(conveyor);
     keep_ = false;
-    if (!found) return std::nullopt;
     ConveyorMotion answer;
-    answer.motion = {.velocity_efficiency = found->velocity_efficiency,
+    answer.motion = {.velocity_efficiency = found.velocity_efficiency,
                      .mode = "",
                      .phases = {},
                      .flight_number = 0,
-                     .period_cycles = found->period_cycles,
-                     .converged = found->outcome == Outcome::periodic,
-                     .outcome = found->outcome};
-    answer.half_width = found->half_width;
-    if (found->outcome == Outcome::runs_away) return answer;
+                     .period_cycles = found.period_cycles,
+                     .converged = found.outcome == Outcome::periodic,
+                     .outcome = found.outcome};
+    answer.half_width = found.half_width;
+    if (found.outcome == Outcome::runs_away || found.outcome == Outcome::indifferent) return answer;
     if (!answer.motion.converged) answer.cycles_followed = static_cast<int>(std::lround(cycles_followed_));
     notes_.describe(waves_, orbit_, answer);
     return answer;

@@ -1,18 +1,12 @@
 #include "theory/detail/conveyor_model.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace vibrotrough::theory {
 namespace {
 
-using detail::first_zero;
-using detail::Sample;
 using detail::Term;
 using detail::Trigonometric;
-
-constexpr double drag_reach = 1;  // rad: the distance within which the bounds on drag below hold
 
 /// (1 - exp(-kappa h)) / kappa
 double once_decayed(double kappa, double h) {
@@ -76,35 +70,19 @@ ConveyorModel::ConveyorModel(Conveyor const& conveyor)
       weight_(1 / conveyor.point.throw_number),
       gravity_(conveyor.point.tan_inclination * conveyor.point.tan_vibration_angle * weight_),
       drag_(conveyor.air_drag) {
-    auto const friction = effective_friction(conveyor);
-    kinetic_ = friction.kinetic_friction * conveyor.point.tan_vibration_angle;
-    static_ = friction.static_friction * conveyor.point.tan_vibration_angle;
-    landing_ = friction.landing_friction * conveyor.point.tan_vibration_angle;
+    kinetic_ = effective_friction(conveyor).kinetic_friction * conveyor.point.tan_vibration_angle;
     normal_ = y_.differentiated(1, drag_);
     needed_ = x_.differentiated(1, drag_);
     positive_ = make_slide(+1);
     negative_ = make_slide(-1);
-    // The mass lags behind (N slide) when a friction force above +mu_s N is needed, and runs ahead (P slide)
-    // when it is below -mu_s N.
-    hold_positive_ = {static_ * weight_ + gravity_, normal_ * static_ + needed_};
-    hold_negative_ = {static_ * weight_ - gravity_, normal_ * static_ + needed_ * -1};
-    normal_bend_ = normal_.derivative_bound(2);
-    hold_bend_ = static_ * normal_bend_ + needed_.derivative_bound(2);
-    fall_bound_ = weight_ + ay_.bound();
 }
 
-// u' = -kappa u - gravity - sign mu tan(beta) N; with u = X' + v the speed w = sign v obeys w' = -kappa w +
-// drive.
+// u' = -kappa u - gravity - sign mu tan(beta) N.
 ConveyorModel::Slide ConveyorModel::make_slide(double sign) const {
     Slide s;
     s.constant = -gravity_ - sign * kinetic_ * weight_;
     s.particular = (normal_ * (-sign * kinetic_)).driven(drag_);
     s.integral = s.particular.integrated();
-    s.drive_constant = -sign * gravity_ - kinetic_ * weight_;
-    s.drive = needed_ * -sign + normal_ * -kinetic_;
-    s.drive_bound = std::abs(s.drive_constant) + s.drive.bound();
-    s.drive_rate_bound = s.drive.derivative_bound(1);
-    s.drive_bend = s.drive.derivative_bound(2);
     return s;
 }
 
@@ -119,54 +97,6 @@ DrivenVelocity ConveyorModel::flight_velocity_x(double t0, double u0) const {
 
 DrivenVelocity ConveyorModel::flight_velocity_y(double t0, double w0) const {
     return {drag_, -weight_, nullptr, nullptr, t0, w0};
-}
-
-double ConveyorModel::take_off_after(double t, double end) const {
-    auto const force = [&](double s) { return Sample{normal_force(s), normal_.rate(s), normal_bend_}; };
-    return first_zero(force, t, end);
-}
-
-double ConveyorModel::slip_after(double sign, double t, double end) const {
-    auto const& h = hold(sign);
-    auto const held = [&](double s) { return Sample{h.constant + h.sum(s), h.sum.rate(s), hold_bend_}; };
-    return first_zero(held, t, end);
-}
-
-double ConveyorModel::stop_after(double sign, double t, double speed, double end) const {
-    Slide const& s = slide(sign);
-    // While the driving acceleration is positive, the speed is positive, too.
-    auto const drive = [&](double a) { return Sample{slide_drive(sign, a), s.drive.rate(a), s.drive_bend}; };
-    double const from = speed == 0 || slide_drive(sign, t) >= 0 ? first_zero(drive, t, end) : t;
-    if (from >= end) return end;
-    DrivenVelocity const u = slide_velocity(sign, t, trough_vx(t) + sign * speed);
-    auto const slip = [&](double a) {
-        double const w = sign * (u(a) - trough_vx(a));
-        double const most = std::abs(w) + s.drive_bound * drag_reach;
-        return Sample{w, slide_drive(sign, a) - drag_ * w,
-                      s.drive_rate_bound + drag_ * (s.drive_bound + drag_ * most),
-                      drag_ > 0 ? drag_reach : HUGE_VAL};
-    };
-    return first_zero(slip, from, end);
-}
-
-double ConveyorModel::landing_after(double t, double gap, double gap_rate, double end) const {
-    double from = t;
-    bool const takes_off = gap == 0 && gap_rate == 0;
-    if (takes_off || (gap_rate >= 0 && normal_force(t) <= 0)) {
-        // While the trough falls away faster than the mass, the gap grows: (gap)'' + kappa (gap)' = -N.
-        auto const lift = [&](double s) { return Sample{-normal_force(s), -normal_.rate(s), normal_bend_}; };
-        from = first_zero(lift, t, end);
-        if (from >= end) return end;
-    }
-    DrivenVelocity const w = flight_velocity_y(t, trough_vy(t) + gap_rate);
-    double const level = trough_y(t) + gap;
-    auto const height = [&](double s) {
-        double const rate = w(s);
-        double const bend = fall_bound_ + drag_ * (std::abs(rate) + weight_ * drag_reach);
-        return Sample{level + w.travel(s) - trough_y(s), rate - trough_vy(s), bend,
-                      drag_ > 0 ? drag_reach : HUGE_VAL};
-    };
-    return first_zero(height, from, end);
 }
 
 }  // namespace vibrotrough::theory

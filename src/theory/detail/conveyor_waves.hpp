@@ -49,6 +49,8 @@ class ConveyorWaves {
     double restitution() const { return restitution_; }
     double slowest_rebound() const { return slowest_rebound_; }
     bool one_friction() const { return positive_.one_friction; }
+    /// Whether flights start by the rule of Table 1, FlightStart::trough_velocity_rule.
+    bool starts_by_rule() const { return last_.flight_start == FlightStart::trough_velocity_rule; }
     /// Whether the normal motion is that of the conveyor before.
     bool same_normal() const { return same_normal_; }
 

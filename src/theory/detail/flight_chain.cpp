@@ -5,8 +5,10 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr int most_sections = 2000;    // of one flight
-constexpr double series_range = 0.01;  // rad of the highest order, for flights that a series describes
+constexpr int most_sections = 200000;        // of one flight
+constexpr double long_flight = 65 * two_pi;  // rad: longer than any flight of a period
+constexpr double take_off_rounding = 1e-9;   // rad, of a take-off right after a landing at a late time
+constexpr double series_range = 0.01;        // rad of the highest order, for flights that a series describes
 /// Sine and cosine a step later, exact to rounding for |d| <= 0.01.
 Instant series_shifted(Instant const& a, double d) {
     double const q = d * d, sine = d * (1 - q / 6 * (1 - q / 20)), less = q / 2 * (1 - q / 12 * (1 - q / 30));
@@ -32,6 +34,20 @@ struct FlightChain::Ballistic {
         return speed * d.decay - waves.weight() * d.once - waves.vy()(at);
     }
     Decayed decayed(double t) const { return Decayed::after(waves.drag(), t - start.t); }
+    /// The time up to which the mass is higher than the trough can be; the start when it never is.
+    double above_all(double highest) const {
+        auto const is_above = [&](double h) {
+            Decayed const d = Decayed::after(waves.drag(), h);
+            return level + speed * d.once - waves.weight() * d.twice > highest;
+        };
+        // Without drag it falls back to its level at the second time, and with drag before.
+        double high = 2 * speed / waves.weight(), low = high / 2;
+        while (low > 1 && !is_above(low)) low /= 2;
+        if (!is_above(low)) return start.t;
+        while (is_above(high)) high *= 2;
+        while (high - low > 1) (is_above((low + high) / 2) ? low : high) = (low + high) / 2;
+        return start.t + low;
+    }
 };
 
 FlightChain::Start FlightChain::from_contact(Instant const& at) const {
@@ -141,12 +157,26 @@ Hop FlightChain::flight(Start const& start) const {
     if (!found) {
         Ballistic const path(waves_, start);
         auto section = waves_.presses().at(start.at.t);
-        if (start.rate == 0 && section.positive) throw PhaseError("a flight starts in contact");
+        if (start.rate == 0 && section.positive) {
+            if (section.end.t - start.at.t > take_off_rounding)
+                throw PhaseError("a flight starts in contact");
+            waves_.presses().advance(section);
+        }
         double from = start.at.t, gap = 0, rate = start.rate;
         if (waves_.presses().none()) {  // the rate only falls
             double to = from + two_pi;
             while (path.gap(Instant::at(to), path.decayed(to)) > 0) to += to - from;
             return landing(start, path, from, to);
+        }
+        if (2 * path.speed > waves_.weight() * long_flight) {
+            double const above = path.above_all(waves_.y().bound());
+            if (above > from) {
+                Decayed const d = path.decayed(above);
+                from = above;
+                gap = path.gap(Instant::at(above), d);
+                rate = path.rate(Instant::at(above), d);
+                section = waves_.presses().at(above);
+            }
         }
         for (int i = 0; !found; ++i) {
             if (i > most_sections || !std::isfinite(section.end.t))

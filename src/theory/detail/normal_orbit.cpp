@@ -25,14 +25,32 @@ double duration(Hop const& hop) {
     return hop.leave.t - hop.start.t;
 }
 
-constexpr double longest_return = two_pi * (longest_period + 0.5);
+// What is said of cycles holds for flights of up to this duration, and for restitutions up to the second
+// number: beyond, the energy settles over more impacts than a hundred cycles have.
+constexpr double ordinary_flight = 16 * two_pi, lively = 0.95, settling = 100;  // rad, 1, cycles
+constexpr double longest_stretch = 5e5;
+
+/// By how much the restitution stretches the times in which a motion settles.
+double stretch_by(ConveyorWaves const& waves) {
+    double const e = waves.restitution();
+    if (e <= lively) return 1;
+    // The velocity of a rebound W changes to e W + (1 + e) V, with the velocity V of the trough.
+    double const impacts = 1 / (1 - e * e), rebound = waves.vy().bound() * std::sqrt((1 + e) / (1 - e) / 2);
+    double const flight = rebound / waves.weight() / pi;  // cycles
+    return std::clamp(std::ceil(5 * impacts * flight / settling), 1.0, longest_stretch);
+}
+
+double longest_return(double stretch) {
+    return two_pi * (longest_period + 0.5) * stretch;
+}
 
 /// The number of hops after which the phase of the landing and the rebound repeat; 0 when they do not.
 /// @param since  the first hop after the last contact
-std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since) {
+/// @param most   rad, the longest period
+std::size_t hops_to_return(std::vector<Hop> const& hops, std::size_t since, double most) {
     Hop const& now = hops.back();
     double elapsed = 0;
-    for (std::size_t k = 1; k + since < hops.size() && elapsed < longest_return; ++k) {
+    for (std::size_t k = 1; k + since < hops.size() && elapsed < most; ++k) {
         Hop const& earlier = hops[hops.size() - 1 - k];
         elapsed += duration(earlier);
         if (!(std::abs(now.rebound - earlier.rebound) < state_match)) continue;
@@ -57,13 +75,15 @@ class Rebounds {
         all_.clear();
     }
 
-    /// Adds the last of the hops. @param since  the first hop after the last contact
-    bool repeat(std::vector<Hop> const& hops, std::size_t since) {
+    /// Adds the last of the hops.
+    /// @param since  the first hop after the last contact
+    /// @param most   rad, the longest period
+    bool repeat(std::vector<Hop> const& hops, std::size_t since, double most) {
         double const now = hops.back().rebound;
         std::size_t const count = all_.size();
         for (; oldest_ < count; ++oldest_) {
             double const after = elapsed_ - duration(hops[oldest_]);
-            if (after < longest_return + 1) break;
+            if (after < most + 1) break;
             elapsed_ = after;
         }
         if (count == few) {
@@ -162,6 +182,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     orbit.cycles = 0;
     orbit.in_doubt = false;
     orbit.joined = never;
+    orbit.stretch = stretch_by(waves);
     orbit.begin = start.at;
     FlightChain const chain(waves);
     FlightChain::Start next = chain.from(start);
@@ -179,7 +200,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     bool irregular = false;
     std::size_t since = 0;  // the last contact
     Rebounds rebounds(orbit.rebounds, orbit.seen);
-    for (double elapsed = next.at.t; elapsed < two_pi * most_cycles;) {
+    for (double elapsed = next.at.t; elapsed < two_pi * most_cycles * orbit.stretch;) {
         if (next.zero >= 0) {
             if (after_zero != nullptr) orbit.joined = (*after_zero)[static_cast<std::size_t>(next.zero)];
             if (orbit.joined != never) break;
@@ -208,14 +229,17 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
             break;
         }
         elapsed += duration(hop);
+        orbit.stretch = std::max(orbit.stretch, (hop.end.t - hop.start.t) / ordinary_flight);
         growth.multiply(chain.sensitivity(hop, from.rate));
         if (peak < hopeless_growth) peak = std::max(peak, growth.factor());
-        if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from) chaos_start = growth.logarithm();
-        if (elapsed > two_pi * chaos_to &&
+        if (chaos_start == HUGE_VAL && elapsed > two_pi * chaos_from * orbit.stretch)
+            chaos_start = growth.logarithm();
+        if (elapsed > two_pi * chaos_to * orbit.stretch &&
             (irregular || growth.logarithm() - chaos_start > std::log(chaotic_growth)))
             break;
-        bool const returned = rebounds.repeat(orbit.hops, since);
-        std::size_t const k = next.zero >= 0 || !returned ? 0 : hops_to_return(orbit.hops, since);
+        double const most = longest_return(orbit.stretch);
+        bool const returned = rebounds.repeat(orbit.hops, since, most);
+        std::size_t const k = next.zero >= 0 || !returned ? 0 : hops_to_return(orbit.hops, since, most);
         if (k > 0) {
             orbit.first = orbit.hops.size() - k;
             orbit.cycles = cycles_from(orbit.hops, orbit.first);

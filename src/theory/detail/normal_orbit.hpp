@@ -9,10 +9,13 @@ inline constexpr std::size_t never = static_cast<std::size_t>(-1);
 
 /// The flights of the periodic motion that develops from a start.
 struct NormalOrbit {
-    Instant begin{0, 0, 1};   ///< of the contact before the first flight, in the time of that flight
-    std::vector<Hop> hops;    ///< from the start on; those of the period come last
-    std::size_t first = 0;    ///< of the period
-    int cycles = 0;           ///< of the period; 0 when none was found
+    Instant begin{0, 0, 1};  ///< of the contact before the first flight, in the time of that flight
+    std::vector<Hop> hops;   ///< from the start on; those of the period come last
+    std::size_t first = 0;   ///< of the period
+    int cycles = 0;          ///< of the period; 0 when none was found
+    /// By how much all times are longer than those below, because flights last longer than 16 cycles or the
+    /// restitution is above 0.95; 1 otherwise.
+    double stretch = 1;
     bool in_doubt = false;    ///< whether rounding errors may decide if there is a period
     std::vector<Hop> again;   ///< if so, the next period; empty when it has other contacts
     bool in_contact = false;  ///< whether the mass stays on the trough, after the hops if there are any

@@ -47,6 +47,12 @@ class ContactLaw {
     bool slides_back(Sliding const& slide, double t) const {
         return waves_.slide(-slide.sign).starts().at(t).positive;
     }
+    /// The velocity at a take-off from the slide or rest that came last: a rule of Table 1 of the paper,
+    /// which is not physical, gives a mass that slides back after its landing the velocity of the trough.
+    Tangent taking_off(Tangent const& s, PhaseKind last) const {
+        bool const by_rule = waves_.starts_by_rule() && last == PhaseKind::negative_slide_after_landing;
+        return by_rule ? Tangent{0, 0} : s;
+    }
     ConveyorWaves const& waves() const { return waves_; }
 
   private:
@@ -104,7 +110,13 @@ Tangent follow_hop(ContactLaw const& law, Hop const& hop, Leap const& leap, Tang
     record(PhaseKind::flight, hop.start.t, hop.end.t, s.v, s.v * leap.reach + leap.drift,
            s.slope * leap.reach);
     s = landed({s.v * leap.decay + leap.push, s.slope * leap.decay}, leap.impulse);
-    return follow_contact(law, s, hop.end, hop.leave, true, hints, record);
+    auto last = PhaseKind::flight;
+    auto const note = [&](PhaseKind kind, double from, double to, double v, double moved, double derivative) {
+        last = kind;
+        record(kind, from, to, v, moved, derivative);
+    };
+    s = follow_contact(law, s, hop.end, hop.leave, true, hints, note);
+    return law.taking_off(s, last);
 }
 
 }  // namespace vibrotrough::theory::detail

@@ -19,7 +19,7 @@ PointMass with_noticeable_forces(PointMass const& input) {
     if (std::abs(p.tan_inclination) > p.friction) return p;
     // In two steps, because 1 / 1e-320 is infinite.
     double const ratio = p.friction > 0 ? p.tan_inclination / p.friction : 0;
-    double const weakest = weakest_of_plastic * std::min(1.0, p.throw_number) / p.tan_vibration_angle;
+    double const weakest = weakest_force * std::min(1.0, p.throw_number) / p.tan_vibration_angle;
     if (p.friction > 0 && p.friction < weakest && weakest < 1e-6) {
         p.friction = weakest;
         p.tan_inclination = ratio * weakest;
@@ -39,7 +39,7 @@ Conveyor with_noticeable_forces(Conveyor const& input) {
     if (c.air_drag < 1e-18 * by_friction) c.air_drag = 0;
     if (std::abs(c.point.tan_inclination) > strongest && c.air_drag == 0) return c;
     double const by_gravity = std::abs(c.point.tan_inclination) * unit;
-    double const factor = needed_factor(std::max({by_friction, c.air_drag, by_gravity}), weakest_of_general);
+    double const factor = needed_factor(std::max({by_friction, c.air_drag, by_gravity}), weakest_force);
     if (factor == 1) return c;
     // The inverse of the smallest numbers is infinite: they take two steps.
     double const step = std::min(factor, 1e200);

@@ -8,7 +8,7 @@ namespace vibrotrough::theory::detail {
 /// The weakest friction that a solver can follow, as a change of velocity per radian in omega r cos(beta): a
 /// weaker one changes the velocity within a cycle by little more than rounding does, or less, and then any
 /// motion seems periodic. With these the error of rounding is about 1e-7 and that of the limit is smaller.
-constexpr double weakest_of_plastic = 1e-8, weakest_of_general = 1e-10;
+constexpr double weakest_force = 5e-9;
 
 /// The same problem with stronger forces along the trough where those of `input` are too weak to be followed.
 /// The periodic motion that develops in the end depends on the ratios of the weak forces only (friction, drag

@@ -1,16 +1,33 @@
-#include "theory/detail/conveyor_walk.hpp"
+#include "conveyor_walk.hpp"
 
 #include "theory/detail/contact.hpp"
+#include "theory/detail/first_zero.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-namespace vibrotrough::theory::detail {
+namespace vibrotrough::theory {
 namespace {
+
+using detail::first_zero;
+using detail::Sample;
+using detail::slide_kind;
+using detail::Term;
+using detail::Trigonometric;
 
 constexpr double shortest_piece = 1e-12;  // rad; shorter pieces are rounding errors
 constexpr double rounding = 1e-13;        // of forces
 constexpr int most_events = 2000000;
+constexpr double drag_reach = 1;  // rad: the distance within which the bounds on drag below hold
+
+/// The position of the trough along or normal to itself.
+Trigonometric trough(double ratio, double phase, std::vector<Harmonic> const& harmonics) {
+    std::vector<Term> terms{{1, ratio, phase}};
+    for (Harmonic const& h : harmonics)
+        terms.push_back({static_cast<double>(h.order), h.amplitude / h.order / h.order, h.phase});
+    return Trigonometric(std::move(terms));
+}
 
 void keep_piece(Passage& passage, Walk::Keep keep, Piece const& piece) {
     passage.displacement += piece.displacement;
@@ -19,6 +36,76 @@ void keep_piece(Passage& passage, Walk::Keep keep, Piece const& piece) {
 }
 
 }  // namespace
+
+// The mass lags behind (N slide) when a friction force above +mu_s N is needed, and runs ahead (P slide) when
+// it is below -mu_s N. The speed w of a slide obeys w' = -kappa w + drive.
+WalkModel::WalkModel(Conveyor const& c) : ConveyorModel(c) {
+    Trigonometric const x = trough(c.along_ratio, c.along_phase, c.along), y = trough(1, 0, c.normal);
+    EffectiveFriction const friction = effective_friction(c);
+    double const tangent = c.point.tan_vibration_angle, rest = friction.static_friction * tangent;
+    double const kinetic = friction.kinetic_friction * tangent;
+    normal_ = y.differentiated(1, drag());
+    needed_ = x.differentiated(1, drag());
+    hold_positive_ = {rest * weight() + gravity(), normal_ * rest + needed_};
+    hold_negative_ = {rest * weight() - gravity(), normal_ * rest + needed_ * -1};
+    drive_positive_ = {-gravity() - kinetic * weight(), needed_ * -1 + normal_ * -kinetic};
+    drive_negative_ = {gravity() - kinetic * weight(), needed_ + normal_ * -kinetic};
+    landing_ = friction.landing_friction * tangent;
+    vx_bound_ = x.derivative_bound(1);
+    normal_bend_ = normal_.derivative_bound(2);
+    hold_bend_ = rest * normal_bend_ + needed_.derivative_bound(2);
+    fall_bound_ = weight() + y.derivative_bound(2);
+}
+
+double WalkModel::take_off_after(double t, double end) const {
+    auto const force = [&](double s) { return Sample{normal_force(s), normal_.rate(s), normal_bend_}; };
+    return first_zero(force, t, end);
+}
+
+double WalkModel::slip_after(double sign, double t, double end) const {
+    Shifted const& h = sign > 0 ? hold_positive_ : hold_negative_;
+    auto const held = [&](double s) { return Sample{h.constant + h.sum(s), h.sum.rate(s), hold_bend_}; };
+    return first_zero(held, t, end);
+}
+
+double WalkModel::stop_after(double sign, double t, double speed, double end) const {
+    Shifted const& s = sign > 0 ? drive_positive_ : drive_negative_;
+    double const drive_bound = std::abs(s.constant) + s.sum.bound();
+    double const drive_rate_bound = s.sum.derivative_bound(1), drive_bend = s.sum.derivative_bound(2);
+    // While the driving acceleration is positive, the speed is positive, too.
+    auto const drive = [&](double a) { return Sample{slide_drive(sign, a), s.sum.rate(a), drive_bend}; };
+    double const from = speed == 0 || slide_drive(sign, t) >= 0 ? first_zero(drive, t, end) : t;
+    if (from >= end) return end;
+    DrivenVelocity const u = slide_velocity(sign, t, trough_vx(t) + sign * speed);
+    auto const slip = [&](double a) {
+        double const w = sign * (u(a) - trough_vx(a));
+        double const most = std::abs(w) + drive_bound * drag_reach;
+        return Sample{w, slide_drive(sign, a) - drag() * w,
+                      drive_rate_bound + drag() * (drive_bound + drag() * most),
+                      drag() > 0 ? drag_reach : HUGE_VAL};
+    };
+    return first_zero(slip, from, end);
+}
+
+double WalkModel::landing_after(double t, double gap, double gap_rate, double end) const {
+    double from = t;
+    bool const takes_off = gap == 0 && gap_rate == 0;
+    if (takes_off || (gap_rate >= 0 && normal_force(t) <= 0)) {
+        // While the trough falls away faster than the mass, the gap grows: (gap)'' + kappa (gap)' = -N.
+        auto const lift = [&](double s) { return Sample{-normal_force(s), -normal_.rate(s), normal_bend_}; };
+        from = first_zero(lift, t, end);
+        if (from >= end) return end;
+    }
+    DrivenVelocity const w = flight_velocity_y(t, trough_vy(t) + gap_rate);
+    double const level = trough_y(t) + gap;
+    auto const height = [&](double s) {
+        double const rate = w(s);
+        double const bend = fall_bound_ + drag() * (std::abs(rate) + weight() * drag_reach);
+        return Sample{level + w.travel(s) - trough_y(s), rate - trough_vy(s), bend,
+                      drag() > 0 ? drag_reach : HUGE_VAL};
+    };
+    return first_zero(height, from, end);
+}
 
 void Walk::advance(WalkState& s, double end, Passage& passage, Keep keep) const {
     for (int i = 0; s.t < end; ++i) {
@@ -143,4 +230,4 @@ void Walk::slide(WalkState& s, double end, Passage& passage, Keep keep) const {
     if (to < end) take_off(s);
 }
 
-}  // namespace vibrotrough::theory::detail
+}  // namespace vibrotrough::theory
