@@ -1,7 +1,7 @@
 #include "theory/coexisting.hpp"
 
-#include "theory/detail/conveyor_check.hpp"
-#include "theory/detail/conveyor_efficiency.hpp"
+#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/conveyor/solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ bool same_motion(Efficiency const& a, Efficiency const& b) {
 }  // namespace
 
 struct MotionSurvey::Memory {
-    detail::ConveyorEfficiency solver;
+    detail::ConveyorSolver solver;
     std::vector<std::size_t> after_zero;  // motion after a take-off at each zero of the normal force
 
     void note_zeros(std::size_t motion);
@@ -64,10 +64,10 @@ MotionSurvey& MotionSurvey::operator=(MotionSurvey&&) noexcept = default;
 
 std::vector<CoexistingMotion> MotionSurvey::operator()(Conveyor const& conveyor, Efficiency const& standard,
                                                        int starts) {
-    using Mean = detail::ConveyorEfficiency::Mean;
+    using Mean = detail::ConveyorSolver::Mean;
     detail::check_ranges(conveyor);
     std::vector<CoexistingMotion> found{{standard, 1}};
-    detail::ConveyorEfficiency& solver = memory_->solver;
+    detail::ConveyorSolver& solver = memory_->solver;
     memory_->after_zero.clear();
     solver(conveyor, {}, Mean::left_out);
     if (standard.outcome == Outcome::indifferent) return found;

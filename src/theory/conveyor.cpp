@@ -1,9 +1,9 @@
 #include "theory/conveyor.hpp"
 
-#include "theory/detail/conveyor_check.hpp"
-#include "theory/detail/conveyor_efficiency.hpp"
-#include "theory/detail/conveyor_model.hpp"
-#include "theory/detail/plastic_orbit.hpp"
+#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/conveyor/model.hpp"
+#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/plastic/orbit.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -19,7 +19,7 @@ EffectiveFriction effective_friction(Conveyor const& c) {
 
 ConveyorMotion solve(Conveyor const& conveyor) {
     detail::check_ranges(conveyor);
-    ConveyorMotion answer = detail::ConveyorEfficiency().motion(conveyor);
+    ConveyorMotion answer = detail::ConveyorSolver().motion(conveyor);
     // Forces and energies are those of the conveyor itself, however weak they are.
     answer.model = std::make_shared<ConveyorModel const>(conveyor);
     return answer;

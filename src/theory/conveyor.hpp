@@ -13,7 +13,7 @@ namespace vibrotrough::theory {
 /// sin(order t + phase), in units of the acceleration amplitude of the fundamental in the same direction.
 struct Harmonic {
     int order;         ///< 1 to 100
-    double amplitude;  ///< of the acceleration, as a fraction of the fundamental's, up to 100
+    double amplitude;  ///< of the acceleration, as a fraction of the fundamental's
     double phase = 0;  ///< rad
 };
 
@@ -71,7 +71,7 @@ struct Impact {
     double along_before, along_after;  ///< along the trough, signed
 };
 
-class ConveyorModel;  // the analytic solution of each phase; see detail/conveyor_model.hpp
+class ConveyorModel;  // the analytic solution of each phase; see detail/conveyor/model.hpp
 
 /// A phase with all that is needed to evaluate the motion at any time within it.
 struct Piece {

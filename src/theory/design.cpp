@@ -1,6 +1,6 @@
 #include "theory/design.hpp"
 
-#include "theory/detail/input_check.hpp"
+#include "theory/detail/common/input_check.hpp"
 #include "theory/map.hpp"
 #include "theory/tested_range.hpp"
 

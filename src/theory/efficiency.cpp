@@ -1,12 +1,12 @@
 #include "theory/efficiency.hpp"
 
-#include "theory/detail/contact.hpp"
-#include "theory/detail/conveyor_check.hpp"
-#include "theory/detail/conveyor_efficiency.hpp"
-#include "theory/detail/flight.hpp"
-#include "theory/detail/input_check.hpp"
-#include "theory/detail/periodic.hpp"
-#include "theory/detail/weak_forces.hpp"
+#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/common/weak_forces.hpp"
+#include "theory/detail/conveyor/check.hpp"
+#include "theory/detail/conveyor/solver.hpp"
+#include "theory/detail/plastic/contact.hpp"
+#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/plastic/steady_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ std::string to_string(ModeCode code) {
 struct EfficiencySolver::Memory {
     double throw_number = 0;  // that `normal` belongs to
     detail::NormalMotion normal;
-    detail::ConveyorEfficiency conveyors;
+    detail::ConveyorSolver conveyors;
 
     std::optional<Efficiency> solve_periodic(PointMass const& input);
 };

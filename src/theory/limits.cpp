@@ -1,6 +1,6 @@
 #include "theory/limits.hpp"
 
-#include "theory/detail/input_check.hpp"
+#include "theory/detail/common/input_check.hpp"
 #include "theory/efficiency.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 #include "theory/point_mass.hpp"
 
-#include "theory/detail/contact.hpp"
-#include "theory/detail/flight.hpp"
-#include "theory/detail/input_check.hpp"
-#include "theory/detail/periodic.hpp"
-#include "theory/detail/plastic_orbit.hpp"
-#include "theory/detail/weak_forces.hpp"
+#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/common/weak_forces.hpp"
+#include "theory/detail/plastic/contact.hpp"
+#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/plastic/orbit.hpp"
+#include "theory/detail/plastic/steady_motion.hpp"
 #include "theory/errors.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "theory/quantities.hpp"
 
-#include "theory/detail/conveyor_model.hpp"
-#include "theory/detail/input_check.hpp"
+#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/conveyor/model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "theory/rolling_layer.hpp"
 
-#include "theory/detail/first_zero.hpp"
-#include "theory/detail/flight.hpp"
-#include "theory/detail/input_check.hpp"
-#include "theory/detail/rolling_search.hpp"
-#include "theory/detail/rolling_walk.hpp"
+#include "theory/detail/common/first_zero.hpp"
+#include "theory/detail/common/input_check.hpp"
+#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/rolling/search.hpp"
+#include "theory/detail/rolling/walk.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "theory/detail/conveyor_model.hpp"
+#include "theory/detail/conveyor/model.hpp"
 
 #include <vector>
 

@@ -190,9 +190,9 @@ TEST(ExtremeInputs, AreRefusedByName) {
               }),
               "order = 101 is outside its range [1, 100]");
     EXPECT_EQ(refused([](Conveyor& c) {
-                  c.normal = {{2, -101, 0}};
+                  c.normal = {{2, -1001, 0}};
               }),
-              "amplitude = -101 is outside its range [-100, 100]");
+              "amplitude = -1001 is outside its range [-1000, 1000]");
 }
 
 }  // namespace

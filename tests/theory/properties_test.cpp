@@ -1,7 +1,7 @@
 #include "random_number.hpp"
-#include "theory/detail/contact.hpp"
-#include "theory/detail/flight.hpp"
-#include "theory/detail/periodic.hpp"
+#include "theory/detail/plastic/contact.hpp"
+#include "theory/detail/plastic/flight.hpp"
+#include "theory/detail/plastic/steady_motion.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/point_mass.hpp"
 

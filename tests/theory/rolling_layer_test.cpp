@@ -4,7 +4,7 @@
 #include "random_number.hpp"
 #include "theory/batch.hpp"
 #include "theory/design.hpp"
-#include "theory/detail/rolling_walk.hpp"
+#include "theory/detail/rolling/walk.hpp"
 
 #include <algorithm>
 #include <cmath>

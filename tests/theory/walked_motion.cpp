@@ -1,9 +1,9 @@
 #include "walked_motion.hpp"
 
 #include "conveyor_walk.hpp"
-#include "theory/detail/conveyor_check.hpp"
-#include "theory/detail/periodic.hpp"
-#include "theory/detail/weak_forces.hpp"
+#include "theory/detail/common/fixed_point.hpp"
+#include "theory/detail/common/weak_forces.hpp"
+#include "theory/detail/conveyor/check.hpp"
 
 #include <algorithm>
 #include <cmath>

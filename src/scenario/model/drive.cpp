@@ -62,7 +62,7 @@ double fundamental(std::vector<DriveTerm> const& terms) {
 /// A sentence when a harmonic accelerates the trough too much against a fundamental of this amplitude, m.
 void check_harmonics(std::vector<std::string>& faults, std::vector<DriveTerm> const& terms, double amplitude,
                      std::string_view direction) {
-    constexpr double largest_ratio = 1000;  // theory/detail/conveyor_check.cpp
+    constexpr double largest_ratio = 1000;  // theory/detail/conveyor/check.cpp
     for (DriveTerm const& term : terms) {
         double const acceleration = term.order * term.order * term.amplitude;
         if (term.order == 1 || acceleration <= largest_ratio * amplitude) continue;

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "theory/point_mass.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+// What the solvers of all models share: times, velocities and phases. Internal to this room.
+namespace vibrotrough::theory::detail {
+
+inline constexpr double pi = std::numbers::pi;
+inline constexpr double two_pi = 2 * pi;
+inline constexpr double unknown = -1;  ///< stands for a missing hint
+
+/// A time together with its sine and cosine, which are the most expensive part of all calculations with it.
+struct Instant {
+    double t, sine, cosine;
+    static Instant at(double t) { return {t, std::sin(t), std::cos(t)}; }
+};
+
+/// A Halley step of this size leaves an error of its cube, which is below rounding.
+inline constexpr double root_step = 3e-6;
+
+/// Sine and cosine a small step later, by Taylor expansion: exact to rounding for |d| <= root_step.
+inline Instant shifted(Instant const& a, double d) {
+    double const half = d * d / 2;
+    return {a.t + d, a.sine * (1 - half) + a.cosine * d, a.cosine * (1 - half) - a.sine * d};
+}
+
+/// The tangential velocity and its derivative with respect to the velocity at the start of the period.
+struct Tangent {
+    double v;
+    double slope;
+};
+
+/// The durations of the slides in an earlier, similar evaluation, in order: guesses for the present one.
+struct Hints {
+    std::array<double, 8> duration{unknown, unknown, unknown, unknown, unknown, unknown, unknown, unknown};
+    std::size_t next = 0;
+    double guess() const { return next < duration.size() ? duration[next] : unknown; }
+    void learn(double h) {
+        if (next < duration.size()) duration[next] = h;
+        ++next;
+    }
+};
+
+inline constexpr int max_contact_phases = 1000000;
+
+inline PhaseKind slide_kind(bool positive, bool landed) {
+    if (positive) return landed ? PhaseKind::positive_slide_after_landing : PhaseKind::positive_slide;
+    return landed ? PhaseKind::negative_slide_after_landing : PhaseKind::negative_slide;
+}
+
+inline constexpr double shortest_phase = 1e-12;  ///< rad; shorter phases are rounding errors, not motion
+
+}  // namespace vibrotrough::theory::detail
