@@ -42,8 +42,8 @@ theory::Harmonic read_harmonic(std::string const& option, std::string const& tex
     }
     theory::Harmonic harmonic{};
     harmonic.order = read_count(option, text.substr(0, first), "\"3,0.1,30 deg\"", 1, 100);
-    harmonic.amplitude =
-        read_number_within(option, text.substr(first + 1, second - first - 1), "\"3,0.1,30 deg\"", -1000, 1000);
+    harmonic.amplitude = read_number_within(option, text.substr(first + 1, second - first - 1),
+                                            "\"3,0.1,30 deg\"", -1000, 1000);
     harmonic.phase = read_angle(option, text.substr(second + 1), "3,0.1,30 deg", -720, 720);
     return harmonic;
 }
