@@ -9,7 +9,7 @@ import unittest
 from trough_program import EndToEndTest, campaign_text
 
 # A domain of one input and few points, with a goal that a few batches reach.
-PLAN = {"measure.packings": 4, "measure.half_width": 0.2, "measure.max_cycles": 48, "measure.max_packings": 8}
+PLAN = {"grains.youngs_modulus": "0.3 MPa", "measure.packings": 4, "measure.half_width": 0.2, "measure.max_cycles": 48, "measure.max_packings": 8}
 DOMAIN = '[domain]\nstart = 4\n"trough.throw_number" = { from = 1.5, to = 3 }\n'
 
 
@@ -94,7 +94,7 @@ class Learn(EndToEndTest):
                           f"3,{omega / (2 * math.pi)},{math.degrees(math.atan(0.5))},0.12,0.004\n")
         words = ["calibrate", campaign, "--output", self.output, "--measured", speeds, "--free", "friction", "--json"]
         # The start takes about a third of this budget; a machine that is busy counts more processor time.
-        answer = self.call(*words, "--budget", "30 core-seconds", "--liggghts", self.engine, "--accept-findings", "--jobs", "2")
+        answer = self.call(*words, "--budget", "20 core-seconds", "--liggghts", self.engine, "--accept-findings", "--jobs", "2")
         self.assertIn(answer.returncode, (0, 1), answer.stderr)
         self.assertIn("where the posterior lies", answer.stderr)
         self.assertGreater(len(self.results()), 4)  # the start, and cases where the posterior lies
