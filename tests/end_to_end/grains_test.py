@@ -67,6 +67,8 @@ class Block(EndToEndTest):
         changes = {"layer.grains": None, "layer.block": block, "grains.diameter_spread": None, "measure.half_width": 0.001,
                    "measure.max_cycles": 100, "trough.friction": friction, "layer.length": "30 mm", "layer.width": "30 mm"}
         self.run_campaign(self.write_campaign(changes, {"trough.throw_number": numbers}))
+        with h5py.File(self.output / "campaign.h5") as table:
+            self.assertEqual(table["packings"][()].tolist(), [1] * len(numbers), "a block needs one packing")
         return self.table()
 
     def test_a_point_moves_as_the_theory_says(self):
@@ -78,11 +80,6 @@ class Block(EndToEndTest):
     def test_a_plate_moves_as_the_theory_says(self):
         for row in self.run_blocks("plate", [0.8, 3.0]):
             self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.02, msg=str(row))
-
-    def test_a_block_needs_one_packing(self):
-        self.run_blocks("point", [1.3])
-        with h5py.File(self.output / "campaign.h5") as table:
-            self.assertEqual(table["packings"][0], 1)
 
 
 if __name__ == "__main__":
