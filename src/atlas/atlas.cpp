@@ -60,6 +60,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
                     least_width));
     add(p.domain.has_mesh(), "trough.mesh", "a trough of your own");
     add(p.domain.open.has_value(), "feed", "an open trough");
+    add(p.domain.screen.has_value(), "screen", "a screen");
     add(!p.stages.empty(), "stages", "a drive in stages");
     add(s.trough.waveform || !s.trough.harmonics.empty() || s.trough.along_phase != 0, "trough",
         "a drive that is not one sinusoid along a line");

@@ -7,6 +7,7 @@
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
 #include "deck/rolling.hpp"
+#include "deck/screen.hpp"
 #include "deck/trough_mesh.hpp"
 
 #include <algorithm>
@@ -65,7 +66,8 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
     double const length = scenario.layer.length, width = scenario.layer.width,
                  edge = 3 * mean_diameter(scenario);
     prepare::Domain const& domain = prepared.domain;
-    std::map<std::string, std::string> files{{"trough.stl", domain.has_mesh()
+    // A screen has no holes while the grains settle.
+    std::map<std::string, std::string> files{{settling_floor(scenario) + ".stl", domain.has_mesh()
                                                                 ? own_trough_stl(prepared, edge)
                                                                 : flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
@@ -81,14 +83,15 @@ std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& pr
     // Cases with the same layer come one after the other and have the same meshes.
     scenario::Scenario const& scenario = prepared.scenario;
     bool const has_walls = scenario.trough.side_wall_friction || prepared.domain.has_mesh();
-    std::array<double, 7> const shape{metres_in(scenario.trough.mesh_unit),
+    std::array<double, 8> const shape{metres_in(scenario.trough.mesh_unit),
                                       scenario.layer.length,
                                       scenario.layer.width,
                                       mean_diameter(scenario),
                                       scenario.trough.side_wall_friction ? 1.0 : 0.0,
                                       has_walls ? prepared.wall_height : 0.0,
-                                      prepared.domain.open ? 1.0 : 0.0};
-    thread_local std::array<double, 7> last_shape{};
+                                      prepared.domain.open ? 1.0 : 0.0,
+                                      has_holes(scenario) ? 1.0 : 0.0};
+    thread_local std::array<double, 8> last_shape{};
     thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
     thread_local std::map<std::string, std::string> last;
     if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh) {
@@ -116,6 +119,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     Deck deck;
     core::TemplateData data = describe(prepared, packing);
     describe_open(data, prepared, packing.number);
+    describe_screen(data, prepared);
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);
@@ -125,6 +129,8 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     describe_rolling(data, prepared);
     deck.files = deck.settle_files;
     data.set("characteristic_speed", fmt::format("{}", prepared.time.impact_speed));
+    describe_moving_floor(data, prepared);
+    if (has_holes(prepared.scenario)) deck.files["trough.stl"] = screen_mesh(prepared);
     deck.files[drive_file] = tidy(render_template(drive_file, data, replaced));
     deck.files[control_file] = control_until(packing.next_stop(0));
     return deck;

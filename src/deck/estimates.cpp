@@ -128,13 +128,13 @@ int expected_packings(scenario::MeasurementPlan const& plan, double whole, Exper
 
 bool may_start_moving(scenario::Scenario const& scenario) {
     return !is_clump(scenario.grains) && scenario.layer.block == scenario::Block::none &&
-           scenario.trough.vibration_angle > 0 && scenario.stages.empty() && !is_open(scenario);
+           scenario.trough.vibration_angle > 0 && !has_given_length(scenario) && !is_open(scenario);
 }
 
 int first_round_cycles(scenario::Scenario const& scenario) {
     constexpr double fewest = 18, most = 24, cycles_times_half_width = 1.35;
     scenario::MeasurementPlan const& plan = scenario.measure;
-    if (!scenario.stages.empty()) return plan.max_cycles;
+    if (has_given_length(scenario)) return plan.max_cycles;
     double cycles = most;
     if (plan.packings > 1 && may_start_moving(scenario))
         cycles = std::clamp(std::round(cycles_times_half_width / plan.half_width), fewest, most);

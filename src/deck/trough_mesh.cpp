@@ -33,7 +33,45 @@ std::string rectangle(std::string const& name, double length, double width, doub
     return text + fmt::format("endsolid {}\n", name);
 }
 
+/// Where the triangles of a screen have their nodes along one axis, and whether there are holes between two
+/// of them.
+struct ScreenNodes {
+    std::vector<double> at;
+    std::vector<bool> open;  ///< one fewer
+};
+
+ScreenNodes screen_nodes(double side, double opening, int holes) {
+    double const pitch = side / holes, bar = pitch - opening;
+    int const parts = std::max(1, static_cast<int>(std::lround(opening / bar)));
+    ScreenNodes nodes{{0}, {}};
+    auto const add = [&nodes](double to, bool open) {
+        nodes.at.push_back(to);
+        nodes.open.push_back(open);
+    };
+    for (int hole = 0; hole < holes; ++hole) {
+        double const start = hole * pitch + bar / 2;
+        add(start, false);
+        for (int part = 1; part <= parts; ++part) add(start + opening * part / parts, true);
+        add(hole + 1 == holes ? side : (hole + 1) * pitch, false);
+    }
+    return nodes;
+}
+
 }  // namespace
+
+std::string screen_stl(double length, double width, double opening, int along, int across) {
+    ScreenNodes const x = screen_nodes(length, opening, along), y = screen_nodes(width, opening, across);
+    std::string text = "solid trough\n";
+    for (std::size_t i = 0; i + 1 < x.at.size(); ++i) {
+        for (std::size_t j = 0; j + 1 < y.at.size(); ++j) {
+            if (x.open[i] && y.open[j]) continue;
+            Node const a{x.at[i], y.at[j], 0}, b{x.at[i + 1], y.at[j], 0}, c{x.at[i + 1], y.at[j + 1], 0},
+                d{x.at[i], y.at[j + 1], 0};
+            text += scenario::facet_text({0, 0, 1}, {a, b, c}) + scenario::facet_text({0, 0, 1}, {a, c, d});
+        }
+    }
+    return text + "endsolid trough\n";
+}
 
 std::string flat_trough_stl(double length, double width, double edge) {
     return rectangle("trough", length, width, edge, {0, 0, 1}, [](double x, double y) {

@@ -9,6 +9,12 @@ namespace vibrotrough::deck {
 /// refuses long thin triangles.
 std::string flat_trough_stl(double length, double width, double edge);
 
+/// The STL text of a flat sheet of the same size with square holes, in `along` columns and `across` rows. Bars
+/// of half their width are at its ends, so that the ends of the periodic box run along the middle of bars.
+/// The legs of the triangles are at most about as long as the bars are wide.
+/// @param opening  m, side of the holes
+std::string screen_stl(double length, double width, double opening, int along, int across);
+
 /// The STL text of a side wall 0 <= x <= length, 0 <= z <= height at this y (m), with triangles of the same
 /// kind.
 std::string side_wall_stl(double length, double height, double y, double edge);

@@ -21,7 +21,7 @@ measure::Start start_of(int packing) {
 }
 
 core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenario const& scenario) {
-    if (!scenario.stages.empty()) return core::Outcome::finished;  // the stages say how long it is
+    if (has_given_length(scenario)) return core::Outcome::finished;
     constexpr double rounding = 1 + 1e-12;  // the policy ends a case by the squares of the same numbers
     double const wanted = rounding * scenario.measure.half_width;
     bool const is_precise =
@@ -34,12 +34,14 @@ core::Outcome outcome_of(measure::CaseEstimate const& estimate, scenario::Scenar
 
 measure::CaseEstimate estimate_of(std::vector<measure::PackingValues> const& packings,
                                   scenario::Scenario const& scenario) {
-    if (scenario.stages.empty()) return measure::estimate_case(packings, wanted_statistics(scenario));
-    std::vector<double> const durations = cycle_durations(stages(scenario));
+    if (!has_given_length(scenario)) return measure::estimate_case(packings, wanted_statistics(scenario));
+    std::vector<double> durations = cycle_durations(stages(scenario));
+    if (durations.empty()) durations.assign(static_cast<std::size_t>(scenario.measure.max_cycles), 1);
     std::vector<double> means;
     for (measure::PackingValues const& packing : packings) {
         double sum = 0, time = 0;
         for (std::size_t i = 0; i < packing.values.size(); ++i) {
+            if (is_screen(scenario) && packing.values[i] == 0) continue;  // nothing was on it any more
             sum += packing.values[i] * durations[i];
             time += durations[i];
         }

@@ -7,6 +7,7 @@
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
 #include "evaluate/rolling.hpp"
+#include "evaluate/screen.hpp"
 #include "evaluate/wear.hpp"
 
 #include <algorithm>
@@ -42,8 +43,9 @@ std::vector<double> efficiency_in_stages(prepare::PreparedCase const& prepared,
 std::vector<double> efficiency_of(prepare::PreparedCase const& prepared, measure::CycleSeries const& series) {
     scenario::Scenario const& s = prepared.scenario;
     if (!prepared.stages.empty()) return efficiency_in_stages(prepared, series);
-    // The engine does not unwrap the positions of rigid bodies, and the grains of an open trough come and go.
-    if (prepared.clump || prepared.domain.open)
+    // The engine does not unwrap the positions of rigid bodies, and the grains of an open trough and on a
+    // screen come and go.
+    if (prepared.clump || prepared.domain.loses_grains())
         return measure::velocity_efficiency_by_mean(series, prepared.velocity_scale);
     return measure::velocity_efficiency(series, s.trough.amplitude * std::cos(s.trough.vibration_angle));
 }
@@ -53,7 +55,7 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
 }
 
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
-    if (prepared.domain.open) return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
+    if (prepared.domain.loses_grains()) return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
     return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
                                  static_cast<int>(prepared.materials.size()));
 }
@@ -81,6 +83,8 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
     record.estimate = measure::estimate_packing(record.efficiency, wanted(prepared));
     if (prepared.domain.open) {
         measure_open(record, prepared, files);
+    } else if (prepared.domain.screen) {
+        measure_screen(record, prepared, files);
     } else {
         measure_layer(record, prepared, files, phases);
         measure_rolling(record, prepared, files, phases);
@@ -97,7 +101,7 @@ double force_at_the_ends(measure::PhaseSeries const& phases) {
     return std::abs(phases.normal_force.front()) + std::abs(phases.normal_force.back());
 }
 
-std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
+std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared, PackingFiles const& files,
                                           measure::CycleSeries const& cycles,
                                           measure::PhaseSeries const& phases, long last_step) {
     constexpr auto incomplete = core::Outcome::outputs_incomplete;
@@ -106,8 +110,9 @@ std::optional<UnusableOutputs> find_fault(prepare::PreparedCase const& prepared,
                                fmt::format("cycles.csv holds {} cycles, the engine ended at step {}",
                                            cycles.cycles(), last_step)};
     }
-    if (prepared.domain.open) {
-        auto const missing = measure::imbalance(cycles);
+    if (prepared.domain.loses_grains()) {
+        auto missing = measure::imbalance(cycles);
+        if (!missing) missing = missing_on_screen(prepared, files, cycles);
         return missing ? std::optional(UnusableOutputs{core::Outcome::lost_grains, *missing}) : std::nullopt;
     }
     if (phases.cycles() != cycles.cycles()) {
@@ -189,7 +194,7 @@ std::variant<store::PackingRecord, UnusableOutputs> evaluate_outputs(prepare::Pr
     try {
         auto const cycles = parse(prepared, files.cycles);
         auto const phases = packing_phases(prepared, files.phases);
-        if (auto fault = find_fault(prepared, cycles, phases, last_step)) return std::move(*fault);
+        if (auto fault = find_fault(prepared, files, cycles, phases, last_step)) return std::move(*fault);
         return measure_packing(prepared, packing, files, cycles, phases);
     } catch (core::Error const& error) {
         return UnusableOutputs{core::Outcome::outputs_incomplete, error.what()};

@@ -24,10 +24,11 @@ std::string digest_of_layer(PackingFiles const& files) {
     for (core::TextFile const& file : files.snapshots) names.push_back(file.path.filename().string());
     std::vector<std::string_view> pieces{files.phases.content};
     for (std::size_t i = 0; i < files.snapshots.size(); ++i) {
-        // An open trough has no phases.
-        bool const is_open =
-            names[i].starts_with("along.") || names[i].starts_with("left.") || names[i].starts_with("wear.");
-        if (files.phases.content.empty() && !is_open) continue;
+        // An open trough and a screen have no phases.
+        bool const stands_alone = std::ranges::any_of(
+            std::initializer_list<std::string_view>{"along.", "left.", "passed.", "wear."},
+            [&](std::string_view start) { return names[i].starts_with(start); });
+        if (files.phases.content.empty() && !stands_alone) continue;
         pieces.emplace_back(names[i]);
         pieces.emplace_back(files.snapshots[i].content);
     }
@@ -48,7 +49,8 @@ PackingFiles read_packing_files(fs::path const& folder) {
     std::error_code missing;
     for (auto const& entry : fs::directory_iterator(folder, missing)) {
         std::string const name = entry.path().filename().string();
-        bool const is_dump = name.starts_with("left.") && name.ends_with(".dump");
+        bool const is_dump =
+            (name.starts_with("left.") || name.starts_with("passed.")) && name.ends_with(".dump");
         bool const is_wear = name.starts_with("wear.") && name.ends_with(".vtk");
         if (is_dump || is_wear || name.starts_with("profiles.") || name.starts_with("surface.") ||
             name.starts_with("along."))

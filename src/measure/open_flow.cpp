@@ -1,66 +1,20 @@
 #include "measure/open_flow.hpp"
 
 #include "core/error.hpp"
+#include "measure/cycle_dump.hpp"
 #include "measure/estimate.hpp"
 #include "measure/layer_profiles.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <sstream>
 
 #include <boost/math/tools/roots.hpp>
 #include <fmt/format.h>
 
 namespace vibrotrough::measure {
 namespace {
-
-using Snapshots = std::map<long, std::vector<LeftGrain>>;
-
-/// The step at which the run that wrote left.STEP.dump started.
-std::optional<long> start_of(std::string const& name) {
-    constexpr std::string_view begin = "left.", end = ".dump";
-    if (!name.starts_with(begin) || !name.ends_with(end)) return {};
-    long step = 0;
-    char const* const last = name.data() + name.size() - end.size();
-    auto const [rest, failure] = std::from_chars(name.data() + begin.size(), last, step);
-    return failure == std::errc() && rest == last ? std::optional(step) : std::nullopt;
-}
-
-/// Reads the snapshots of one file. The first one, of the step at which the run started, belongs to the run
-/// before it, which took its grains out.
-void read_snapshots(core::TextFile const& file, int steps_per_cycle, long start, Snapshots& all) {
-    std::istringstream text(file.content);
-    auto const damaged = [&] {
-        throw core::InputError(fmt::format("{} is damaged; run its case again", file.path.string()));
-    };
-    // Whether there is a whole line; the engine may be writing the last one.
-    auto const next = [&](std::string& line) { return std::getline(text, line) && !text.eof(); };
-    std::string line;
-    while (next(line)) {
-        if (line != "ITEM: TIMESTEP") damaged();
-        long step = -1, count = -1;
-        std::vector<std::string> head(9);  // step, number of grains, box, columns
-        for (std::size_t i = 1; i < head.size(); ++i)
-            if (!next(head[i])) return;
-        std::istringstream(head[1]) >> step;
-        std::istringstream(head[3]) >> count;
-        if (step < 0 || count < 0 || count > 100'000'000 || step % steps_per_cycle != 0 ||
-            !head[8].starts_with("ITEM: ATOMS id x vx"))
-            damaged();
-        std::vector<LeftGrain> grains;
-        for (long i = 0; i < count; ++i) {
-            if (!next(line)) return;
-            LeftGrain grain{static_cast<int>(step / steps_per_cycle), 0, 0, 0};
-            if (!(std::istringstream(line) >> grain.id >> grain.x >> grain.vx)) damaged();
-            grains.push_back(grain);
-        }
-        if (step > start) all[step] = std::move(grains);
-    }
-}
 
 double mean_of(std::vector<double> const& values, int from, int to) {
     return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / (to - from);
@@ -148,16 +102,10 @@ std::optional<double> fill_time(std::vector<double> const& held, double hold_up,
 }  // namespace
 
 std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle) {
-    std::map<long, core::TextFile const*> by_start;
-    for (core::TextFile const& file : files)
-        if (auto const start = start_of(file.path.filename().string())) by_start[*start] = &file;
-    Snapshots all;
-    for (auto const& [start, file] : by_start) {
-        all.erase(all.upper_bound(start), all.end());
-        read_snapshots(*file, steps_per_cycle, start, all);
-    }
     std::vector<LeftGrain> left;
-    for (auto const& [step, grains] : all) left.insert(left.end(), grains.begin(), grains.end());
+    for (DumpedGrain const& grain : parse_cycle_dumps(files, "left", "id x vx", steps_per_cycle))
+        left.push_back(
+            {grain.cycle, static_cast<long>(grain.values[0]), grain.values[1], grain.values[2]});
     return left;
 }
 

@@ -21,12 +21,11 @@ struct LeftGrain {
     double vx;  ///< m/s, its speed along the trough
 };
 
-/// Reads left.STEP.dump of a packing, one file for each start of the engine. What a later start repeated
-/// replaces what the earlier one wrote. An incomplete last snapshot is left out.
+/// Reads left.STEP.dump of a packing, as parse_cycle_dumps().
 /// @throws InputError naming the file when it is damaged
 std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle);
 
-/// Why the grains of an open trough do not add up: at the end of every cycle those that were there at the
+/// Why the grains of an open trough or of a screen do not add up: at the end of every cycle those that were there at the
 /// start and those that were fed are as many, and have the same mass, as those that are held and those that
 /// left. None when they do.
 std::optional<std::string> imbalance(CycleSeries const& series);

@@ -28,6 +28,13 @@ struct OpenTrough {
     double box_bottom;                ///< lower end of the box
 };
 
+/// A floor with holes, and what is below it. m; z from the floor at rest.
+struct ScreenFloor {
+    int along, across;  ///< numbers of holes in the two directions; 0 without holes
+    double out_z;       ///< grains with their centres below it at the end of a cycle have passed
+    double catch_z;     ///< a plane on which grains come to rest if they are not taken out before
+};
+
 /// The space of a layer. The box is periodic along the trough, so that all grains are conserved and the
 /// displacement of their centre of mass is the conveying speed; or the trough is open.
 struct Domain {
@@ -38,10 +45,14 @@ struct Domain {
     std::vector<scenario::Triangle> surface = {};
     double floor_top = 0;  ///< m, its highest point but for upright walls, above which grains are poured
     double top = 0;        ///< m, its highest point
-    std::optional<OpenTrough> open = {};  ///< only of an open trough
+    std::optional<OpenTrough> open = {};     ///< only of an open trough
+    std::optional<ScreenFloor> screen = {};  ///< only of a screen
 
     /// Whether the trough has another surface than the flat floor.
     bool has_mesh() const { return !surface.empty(); }
+
+    /// Whether grains leave the layer, so that its centre of mass does not show the conveying speed.
+    bool loses_grains() const { return open || screen; }
 };
 
 /// The domain of a scenario.

@@ -1,6 +1,7 @@
 #include "prepare/prepared_case.hpp"
 
 #include "prepare/open_trough.hpp"
+#include "prepare/screen.hpp"
 #include "prepare/softness.hpp"
 
 #include <algorithm>
@@ -181,6 +182,10 @@ void prepare_box(PreparedCase& c) {
                                   c.fill_top + 10 * flight + 5 * c.largest_extent);
     c.box_bottom = -in_powers_of_four(4 * c.largest_extent, 2 * (excursion + c.largest_extent));
     c.wall_height = c.box_top - (excursion - c.box_bottom);
+    if (is_screen(c.scenario)) {
+        c.domain.screen = screen_floor(c);
+        c.box_bottom = std::min(c.box_bottom, c.domain.screen->catch_z - c.largest_extent);
+    }
     if (!is_open(c.scenario)) return;
     c.domain.open = open_trough(c);
     c.box_top = std::max(c.box_top, 2 * c.domain.open->feed_top);

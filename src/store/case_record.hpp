@@ -8,6 +8,7 @@
 #include "measure/layer_profiles.hpp"
 #include "measure/open_flow.hpp"
 #include "measure/rolling_motion.hpp"
+#include "measure/screening.hpp"
 #include "measure/wear.hpp"
 #include "scenario/model/scenario.hpp"
 
@@ -36,6 +37,7 @@ struct PackingRecord {
     measure::Surface surface;             ///< of the layer in the same cycles
     measure::RollingCurves rolling;       ///< of the same cycles, when measure.rolling asks for it
     measure::OpenFlow open;               ///< of an open trough
+    measure::Screening screening;         ///< of a screen
     measure::Wear wear;                   ///< of the trough, when measure.wear asks for it
     std::optional<double> segregation;    ///< of the first of [[materials]], see measure/segregation.hpp
     std::optional<double> material_lead;  ///< its velocity efficiency less that of the grains

@@ -1,54 +1,18 @@
 #include "store/open_quantities.hpp"
 
 #include "measure/mass_flow.hpp"
+#include "store/measured_quantity.hpp"
 
 namespace vibrotrough::store {
 namespace {
 
 using Case = CaseRecord const&;
 using Flow = measure::OpenFlow;
-using enum OverPackings;
 
 /// A member of a packing's OpenFlow.
 template <auto member>
-Field<PackingRecord, std::optional<double>> flow() {
+MeasuredNumber flow() {
     return packing_field([](auto& packing) -> auto& { return packing.open.*member; });
-}
-
-/// Half-width of the interval of a number of the packings; none with fewer than two.
-template <auto member>
-std::optional<double> half_width(Case record) {
-    std::vector<double> values;
-    for (PackingRecord const& packing : record.packings)
-        if (auto const& value = packing.open.*member) values.push_back(*value);
-    return measure::student_half_width(values, record.scenario.measure.confidence);
-}
-
-/// A number of the packings and the half-width of its interval, with one column each.
-/// @param view  of the number; that of the half-width has the same unit and the next places
-template <auto member>
-void add_measured(std::vector<Quantity>& rows, std::string_view name, std::string_view half_width_name,
-                  std::string_view units, std::string_view meaning, View const& view) {
-    View narrow{.place = view.place + 2,
-                .unit = view.unit,
-                .factor = view.factor,
-                .format = view.format,
-                .position = view.position + 1};
-    if (view.terminal)
-        narrow.terminal =
-            TerminalView{.heading = "+-", .priority = view.terminal->priority, .only_when_known = true};
-    if (view.report) narrow.report = ReportView{"\u00b1"};
-    rows.push_back({name, units, meaning, flow<member>(), mean, {view}});
-    rows.push_back({half_width_name,
-                    units,
-                    "Half-width of the interval of the number before it, Student's t over the packings",
-                    &half_width<member>,
-                    nothing,
-                    {narrow}});
-}
-
-TerminalView in_terminal(std::string_view heading, std::string_view unit) {
-    return {.heading = heading, .subheading = unit, .priority = 4, .only_when_known = true};
 }
 
 /// A column of the table `flow`, one value for the end of each cycle.
@@ -93,6 +57,7 @@ std::vector<PackingTable> const& open_tables() {
 }
 
 std::optional<double> measured_mass_per_area(Case record) {
+    if (is_screen(record.scenario)) return {};  // it becomes less
     if (!is_open(record.scenario)) return mass_per_area(record.scenario);
     auto const depth = mean_over_packings(record, flow<&Flow::window_depth>());
     if (!depth) return {};
@@ -101,46 +66,46 @@ std::optional<double> measured_mass_per_area(Case record) {
 
 std::vector<Quantity> open_quantities() {
     std::vector<Quantity> rows;
-    add_measured<&Flow::inflow>(
+    add_measured<&flow<&Flow::inflow>>(
         rows, "inflow", "inflow_half_width", "kg/s", "Mass flow into an open trough; NaN of other layers",
         {.place = 940, .unit = "t/h", .factor = tonnes_per_hour, .format = "{:.4g}", .position = 270});
-    add_measured<&Flow::outflow>(rows, "outflow", "outflow_half_width", "kg/s", "Mass flow over its edge",
+    add_measured<&flow<&Flow::outflow>>(rows, "outflow", "outflow_half_width", "kg/s", "Mass flow over its edge",
                                  {.place = 944,
                                   .unit = "t/h",
                                   .factor = tonnes_per_hour,
                                   .format = "{:.4g}",
                                   .position = 272,
-                                  .terminal = in_terminal("out", "t/h"),
+                                  .terminal = terminal_when_known("out", "t/h"),
                                   .report = ReportView{"outflow"}});
-    add_measured<&Flow::hold_up>(
+    add_measured<&flow<&Flow::hold_up>>(
         rows, "hold_up", "hold_up_half_width", "kg",
         "Mass in the trough, with grains that have passed the edge and are less than a diameter away from it",
         {.place = 948, .format = "{:.3g}", .position = 274, .report = ReportView{"hold-up"}});
-    add_measured<&Flow::window_depth>(rows, "window_depth", "window_depth_half_width", "m",
+    add_measured<&flow<&Flow::window_depth>>(rows, "window_depth", "window_depth_half_width", "m",
                                       "Height of the layer in the window, if it had settled",
                                       {.place = 952,
                                        .unit = "mm",
                                        .factor = 1000,
                                        .format = "{:.2f}",
                                        .position = 276,
-                                       .terminal = in_terminal("depth", "mm"),
+                                       .terminal = terminal_when_known("depth", "mm"),
                                        .report = ReportView{"depth"}});
-    add_measured<&Flow::residence_time>(rows, "residence_time", "residence_time_half_width", "s",
+    add_measured<&flow<&Flow::residence_time>>(rows, "residence_time", "residence_time_half_width", "s",
                                         "Time from the feed to the edge, mean over the grains that left",
                                         {.place = 956,
                                          .format = "{:.3f}",
                                          .position = 278,
-                                         .terminal = in_terminal("residence", "s"),
+                                         .terminal = terminal_when_known("residence", "s"),
                                          .report = ReportView{"residence"}});
-    add_measured<&Flow::residence_spread>(
+    add_measured<&flow<&Flow::residence_spread>>(
         rows, "residence_spread", "residence_spread_half_width", "s",
         "Standard deviation of this time over the grains",
         {.place = 960, .format = "{:.3f}", .position = 280, .report = ReportView{"spread"}});
-    add_measured<&Flow::peclet>(
+    add_measured<&flow<&Flow::peclet>>(
         rows, "peclet", "peclet_half_width", "1",
         "Peclet number of the residence times (closed ends): large for plug flow",
         {.place = 964, .format = "{:.3g}", .position = 282, .report = ReportView{"Peclet"}});
-    add_measured<&Flow::fill_time>(
+    add_measured<&flow<&Flow::fill_time>>(
         rows, "fill_time", "fill_time_half_width", "s",
         "Time in which the empty trough filled to 95 % of its hold-up",
         {.place = 968, .format = "{:.3g}", .position = 284, .report = ReportView{"time to fill"}});

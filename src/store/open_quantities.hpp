@@ -16,7 +16,7 @@ std::vector<PackingTable> const& open_tables();
 
 /// kg/m^2, mass of the layer per area of trough: of an open trough the mean over the packings in the window,
 /// of other layers what follows from the number of grains. None of an open trough in which too few cycles
-/// were kept.
+/// were kept, and of a screen.
 std::optional<double> measured_mass_per_area(CaseRecord const& record);
 
 /// The quantities of an open trough; other cases have no values.

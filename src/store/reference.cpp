@@ -3,6 +3,7 @@
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
+#include "store/screen_quantities.hpp"
 #include "store/stage_quantities.hpp"
 #include "store/wear_quantities.hpp"
 
@@ -81,12 +82,19 @@ void add_packings(std::vector<NameInFile>& names) {
                                      : "101",
             table.entry);
     }
+    for (PackingTable const& table : screen_tables())
+        add(names, std::string(table.group) + "/<packing>/", real_type,
+            table.group == "screen" ? "cycles + 1" : table.group == "sizes" ? "sizes" : "grains", table.entry);
     for (Entry const& entry : materials_entries())
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
     for (Entry const& entry : segregation_entries())
         add(names, "segregation/", real_type, "cycles + 1", entry);
     for (Entry const& entry : stages_entries()) add(names, "stages/", real_type, "stages", entry);
     for (Entry const& entry : stage_cycles_entries()) add(names, "stage_cycles/", real_type, "cycles", entry);
+    for (Entry const& entry : partition_entries()) add(names, "partition/", real_type, "sizes", entry);
+    for (Entry const& entry : screening_entries()) add(names, "screening/", real_type, "cycles + 1", entry);
+    for (Entry const& entry : partition_cycles_entries())
+        add(names, "partition_cycles/", real_type, "sizes * (cycles + 1)", entry);
     for (MassFlowColumn const& column : mass_flow_columns())
         add(names, "mass_flow/", real_type, "slabs", column.entry);
 }

@@ -10,6 +10,7 @@
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
+#include "store/screen_quantities.hpp"
 #include "store/stage_quantities.hpp"
 #include "store/wear_quantities.hpp"
 
@@ -210,6 +211,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], open_tables());
+    for (std::size_t i = 0; is_screen(record.scenario) && i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], screen_tables());
     for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
         if (!packing.motion.added_mass)
             measure::add_reaction(packing.motion, record.scenario.trough.frequency);
@@ -271,6 +274,9 @@ std::string result_bytes(CaseRecord const& record) {
     add_case_table(file, "segregation", segregation_entries(), segregation_table(record));
     add_case_table(file, "stages", stages_entries(), stages_table(record));
     add_case_table(file, "stage_cycles", stage_cycles_entries(), stage_cycles_table(record));
+    add_case_table(file, "partition", partition_entries(), partition_table(record));
+    add_case_table(file, "screening", screening_entries(), screening_table(record));
+    add_case_table(file, "partition_cycles", partition_cycles_entries(), partition_cycles_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
@@ -278,6 +284,7 @@ std::string result_bytes(CaseRecord const& record) {
         if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
         if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
+        if (is_screen(record.scenario)) add_tables(file, i, record.packings[i], screen_tables());
     }
     return file.bytes();
 }

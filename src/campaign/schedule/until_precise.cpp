@@ -46,23 +46,20 @@ class Replay {
 
     CaseDecision decide() {
         Round round{{}, first_cycles()};
-        bool const is_exact = plan_.packings == 1 || has_stages();
+        bool const is_exact = plan_.packings == 1 || has_given_length(prepared_.scenario);
         extend(round, is_exact ? plan_.packings : plan_.packings + plan_.packings % 2, predicted());
         while (true) {
             for (deck::PackingPlan& packing : round.packings) packing.cycles = round.cycles;
             auto const has_all = [&](deck::PackingPlan const& packing) { return is_enough(known_, packing); };
             if (!std::ranges::all_of(round.packings, has_all))
                 return {round.packings, {}, 0, expected(round)};
-            if (has_stages()) return finish(round);
+            if (has_given_length(prepared_.scenario)) return finish(round);
             estimate_ = estimate(round);
             if (!advance(round)) return finish(round);
         }
     }
 
   private:
-    /// Whether the drive has stages, which say how long its packings are.
-    bool has_stages() const { return !prepared_.stages.empty(); }
-
     /// Cycles of a packing in the first round.
     int first_cycles() const { return deck::first_round_cycles(prepared_.scenario); }
 

@@ -5,6 +5,7 @@
 #include "scenario/model/feed.hpp"
 #include "scenario/model/grains.hpp"
 #include "scenario/model/materials.hpp"
+#include "scenario/model/screen.hpp"
 #include "scenario/model/stages.hpp"
 #include "scenario/model/trough_mesh.hpp"
 
@@ -139,6 +140,7 @@ struct Scenario {
     std::vector<AddedMaterial> materials = {};  ///< that are mixed with the grains; see materials()
     std::vector<MaterialPair> pairs = {};       ///< contacts of two materials
     Feed feed = {};                             ///< of an open trough
+    Screen screen = {};                         ///< in place of the closed floor
     std::vector<GivenStage> stages = {};        ///< of the drive; none: the drive of the trough without end
 };
 

@@ -40,9 +40,9 @@ std::vector<Stage> stages(Scenario const& scenario);
 /// The duration of each cycle of all stages, s.
 std::vector<double> cycle_durations(std::vector<Stage> const& stages);
 
-/// For what works with steady drives only.
+/// For what works with steady drives and layers only.
 /// @param what  that it is, the begin of the message
-/// @throws core::InputError when the drive has stages
+/// @throws core::InputError when the drive has stages, or grains leave the layer through a screen
 void require_steady_drive(Scenario const& scenario, std::string_view what);
 
 /// Cycles of all stages.

@@ -120,6 +120,7 @@ Scenario make_scenario(CaseValues const& values, std::string const& file, FileSo
     check_block_contact(scenario, given);
     complete_materials(scenario, given);
     complete_stages(scenario, given);
+    complete_screen(scenario, given);
     complete_layer(scenario, given);
     if (scenario.layer.block != Block::none) complete_block(scenario, given);
     check_rolling(scenario, given);

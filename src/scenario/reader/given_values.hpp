@@ -89,6 +89,14 @@ void complete_materials(Scenario const& scenario, GivenKeys const& given);
 /// Works out how long the run of a drive in stages is, and checks its stages. @throws core::InputError
 void complete_stages(Scenario& scenario, GivenKeys const& given);
 
+/// Refuses the keys of [measure] that say how long a run is and how many packings there are.
+/// @param what  decides it instead: "stages" or "screen"
+void refuse_length(GivenKeys const& given, std::string_view what);
+
+/// Works out how long a batch is on a screen, and checks that the rest of the case goes with it.
+/// @throws core::InputError
+void complete_screen(Scenario& scenario, GivenKeys const& given);
+
 /// The same for the layer, whose number of grains follows from its height. @throws core::InputError
 void complete_layer(Scenario& scenario, GivenKeys const& given);
 

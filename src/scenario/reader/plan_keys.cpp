@@ -64,9 +64,9 @@ std::optional<Content> templates_of(Scenario const& s) {
     return content_of(names);
 }
 
-/// The stages of a drive say how long a run is, and how many packings there are is given.
-bool has_no_stages(Scenario const& s) {
-    return s.stages.empty();
+/// Otherwise the stages of a drive or the time on a screen say how long a run is.
+bool has_open_length(Scenario const& s) {
+    return !has_given_length(s);
 }
 
 constexpr std::array rows_of_plans{
@@ -81,7 +81,7 @@ constexpr std::array rows_of_plans{
         field<&Scenario::measure, &MeasurementPlan::half_width>},
     Key{"measure.max_cycles", integer, "", 20, 1e6, "20 to 1000000", "", 200.0, "200",
         "largest number of cycles of a packing",
-        field<&Scenario::measure, &MeasurementPlan::max_cycles>.written_if(has_no_stages)},
+        field<&Scenario::measure, &MeasurementPlan::max_cycles>.written_if(has_open_length)},
     Key{"measure.min_cycles", integer, "", 1, 1e6, "1 to 1000000", "", optional, "100",
         "least number of cycles of a packing, for what takes longer than the conveying speed to settle, such "
         "as "
@@ -89,7 +89,7 @@ constexpr std::array rows_of_plans{
         field<&Scenario::measure, &MeasurementPlan::min_cycles>},
     Key{"measure.max_packings", integer, "", 1, 1000, "1 to 1000", "", 24.0, "24",
         "largest number of packings per case; at least measure.packings",
-        field<&Scenario::measure, &MeasurementPlan::max_packings>.written_if(has_no_stages)},
+        field<&Scenario::measure, &MeasurementPlan::max_packings>.written_if(has_open_length)},
     Key{"measure.max_core_time", quantity, "s", 1, 1e12, "at least 1 s", "", optional, "\"2 hours\"",
         "largest core time that one case may take: when more would be needed, it ends as not-precise",
         field<&Scenario::measure, &MeasurementPlan::max_core_time>},

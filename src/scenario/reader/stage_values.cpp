@@ -123,13 +123,7 @@ class StageChecks {
 
 /// What the stages themselves decide must not be given.
 void check_plan(GivenKeys const& given) {
-    constexpr std::array<std::array<std::string_view, 2>, 4> decided{
-        {{"measure.max_cycles", "how long a run is follows from the stages"},
-         {"measure.min_cycles", "how long a run is follows from the stages"},
-         {"measure.max_packings", "a case with stages has as many packings as measure.packings says"},
-         {"measure.max_core_time", "a case with stages has as many packings as measure.packings says"}}};
-    for (auto const& [key, why] : decided)
-        if (given.has(key)) given.fail(key, std::string(why), "remove it");
+    refuse_length(given, "stages");
     if (given.has("measure.rolling"))
         given.fail("measure.rolling", "what happens within a cycle is not measured in stages",
                    "remove it, or the stages");
@@ -138,6 +132,18 @@ void check_plan(GivenKeys const& given) {
 }
 
 }  // namespace
+
+void refuse_length(GivenKeys const& given, std::string_view what) {
+    for (char const* key : {"measure.max_cycles", "measure.min_cycles"})
+        if (given.has(key))
+            given.fail(key, fmt::format("how long a run is follows from the {}", what), "remove it");
+    for (char const* key : {"measure.max_packings", "measure.max_core_time"})
+        if (given.has(key))
+            given.fail(key,
+                       fmt::format("a case with a {} has as many packings as measure.packings says",
+                                   what == "stages" ? "drive in stages" : what),
+                       "remove it");
+}
 
 void complete_stages(Scenario& scenario, GivenKeys const& given) {
     if (scenario.stages.empty()) return;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/template.hpp"
+#include "prepare/prepared_case.hpp"
+
+#include <string>
+
+namespace vibrotrough::deck {
+
+/// Name of the mesh of the floor that moves.
+inline constexpr char const* moving_floor = "trough";
+
+/// Name of the mesh of the floor on which the grains settle: a plate without holes, which the screen replaces when
+/// the drive begins, or the floor that moves.
+std::string settling_floor(scenario::Scenario const& scenario);
+
+/// The STL text of a screen. @pre has_holes()
+std::string screen_mesh(prepare::PreparedCase const& prepared);
+
+/// What the templates say about a screen, and the name of the floor in the settling deck. Behind
+/// describe_open().
+void describe_screen(core::TemplateData& data, prepare::PreparedCase const& prepared);
+
+/// The floor of the deck with the drive, in place of that on which the grains settle.
+void describe_moving_floor(core::TemplateData& data, prepare::PreparedCase const& prepared);
+
+}  // namespace vibrotrough::deck

@@ -1,0 +1,83 @@
+#include "scenario/reader/given_values.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::scenario {
+namespace {
+
+/// What a screen cannot have.
+void check_parts(Scenario const& s, GivenKeys const& given) {
+    auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
+        if (is_given) given.fail(key, wrong, "remove it, or the section [screen]");
+    };
+    refuse(is_open(s), "feed.mass_flow", "a screen carries a batch of grains and is not fed");
+    refuse(s.trough.mesh != nullptr, "trough.mesh", "a screen is a flat floor with square holes");
+    refuse(s.trough.side_wall_friction.has_value(), "trough.side_wall_friction",
+           "a screen is periodic across and has no side walls");
+    refuse(is_clump(s.grains), "grains.shape", "which clumps fall through a hole is not known; a screen needs "
+                                               "spheres");
+    refuse(s.layer.block != Block::none, "layer.block", "a block does not fall through a screen");
+    refuse(!s.materials.empty(), "materials.1.name", "the grains on a screen are of one material");
+    refuse(!s.stages.empty(), given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
+           "the drive of a screen has no stages");
+    refuse(s.measure.rolling, "measure.rolling", "the contacts at the floor are measured on closed floors only");
+    refuse(s.measure.wear, "measure.wear", "the wear is measured on closed floors only");
+    refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
+}
+
+/// A hole must not be cut by the faces of the periodic box.
+void check_side(Scenario const& s, char const* key, double side, GivenKeys const& given) {
+    constexpr double rounding = 1e-6;
+    double const pitch = hole_pitch(s.screen), holes = std::max(1.0, std::round(side / pitch));
+    if (std::abs(side - holes * pitch) <= rounding * side) return;
+    double const fewer = std::floor(side / pitch) * pitch, more = std::ceil(side / pitch) * pitch;
+    given.fail(key,
+               fmt::format("{:.6g} m is not a whole number of pitches of {:.6g} m (screen.opening and "
+                           "screen.wire), so that the end of the periodic box would cut through holes",
+                           side, pitch),
+               fewer > 0 ? fmt::format("write \"{:.9g} mm\" or \"{:.9g} mm\"", 1e3 * fewer, 1e3 * more)
+                         : fmt::format("write \"{:.9g} mm\"", 1e3 * more));
+}
+
+/// The sheet is made of triangles that are about as long as the bars are wide.
+void check_holes(Scenario const& s, GivenKeys const& given) {
+    constexpr double widest = 20, most_triangles = 1e6;
+    double const opening = *s.screen.opening, wire = *s.screen.wire;
+    if (wire < opening / widest)
+        given.fail("screen.wire",
+                   fmt::format("{:.6g} m is less than a twentieth of the opening of {:.6g} m", wire, opening),
+                   fmt::format("write at least \"{:.6g} mm\"", 1e3 * opening / widest));
+    check_side(s, "layer.length", s.layer.length, given);
+    check_side(s, "layer.width", s.layer.width, given);
+    double const pitch = hole_pitch(s.screen);
+    double const triangles = s.layer.length * s.layer.width / (pitch * pitch) * 8 * (opening / wire + 2);
+    if (triangles > most_triangles)
+        given.fail("screen.opening",
+                   fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles,
+                               most_triangles),
+                   "make the box smaller, or are the units right?");
+}
+
+}  // namespace
+
+void complete_screen(Scenario& s, GivenKeys const& given) {
+    for (char const* key : {"screen.wire", "screen.time"}) {
+        if (is_screen(s) == given.has(key)) continue;
+        if (is_screen(s)) given.fail("screen.opening", fmt::format("{} is missing", key), "write it as well");
+        given.fail(key, "there is no screen, because screen.opening is not given",
+                   "write opening, or remove the section [screen]");
+    }
+    if (!is_screen(s)) return;
+    refuse_length(given, "screen");
+    check_parts(s, given);
+    if (has_holes(s)) check_holes(s, given);
+    constexpr int most_cycles = 1'000'000;
+    if (*s.screen.time * s.trough.frequency > most_cycles)
+        given.fail("screen.time", fmt::format("is more than {} cycles", most_cycles), "write a shorter time");
+    s.measure.max_cycles = cycles_on_screen(s);
+    s.measure.max_packings = s.measure.packings;
+}
+
+}  // namespace vibrotrough::scenario

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "store/quantity.hpp"
+
+#include <string_view>
+#include <vector>
+
+/// @file
+/// Numbers that every packing measures, with their intervals over the packings.
+
+namespace vibrotrough::store {
+
+/// The way to a number of a packing that does not always exist.
+using MeasuredNumber = Field<PackingRecord, std::optional<double>>;
+
+/// Adds a number of the packings and the half-width of its interval, with one column each.
+/// @param number  gives the way to it
+/// @param view    of the number; that of the half-width has the same unit and the next places
+template <MeasuredNumber (*number)()>
+void add_measured(std::vector<Quantity>& rows, std::string_view name, std::string_view half_width_name,
+                  std::string_view units, std::string_view meaning, View const& view) {
+    View narrow{.place = view.place + 2,
+                .unit = view.unit,
+                .factor = view.factor,
+                .format = view.format,
+                .position = view.position + 1};
+    if (view.terminal)
+        narrow.terminal =
+            TerminalView{.heading = "+-", .priority = view.terminal->priority, .only_when_known = true};
+    if (view.report) narrow.report = ReportView{"\u00b1"};
+    rows.push_back({name, units, meaning, number(), OverPackings::mean, {view}});
+    rows.push_back({half_width_name,
+                    units,
+                    "Half-width of the interval of the number before it, Student's t over the packings",
+                    +[](CaseRecord const& record) { return half_width_over_packings(record, number()); },
+                    OverPackings::nothing,
+                    {narrow}});
+}
+
+/// A column of the terminal's table that is left out when no case has a value.
+constexpr TerminalView terminal_when_known(std::string_view heading, std::string_view unit) {
+    return {.heading = heading, .subheading = unit, .priority = 4, .only_when_known = true};
+}
+
+}  // namespace vibrotrough::store

@@ -1,0 +1,318 @@
+#include "store/screen_quantities.hpp"
+
+#include "measure/stage_means.hpp"
+#include "prepare/screen.hpp"
+#include "store/measured_quantity.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace vibrotrough::store {
+namespace {
+
+using Case = CaseRecord const&;
+using measure::EnsembleNumber;
+using measure::Screening;
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+bool has_screen(Case record) {
+    return is_screen(record.scenario) && !record.packings.empty();
+}
+
+template <std::optional<double> Screening::*member>
+MeasuredNumber screening_number() {
+    return packing_field([](auto& packing) -> auto& { return packing.screening.*member; });
+}
+
+/// A column of the table `screen`, one value for the end of each cycle.
+template <std::vector<double> measure::OpenSeries::*member>
+PackingTable of_cycles(std::string_view name, std::string_view units, std::string_view meaning) {
+    return {"screen", {name, units, meaning}, packing_field([](auto& p) -> auto& {
+                return p.series.open.*member;
+            })};
+}
+
+template <std::vector<double> Screening::*member>
+PackingTable of_screening(std::string_view group, std::string_view name, std::string_view units,
+                          std::string_view meaning) {
+    return {group, {name, units, meaning}, packing_field([](auto& p) -> auto& {
+                return p.screening.*member;
+            })};
+}
+
+int cycles_of(Case record) {
+    return record.packings.front().series.cycles();
+}
+
+double period_of(Case record) {
+    return 1 / record.scenario.trough.frequency;
+}
+
+double opening_of(Case record) {
+    return *record.scenario.screen.opening;
+}
+
+/// Mean and half-width over the packings of a number that each row of a table has.
+class MeasuredColumn {
+  public:
+    explicit MeasuredColumn(double confidence) : confidence_(confidence) {}
+
+    void add(EnsembleNumber const& value) {
+        means.push_back(value.mean());
+        half_widths.push_back(value.half_width(confidence_));
+    }
+    void put_into(std::vector<CaseValues>& columns) const {
+        columns.emplace_back(means);
+        columns.emplace_back(half_widths);
+    }
+
+    std::vector<double> means = {}, half_widths = {};
+
+  private:
+    double confidence_;
+};
+
+/// The probability that a grain is still on the screen after some attempts.
+double share_by_model(Case record, double diameter, double attempts) {
+    return std::pow(1 - prepare::passage_probability(record.scenario.screen, diameter), attempts);
+}
+
+/// Attempts per cycle that would leave this share: ln(share) / (n ln(1 - p)).
+double attempts_per_cycle(Case record, double diameter, double share) {
+    double const probability = prepare::passage_probability(record.scenario.screen, diameter);
+    if (probability <= 0 || share <= 0) return not_known;
+    return std::log(share) / (cycles_of(record) * std::log1p(-probability));
+}
+
+/// Efficiency of screening with one attempt in each cycle.
+std::optional<double> efficiency_by_model(Case record) {
+    if (!has_screen(record)) return {};
+    Screening const& s = record.packings.front().screening;
+    double all = 0, passed = 0;
+    for (std::size_t i = 0; i < s.diameter.size() && s.diameter[i] < opening_of(record); ++i) {
+        all += s.number[i] * s.mass[i];
+        passed += s.number[i] * s.mass[i] * (1 - share_by_model(record, s.diameter[i], cycles_of(record)));
+    }
+    if (all == 0) return {};
+    return passed / all;
+}
+
+constexpr auto interval_over_packings = "Half-width of its interval at measure.confidence, Student's t over the packings; "
+                       "NaN with one packing";
+
+}  // namespace
+
+std::vector<PackingTable> const& screen_tables() {
+    using Series = measure::OpenSeries;
+    static std::vector<PackingTable> const tables{
+        of_cycles<&Series::left>("passed", "1",
+                                 "Grains that passed the screen in the cycle that ends; only of screens"),
+        of_cycles<&Series::left_mass>("passed_mass", "kg", "Their mass"),
+        of_cycles<&Series::held>("held", "1", "Grains on the screen at the end of cycle 0 ... n"),
+        of_cycles<&Series::held_mass>("held_mass", "kg", "Their mass"),
+        of_cycles<&Series::window_mass>("layer_mass", "kg",
+                                        "Mass of the layer whose speed is measured, mean over the cycle: grains "
+                                        "with their centres above the screen"),
+        of_screening<&Screening::diameter>("sizes", "diameter", "m",
+                                           "Diameter of the grains of one size, from the smallest; only of "
+                                           "screens"),
+        of_screening<&Screening::number>("sizes", "number", "1", "Grains of this size at first"),
+        of_screening<&Screening::mass>("sizes", "mass", "kg", "Mass of one of them"),
+        of_screening<&Screening::passed>("sizes", "passed", "1", "How many of them passed the screen"),
+        of_screening<&Screening::passed_cycle>("passed", "cycle", "1",
+                                               "Cycle in which a grain passed the screen, from 1; only of screens"),
+        of_screening<&Screening::passed_diameter>("passed", "diameter", "m", "Its diameter"),
+    };
+    return tables;
+}
+
+std::vector<Entry> const& partition_entries() {
+    static std::vector<Entry> const entries{
+        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+        {"relative_diameter", "1", "The same over the opening; infinite without holes"},
+        {"number", "1", "Grains of this size in a packing at first"},
+        {"stays", "1", "Share of them that is on the screen at the end, mean over the packings"},
+        {"stays_half_width", "1", interval_over_packings},
+        {"probability", "1",
+         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a sphere of "
+         "diameter d that falls straight on a screen with the opening a and the bars w"},
+        {"stays_by_model", "1", "Share that stays with one attempt in each of n cycles: (1 - p)^n"},
+        {"attempts", "1",
+         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - p)); "
+         "NaN where none or all of a size can pass or have passed"},
+        {"half_time", "s",
+         "Time until half of this size has passed, mean over the packings; NaN when it has not in one of them"},
+        {"half_time_half_width", "s", interval_over_packings},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> partition_table(Case record) {
+    if (!has_screen(record)) return {};
+    Screening const& first = record.packings.front().screening;
+    double const confidence = record.scenario.measure.confidence;
+    MeasuredColumn stays(confidence), times(confidence);
+    std::vector<double> relative, probability, model, attempts;
+    for (std::size_t i = 0; i < first.diameter.size(); ++i) {
+        EnsembleNumber share, time;
+        for (PackingRecord const& packing : record.packings) {
+            auto const curve = share_curve(packing.screening, i, cycles_of(record));
+            share.values.push_back(curve.back());
+            time.values.push_back(measure::half_time(curve, period_of(record)).value_or(not_known));
+        }
+        stays.add(share);
+        times.add(time);
+        double const d = first.diameter[i];
+        relative.push_back(d / opening_of(record));
+        probability.push_back(prepare::passage_probability(record.scenario.screen, d));
+        model.push_back(share_by_model(record, d, cycles_of(record)));
+        attempts.push_back(attempts_per_cycle(record, d, share.mean()));
+    }
+    std::vector<CaseValues> columns{first.diameter, relative, first.number};
+    stays.put_into(columns);
+    for (auto const* const column : {&probability, &model, &attempts}) columns.emplace_back(*column);
+    times.put_into(columns);
+    return columns;
+}
+
+std::vector<Entry> const& screening_entries() {
+    static std::vector<Entry> const entries{
+        {"time", "s", "End of cycle 0 ... n; only of screens"},
+        {"distance", "m",
+         "How far the layer on the screen was conveyed until then, mean over the packings: the length of screen "
+         "that the time stands for"},
+        {"distance_half_width", "m", interval_over_packings},
+        {"held_share", "1", "Mass on the screen over that at first, mean over the packings"},
+        {"held_share_half_width", "1", interval_over_packings},
+        {"efficiency", "1",
+         "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed until then over "
+         "that at first, mean over the packings; NaN without undersize"},
+        {"efficiency_half_width", "1", interval_over_packings},
+        {"conveying_speed", "m/s",
+         "Speed of the layer on the screen along it in the cycle that ends, mean over the packings; NaN in the "
+         "first row"},
+        {"conveying_speed_half_width", "m/s", interval_over_packings},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> screening_table(Case record) {
+    if (!has_screen(record)) return {};
+    double const confidence = record.scenario.measure.confidence;
+    MeasuredColumn distance(confidence), held(confidence), efficiency(confidence), speed(confidence);
+    std::vector<std::vector<double>> curves;
+    for (PackingRecord const& packing : record.packings)
+        curves.push_back(efficiency_curve(packing.screening, opening_of(record), cycles_of(record)));
+    std::vector<double> times, gone(record.packings.size());
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(cycles_of(record)); ++k) {
+        times.push_back(static_cast<double>(k) * period_of(record));
+        EnsembleNumber ways, masses, shares, speeds;
+        for (std::size_t i = 0; i < record.packings.size(); ++i) {
+            measure::CycleSeries const& series = record.packings[i].series;
+            double const velocity = k == 0 ? not_known : series.mean_velocity[k - 1];
+            if (k > 0) gone[i] += velocity * period_of(record);
+            ways.values.push_back(gone[i]);
+            masses.values.push_back(series.open.held_mass[k] / series.open.held_mass[0]);
+            shares.values.push_back(curves[i].empty() ? not_known : curves[i][k]);
+            speeds.values.push_back(velocity);
+        }
+        distance.add(ways);
+        held.add(masses);
+        efficiency.add(shares);
+        speed.add(speeds);
+    }
+    std::vector<CaseValues> columns{times};
+    for (auto const* const column : {&distance, &held, &efficiency, &speed}) column->put_into(columns);
+    return columns;
+}
+
+std::vector<Entry> const& partition_cycles_entries() {
+    static std::vector<Entry> const entries{
+        {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
+        {"time", "s", "End of cycle 0 ... n"},
+        {"stays", "1", "Share of the grains of this size that is still on the screen, mean over the packings"},
+        {"stays_half_width", "1", interval_over_packings},
+    };
+    return entries;
+}
+
+std::vector<CaseValues> partition_cycles_table(Case record) {
+    if (!has_screen(record)) return {};
+    MeasuredColumn stays(record.scenario.measure.confidence);
+    std::vector<double> diameters, times;
+    Screening const& first = record.packings.front().screening;
+    for (std::size_t i = 0; i < first.diameter.size(); ++i) {
+        std::vector<std::vector<double>> curves;
+        for (PackingRecord const& packing : record.packings)
+            curves.push_back(share_curve(packing.screening, i, cycles_of(record)));
+        for (std::size_t k = 0; k < curves.front().size(); ++k) {
+            diameters.push_back(first.diameter[i]);
+            times.push_back(static_cast<double>(k) * period_of(record));
+            EnsembleNumber share;
+            for (auto const& curve : curves) share.values.push_back(curve[k]);
+            stays.add(share);
+        }
+    }
+    std::vector<CaseValues> columns{diameters, times};
+    stays.put_into(columns);
+    return columns;
+}
+
+std::vector<Quantity> screen_quantities() {
+    std::vector<Quantity> rows;
+    add_measured<&screening_number<&Screening::efficiency>>(
+        rows, "screening_efficiency", "screening_efficiency_half_width", "1",
+        "Efficiency of screening at the end: mass of undersize (grains smaller than the opening) that passed the "
+        "screen over that at first; NaN without a screen",
+        {.place = 1100,
+         .format = "{:.3f}",
+         .position = 290,
+         .terminal = terminal_when_known("screening", "efficiency"),
+         .report = ReportView{"screening efficiency"}});
+    rows.push_back({"screening_efficiency_by_model",
+                    "1",
+                    "The same by Gaudin's probability with one attempt in each cycle, see the table partition",
+                    &efficiency_by_model,
+                    OverPackings::nothing,
+                    {{.place = 1104,
+                      .format = "{:.3f}",
+                      .position = 292,
+                      .terminal = terminal_when_known("by", "model"),
+                      .report = ReportView{"by model"}}}});
+    add_measured<&screening_number<&Screening::passed_share>>(
+        rows, "passed_share", "passed_share_half_width", "1",
+        "Mass that passed the screen over that at first",
+        {.place = 1106, .format = "{:.3f}", .position = 294, .report = ReportView{"passed"}});
+    add_measured<&screening_number<&Screening::undersize>>(
+        rows, "undersize_share", "undersize_share_half_width", "1",
+        "Mass share of undersize in what is still on the screen at the end; NaN when all have passed",
+        {.place = 1110,
+         .format = "{:.3f}",
+         .position = 296,
+         .terminal = terminal_when_known("undersize", "in oversize"),
+         .report = ReportView{"undersize in oversize"}});
+    add_measured<&screening_number<&Screening::cut_size>>(
+        rows, "cut_size", "cut_size_half_width", "m",
+        "d50 of the partition curve, the size of which half of the grains stay, on straight lines between the "
+        "sizes; NaN when more than half of every size stay",
+        {.place = 1114,
+         .unit = "mm",
+         .factor = 1000,
+         .format = "{:.3f}",
+         .position = 298,
+         .terminal = terminal_when_known("d50", "mm"),
+         .report = ReportView{"d50"}});
+    add_measured<&screening_number<&Screening::distance>>(
+        rows, "screen_distance", "screen_distance_half_width", "m",
+        "How far the layer on the screen was conveyed: the length of screen that these numbers stand for",
+        {.place = 1118,
+         .format = "{:.3f}",
+         .position = 300,
+         .terminal = terminal_when_known("screen", "m"),
+         .report = ReportView{"length of screen"}});
+    for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
+    return rows;
+}
+
+}  // namespace vibrotrough::store
