@@ -7,7 +7,7 @@
 namespace vibrotrough::deck {
 
 std::string settling_floor(scenario::Scenario const& scenario) {
-    return has_holes(scenario) ? "plate" : moving_floor;
+    return has_holes(scenario) ? "plate" : "trough";
 }
 
 std::string screen_mesh(prepare::PreparedCase const& n) {
@@ -18,7 +18,6 @@ std::string screen_mesh(prepare::PreparedCase const& n) {
 
 void describe_screen(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
-    data.set("floor", settling_floor(s));
     data.set("screen", is_screen(s));
     data.set("plate", has_holes(s));
     data.set("holes", false);
@@ -35,7 +34,6 @@ void describe_screen(core::TemplateData& data, prepare::PreparedCase const& n) {
 }
 
 void describe_moving_floor(core::TemplateData& data, prepare::PreparedCase const& n) {
-    data.set("floor", std::string(moving_floor));
     data.set("plate", false);
     data.set("holes", has_holes(n.scenario));
 }

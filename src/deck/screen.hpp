@@ -7,9 +7,6 @@
 
 namespace vibrotrough::deck {
 
-/// Name of the mesh of the floor that moves.
-inline constexpr char const* moving_floor = "trough";
-
 /// Name of the mesh of the floor on which the grains settle: a plate without holes, which the screen replaces when
 /// the drive begins, or the floor that moves.
 std::string settling_floor(scenario::Scenario const& scenario);
@@ -17,8 +14,7 @@ std::string settling_floor(scenario::Scenario const& scenario);
 /// The STL text of a screen. @pre has_holes()
 std::string screen_mesh(prepare::PreparedCase const& prepared);
 
-/// What the templates say about a screen, and the name of the floor in the settling deck. Behind
-/// describe_open().
+/// What the templates say about a screen, as the settling deck has it. Behind describe_open().
 void describe_screen(core::TemplateData& data, prepare::PreparedCase const& prepared);
 
 /// The floor of the deck with the drive, in place of that on which the grains settle.
