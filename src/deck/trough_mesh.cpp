@@ -42,7 +42,7 @@ struct ScreenNodes {
 
 ScreenNodes screen_nodes(double side, double opening, int holes) {
     double const pitch = side / holes, bar = pitch - opening;
-    int const parts = std::max(1, static_cast<int>(std::lround(opening / bar)));
+    int const parts = std::max(1, static_cast<int>(std::lround(opening / (2 * bar))));
     ScreenNodes nodes{{0}, {}};
     auto const add = [&nodes](double to, bool open) {
         nodes.at.push_back(to);
