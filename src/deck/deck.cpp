@@ -67,9 +67,9 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
                  edge = 3 * mean_diameter(scenario);
     prepare::Domain const& domain = prepared.domain;
     // A screen has no holes while the grains settle.
-    std::map<std::string, std::string> files{{settling_floor(scenario) + ".stl", domain.has_mesh()
-                                                                ? own_trough_stl(prepared, edge)
-                                                                : flat_trough_stl(length, width, edge)}};
+    std::map<std::string, std::string> files{
+        {settling_floor(scenario) + ".stl",
+         domain.has_mesh() ? own_trough_stl(prepared, edge) : flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);

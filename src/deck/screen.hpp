@@ -7,8 +7,8 @@
 
 namespace vibrotrough::deck {
 
-/// Name of the mesh of the floor on which the grains settle: a plate without holes, which the screen replaces when
-/// the drive begins, or the floor that moves.
+/// Name of the mesh of the floor on which the grains settle: a plate without holes, which the screen replaces
+/// when the drive begins, or the floor that moves.
 std::string settling_floor(scenario::Scenario const& scenario);
 
 /// The STL text of a screen. @pre has_holes()

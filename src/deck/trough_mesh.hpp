@@ -9,9 +9,9 @@ namespace vibrotrough::deck {
 /// refuses long thin triangles.
 std::string flat_trough_stl(double length, double width, double edge);
 
-/// The STL text of a flat sheet of the same size with square holes, in `along` columns and `across` rows. Bars
-/// of half their width are at its ends, so that the ends of the periodic box run along the middle of bars.
-/// The legs of the triangles are about twice as long as the bars are wide at most.
+/// The STL text of a flat sheet of the same size with square holes, in `along` columns and `across` rows.
+/// Bars of half their width are at its ends, so that the ends of the periodic box run along the middle of
+/// bars. The legs of the triangles are about twice as long as the bars are wide at most.
 /// @param opening  m, side of the holes
 std::string screen_stl(double length, double width, double opening, int along, int across);
 

@@ -55,7 +55,8 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
 }
 
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
-    if (prepared.domain.loses_grains()) return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
+    if (prepared.domain.loses_grains())
+        return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
     return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
                                  static_cast<int>(prepared.materials.size()));
 }

@@ -104,8 +104,7 @@ std::optional<double> fill_time(std::vector<double> const& held, double hold_up,
 std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle) {
     std::vector<LeftGrain> left;
     for (DumpedGrain const& grain : parse_cycle_dumps(files, "left", "id x vx", steps_per_cycle))
-        left.push_back(
-            {grain.cycle, static_cast<long>(grain.values[0]), grain.values[1], grain.values[2]});
+        left.push_back({grain.cycle, static_cast<long>(grain.values[0]), grain.values[1], grain.values[2]});
     return left;
 }
 

@@ -25,9 +25,9 @@ struct LeftGrain {
 /// @throws InputError naming the file when it is damaged
 std::vector<LeftGrain> parse_left(std::vector<core::TextFile> const& files, int steps_per_cycle);
 
-/// Why the grains of an open trough or of a screen do not add up: at the end of every cycle those that were there at the
-/// start and those that were fed are as many, and have the same mass, as those that are held and those that
-/// left. None when they do.
+/// Why the grains of an open trough or of a screen do not add up: at the end of every cycle those that were
+/// there at the start and those that were fed are as many, and have the same mass, as those that are held and
+/// those that left. None when they do.
 std::optional<std::string> imbalance(CycleSeries const& series);
 
 /// What the measurement of an open trough needs beside its cycles.

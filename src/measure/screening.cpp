@@ -105,8 +105,7 @@ Screening screening(CycleSeries const& series, std::vector<PassedGrain> const& p
     std::vector<double> shares;
     for (std::size_t i = 0; i < s.diameter.size(); ++i) shares.push_back(1 - s.passed[i] / s.number[i]);
     s.cut_size = cut_size(s.diameter, shares, opening);
-    s.distance =
-        period * std::accumulate(series.mean_velocity.begin(), series.mean_velocity.end(), 0.0);
+    s.distance = period * std::accumulate(series.mean_velocity.begin(), series.mean_velocity.end(), 0.0);
     return s;
 }
 

@@ -15,8 +15,8 @@ ScreenFloor screen_floor(PreparedCase const& c) {
         floor.across = static_cast<int>(std::lround(s.layer.width / pitch));
     }
     floor.out_z = -grain / 2;
-    // What falls in a cycle, all grains at most, must find room there without reaching up to the screen, which
-    // moves down by twice its excursion at most.
+    // What falls in a cycle, all grains at most, must find room there without reaching up to the screen,
+    // which moves down by twice its excursion at most.
     floor.catch_z = -(2 * c.largest_excursion + c.layer_height + 3 * grain);
     return floor;
 }

@@ -69,34 +69,36 @@ std::vector<Quantity> open_quantities() {
     add_measured<&flow<&Flow::inflow>>(
         rows, "inflow", "inflow_half_width", "kg/s", "Mass flow into an open trough; NaN of other layers",
         {.place = 940, .unit = "t/h", .factor = tonnes_per_hour, .format = "{:.4g}", .position = 270});
-    add_measured<&flow<&Flow::outflow>>(rows, "outflow", "outflow_half_width", "kg/s", "Mass flow over its edge",
-                                 {.place = 944,
-                                  .unit = "t/h",
-                                  .factor = tonnes_per_hour,
-                                  .format = "{:.4g}",
-                                  .position = 272,
-                                  .terminal = terminal_when_known("out", "t/h"),
-                                  .report = ReportView{"outflow"}});
+    add_measured<&flow<&Flow::outflow>>(rows, "outflow", "outflow_half_width", "kg/s",
+                                        "Mass flow over its edge",
+                                        {.place = 944,
+                                         .unit = "t/h",
+                                         .factor = tonnes_per_hour,
+                                         .format = "{:.4g}",
+                                         .position = 272,
+                                         .terminal = terminal_when_known("out", "t/h"),
+                                         .report = ReportView{"outflow"}});
     add_measured<&flow<&Flow::hold_up>>(
         rows, "hold_up", "hold_up_half_width", "kg",
         "Mass in the trough, with grains that have passed the edge and are less than a diameter away from it",
         {.place = 948, .format = "{:.3g}", .position = 274, .report = ReportView{"hold-up"}});
     add_measured<&flow<&Flow::window_depth>>(rows, "window_depth", "window_depth_half_width", "m",
-                                      "Height of the layer in the window, if it had settled",
-                                      {.place = 952,
-                                       .unit = "mm",
-                                       .factor = 1000,
-                                       .format = "{:.2f}",
-                                       .position = 276,
-                                       .terminal = terminal_when_known("depth", "mm"),
-                                       .report = ReportView{"depth"}});
-    add_measured<&flow<&Flow::residence_time>>(rows, "residence_time", "residence_time_half_width", "s",
-                                        "Time from the feed to the edge, mean over the grains that left",
-                                        {.place = 956,
-                                         .format = "{:.3f}",
-                                         .position = 278,
-                                         .terminal = terminal_when_known("residence", "s"),
-                                         .report = ReportView{"residence"}});
+                                             "Height of the layer in the window, if it had settled",
+                                             {.place = 952,
+                                              .unit = "mm",
+                                              .factor = 1000,
+                                              .format = "{:.2f}",
+                                              .position = 276,
+                                              .terminal = terminal_when_known("depth", "mm"),
+                                              .report = ReportView{"depth"}});
+    add_measured<&flow<&Flow::residence_time>>(
+        rows, "residence_time", "residence_time_half_width", "s",
+        "Time from the feed to the edge, mean over the grains that left",
+        {.place = 956,
+         .format = "{:.3f}",
+         .position = 278,
+         .terminal = terminal_when_known("residence", "s"),
+         .report = ReportView{"residence"}});
     add_measured<&flow<&Flow::residence_spread>>(
         rows, "residence_spread", "residence_spread_half_width", "s",
         "Standard deviation of this time over the grains",

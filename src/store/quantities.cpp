@@ -365,7 +365,8 @@ std::vector<Quantity> const& quantities() {
         for (auto const& part :
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
               start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
-              material_quantities(), open_quantities(), screen_quantities(), stage_quantities(), wear_quantities()})
+              material_quantities(), open_quantities(), screen_quantities(), stage_quantities(),
+              wear_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

@@ -84,7 +84,10 @@ void add_packings(std::vector<NameInFile>& names) {
     }
     for (PackingTable const& table : screen_tables())
         add(names, std::string(table.group) + "/<packing>/", real_type,
-            table.group == "screen" ? "cycles + 1" : table.group == "sizes" ? "sizes" : "grains", table.entry);
+            table.group == "screen"  ? "cycles + 1"
+            : table.group == "sizes" ? "sizes"
+                                     : "grains",
+            table.entry);
     for (Entry const& entry : materials_entries())
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
     for (Entry const& entry : segregation_entries())

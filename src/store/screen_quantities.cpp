@@ -36,9 +36,8 @@ PackingTable of_cycles(std::string_view name, std::string_view units, std::strin
 template <std::vector<double> Screening::*member>
 PackingTable of_screening(std::string_view group, std::string_view name, std::string_view units,
                           std::string_view meaning) {
-    return {group, {name, units, meaning}, packing_field([](auto& p) -> auto& {
-                return p.screening.*member;
-            })};
+    return {
+        group, {name, units, meaning}, packing_field([](auto& p) -> auto& { return p.screening.*member; })};
 }
 
 int cycles_of(Case record) {
@@ -98,8 +97,9 @@ std::optional<double> efficiency_by_model(Case record) {
     return passed / all;
 }
 
-constexpr auto interval_over_packings = "Half-width of its interval at measure.confidence, Student's t over the packings; "
-                       "NaN with one packing";
+constexpr auto interval_over_packings =
+    "Half-width of its interval at measure.confidence, Student's t over the packings; "
+    "NaN with one packing";
 
 }  // namespace
 
@@ -111,17 +111,18 @@ std::vector<PackingTable> const& screen_tables() {
         of_cycles<&Series::left_mass>("passed_mass", "kg", "Their mass"),
         of_cycles<&Series::held>("held", "1", "Grains on the screen at the end of cycle 0 ... n"),
         of_cycles<&Series::held_mass>("held_mass", "kg", "Their mass"),
-        of_cycles<&Series::window_mass>("layer_mass", "kg",
-                                        "Mass of the layer whose speed is measured, mean over the cycle: grains "
-                                        "with their centres above the screen"),
+        of_cycles<&Series::window_mass>(
+            "layer_mass", "kg",
+            "Mass of the layer whose speed is measured, mean over the cycle: grains "
+            "with their centres above the screen"),
         of_screening<&Screening::diameter>("sizes", "diameter", "m",
                                            "Diameter of the grains of one size, from the smallest; only of "
                                            "screens"),
         of_screening<&Screening::number>("sizes", "number", "1", "Grains of this size at first"),
         of_screening<&Screening::mass>("sizes", "mass", "kg", "Mass of one of them"),
         of_screening<&Screening::passed>("sizes", "passed", "1", "How many of them passed the screen"),
-        of_screening<&Screening::passed_cycle>("passed", "cycle", "1",
-                                               "Cycle in which a grain passed the screen, from 1; only of screens"),
+        of_screening<&Screening::passed_cycle>(
+            "passed", "cycle", "1", "Cycle in which a grain passed the screen, from 1; only of screens"),
         of_screening<&Screening::passed_diameter>("passed", "diameter", "m", "Its diameter"),
     };
     return tables;
@@ -135,14 +136,17 @@ std::vector<Entry> const& partition_entries() {
         {"stays", "1", "Share of them that is on the screen at the end, mean over the packings"},
         {"stays_half_width", "1", interval_over_packings},
         {"probability", "1",
-         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a sphere of "
+         "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a "
+         "sphere of "
          "diameter d that falls straight on a screen with the opening a and the bars w"},
         {"stays_by_model", "1", "Share that stays with one attempt in each of n cycles: (1 - p)^n"},
         {"attempts", "1",
-         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - p)); "
+         "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - "
+         "p)); "
          "NaN where none or all of a size can pass or have passed"},
         {"half_time", "s",
-         "Time until half of this size has passed, mean over the packings; NaN when it has not in one of them"},
+         "Time until half of this size has passed, mean over the packings; NaN when it has not in one of "
+         "them"},
         {"half_time_half_width", "s", interval_over_packings},
     };
     return entries;
@@ -180,17 +184,20 @@ std::vector<Entry> const& screening_entries() {
     static std::vector<Entry> const entries{
         {"time", "s", "End of cycle 0 ... n; only of screens"},
         {"distance", "m",
-         "How far the layer on the screen was conveyed until then, mean over the packings: the length of screen "
+         "How far the layer on the screen was conveyed until then, mean over the packings: the length of "
+         "screen "
          "that the time stands for"},
         {"distance_half_width", "m", interval_over_packings},
         {"held_share", "1", "Mass on the screen over that at first, mean over the packings"},
         {"held_share_half_width", "1", interval_over_packings},
         {"efficiency", "1",
-         "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed until then over "
+         "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed until "
+         "then over "
          "that at first, mean over the packings; NaN without undersize"},
         {"efficiency_half_width", "1", interval_over_packings},
         {"conveying_speed", "m/s",
-         "Speed of the layer on the screen along it in the cycle that ends, mean over the packings; NaN in the "
+         "Speed of the layer on the screen along it in the cycle that ends, mean over the packings; NaN in "
+         "the "
          "first row"},
         {"conveying_speed_half_width", "m/s", interval_over_packings},
     };
@@ -231,7 +238,8 @@ std::vector<Entry> const& partition_cycles_entries() {
     static std::vector<Entry> const entries{
         {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
         {"time", "s", "End of cycle 0 ... n"},
-        {"stays", "1", "Share of the grains of this size that is still on the screen, mean over the packings"},
+        {"stays", "1",
+         "Share of the grains of this size that is still on the screen, mean over the packings"},
         {"stays_half_width", "1", interval_over_packings},
     };
     return entries;
@@ -263,23 +271,25 @@ std::vector<Quantity> screen_quantities() {
     std::vector<Quantity> rows;
     add_measured<&screening_number<&Screening::efficiency>>(
         rows, "screening_efficiency", "screening_efficiency_half_width", "1",
-        "Efficiency of screening at the end: mass of undersize (grains smaller than the opening) that passed the "
+        "Efficiency of screening at the end: mass of undersize (grains smaller than the opening) that passed "
+        "the "
         "screen over that at first; NaN without a screen",
         {.place = 1100,
          .format = "{:.3f}",
          .position = 290,
          .terminal = terminal_when_known("screening", "efficiency"),
          .report = ReportView{"screening efficiency"}});
-    rows.push_back({"screening_efficiency_by_model",
-                    "1",
-                    "The same by Gaudin's probability with one attempt in each cycle, see the table partition",
-                    &efficiency_by_model,
-                    OverPackings::nothing,
-                    {{.place = 1104,
-                      .format = "{:.3f}",
-                      .position = 292,
-                      .terminal = terminal_when_known("by", "model"),
-                      .report = ReportView{"by model"}}}});
+    rows.push_back(
+        {"screening_efficiency_by_model",
+         "1",
+         "The same by Gaudin's probability with one attempt in each cycle, see the table partition",
+         &efficiency_by_model,
+         OverPackings::nothing,
+         {{.place = 1104,
+           .format = "{:.3f}",
+           .position = 292,
+           .terminal = terminal_when_known("by", "model"),
+           .report = ReportView{"by model"}}}});
     add_measured<&screening_number<&Screening::passed_share>>(
         rows, "passed_share", "passed_share_half_width", "1",
         "Mass that passed the screen over that at first",
@@ -294,7 +304,8 @@ std::vector<Quantity> screen_quantities() {
          .report = ReportView{"undersize in oversize"}});
     add_measured<&screening_number<&Screening::cut_size>>(
         rows, "cut_size", "cut_size_half_width", "m",
-        "d50 of the partition curve, the size of which half of the grains stay, on straight lines between the "
+        "d50 of the partition curve, the size of which half of the grains stay, on straight lines between "
+        "the "
         "sizes; NaN when more than half of every size stay",
         {.place = 1114,
          .unit = "mm",

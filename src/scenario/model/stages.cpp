@@ -91,10 +91,10 @@ std::vector<double> cycle_durations(std::vector<Stage> const& stages) {
 
 void require_steady_drive(Scenario const& scenario, std::string_view what) {
     if (is_screen(scenario))
-        throw core::InputError(
-            fmt::format("{}: the campaign '{}' has a screen, and this needs a layer that keeps its grains; give "
-                        "it a campaign without [screen]",
-                        what, scenario.campaign));
+        throw core::InputError(fmt::format(
+            "{}: the campaign '{}' has a screen, and this needs a layer that keeps its grains; give "
+            "it a campaign without [screen]",
+            what, scenario.campaign));
     if (scenario.stages.empty()) return;
     throw core::InputError(
         fmt::format("{}: the campaign '{}' has [[stages]], and this needs a drive that never ends; give it a "

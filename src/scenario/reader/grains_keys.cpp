@@ -130,15 +130,18 @@ constexpr std::array rows_of_grains{
         field<&Scenario::feed, &Feed::height>},
 
     Key{"screen.opening", quantity, "m", 0, 1, "0 to 1 m", "", optional, "\"5 mm\"",
-        "makes the floor a screen with square holes of this side; what falls through is counted and taken out. "
+        "makes the floor a screen with square holes of this side; what falls through is counted and taken "
+        "out. "
         "0: a screen without holes, to compare with",
         field<&Scenario::screen, &Screen::opening>},
     Key{"screen.wire", quantity, "m", 1e-6, 1, "a twentieth of the opening or more", "", optional, "\"1 mm\"",
-        "width of the bars between two holes; opening and wire are the pitch, of which length and width of the "
+        "width of the bars between two holes; opening and wire are the pitch, of which length and width of "
+        "the "
         "layer are whole multiples",
         field<&Scenario::screen, &Screen::wire>},
     Key{"screen.time", quantity, "s", 1e-3, 1e5, "0.001 to 100000 s", "", optional, "\"3 s\"",
-        "how long the batch is on the screen, rounded to whole cycles; the length of screen that it stands for is "
+        "how long the batch is on the screen, rounded to whole cycles; the length of screen that it stands "
+        "for is "
         "in the results",
         field<&Scenario::screen, &Screen::time>},
 };

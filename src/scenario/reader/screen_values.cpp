@@ -16,13 +16,15 @@ void check_parts(Scenario const& s, GivenKeys const& given) {
     refuse(s.trough.mesh != nullptr, "trough.mesh", "a screen is a flat floor with square holes");
     refuse(s.trough.side_wall_friction.has_value(), "trough.side_wall_friction",
            "a screen is periodic across and has no side walls");
-    refuse(is_clump(s.grains), "grains.shape", "which clumps fall through a hole is not known; a screen needs "
-                                               "spheres");
+    refuse(is_clump(s.grains), "grains.shape",
+           "which clumps fall through a hole is not known; a screen needs "
+           "spheres");
     refuse(s.layer.block != Block::none, "layer.block", "a block does not fall through a screen");
     refuse(!s.materials.empty(), "materials.1.name", "the grains on a screen are of one material");
     refuse(!s.stages.empty(), given.has("stages.1.time") ? "stages.1.time" : "stages.1.cycles",
            "the drive of a screen has no stages");
-    refuse(s.measure.rolling, "measure.rolling", "the contacts at the floor are measured on closed floors only");
+    refuse(s.measure.rolling, "measure.rolling",
+           "the contacts at the floor are measured on closed floors only");
     refuse(s.measure.wear, "measure.wear", "the wear is measured on closed floors only");
     refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
 }
@@ -54,10 +56,10 @@ void check_holes(Scenario const& s, GivenKeys const& given) {
     double const pitch = hole_pitch(s.screen);
     double const triangles = s.layer.length * s.layer.width / (pitch * pitch) * 4 * (opening / wire + 4);
     if (triangles > most_triangles)
-        given.fail("screen.opening",
-                   fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles,
-                               most_triangles),
-                   "make the box smaller, or are the units right?");
+        given.fail(
+            "screen.opening",
+            fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles, most_triangles),
+            "make the box smaller, or are the units right?");
 }
 
 }  // namespace
