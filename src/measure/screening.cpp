@@ -138,15 +138,12 @@ std::optional<double> cut_size(std::vector<double> const& diameters, std::vector
     std::optional<std::size_t> below;
     for (std::size_t i = 0; i < diameters.size(); ++i)
         if (shares[i] < half) below = i;
-    if (!below) return {};
-    double above = opening, share_above = 1;
-    if (*below + 1 < diameters.size() && (diameters[*below + 1] < opening || diameters[*below] >= opening)) {
-        above = diameters[*below + 1];
-        share_above = shares[*below + 1];
-    }
+    if (!below || *below + 1 == diameters.size()) return {};
+    std::size_t const next = *below + 1;
+    bool const crosses = diameters[*below] < opening && opening <= diameters[next];
+    double const above = crosses ? opening : diameters[next], share = crosses ? 1 : shares[next];
     double const d = diameters[*below];
-    if (above <= d) return {};
-    return d + (half - shares[*below]) / (share_above - shares[*below]) * (above - d);
+    return d + (half - shares[*below]) / (share - shares[*below]) * (above - d);
 }
 
 std::optional<double> half_time(std::vector<double> const& shares, double period) {

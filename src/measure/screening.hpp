@@ -67,8 +67,8 @@ std::vector<double> share_curve(Screening const& screening, std::size_t size, in
 std::vector<double> efficiency_curve(Screening const& screening, double opening, int cycles);
 
 /// The size of which half of the grains stay, m: between the largest size of which less than half stay and
-/// the next larger one, along a straight line. All spheres as large as the opening stay, whether there are
-/// any or not. None when half or more of every size stay.
+/// the next larger one, along a straight line. All spheres as large as the opening stay. None when half or
+/// more of every size stay, or less than half of the largest.
 /// @param diameters  m, from the smallest
 std::optional<double> cut_size(std::vector<double> const& diameters, std::vector<double> const& shares,
                                double opening);

@@ -184,7 +184,9 @@ void prepare_box(PreparedCase& c) {
     c.wall_height = c.box_top - (excursion - c.box_bottom);
     if (is_screen(c.scenario)) {
         c.domain.screen = screen_floor(c);
-        c.box_bottom = std::min(c.box_bottom, c.domain.screen->catch_z - c.largest_extent);
+        // Without holes the box is that of the plain floor, so that the motion is the same, digit for digit.
+        if (has_holes(c.scenario))
+            c.box_bottom = std::min(c.box_bottom, c.domain.screen->catch_z - c.largest_extent);
     }
     if (!is_open(c.scenario)) return;
     c.domain.open = open_trough(c);

@@ -306,7 +306,7 @@ std::vector<Quantity> screen_quantities() {
         rows, "cut_size", "cut_size_half_width", "m",
         "d50 of the partition curve, the size of which half of the grains stay, on straight lines between "
         "the "
-        "sizes; NaN when more than half of every size stay",
+        "sizes; NaN when half or more of every size stay, or less than half of the largest",
         {.place = 1114,
          .unit = "mm",
          .factor = 1000,

@@ -52,6 +52,7 @@ TEST(Screening, TheCutSizeLiesOnAStraightLine) {
     EXPECT_NEAR(*measured().cut_size, 0.002 + 0.003 / 3, 1e-15);
     EXPECT_NEAR(*cut_size({1, 2, 4}, {0.1, 0.3, 0.7}, 5), 3, 1e-12);
     EXPECT_FALSE(cut_size({1, 2, 4}, {0.6, 0.7, 1}, 5));
+    EXPECT_FALSE(cut_size({1, 2, 4}, {0.1, 0.2, 0.3}, 5));
 }
 
 TEST(Screening, HalfTimeIsBetweenTheEndsOfTwoCycles) {
