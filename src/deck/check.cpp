@@ -227,6 +227,29 @@ void check_sizes(std::vector<Finding>& findings, prepare::PreparedCase const& c)
              "ones up to this ratio (Vyas et al. 2025 found codes that fail from about 3 on)"));
 }
 
+/// What of the sizes can pass a screen, and whether softness decides about any of them.
+void check_screen(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
+    if (!has_holes(c.scenario)) return;
+    double const opening = *c.scenario.screen.opening;
+    double const smallest = c.classes.back().diameter, largest = c.classes.front().diameter;
+    findings.push_back(most("smallest grain / opening of the screen", "screen.opening", smallest / opening,
+                            1 - 1e-9, never, "widen it: nothing falls through"));
+    findings.push_back(least("largest grain / opening of the screen", "screen.opening", largest / opening, 1,
+                             0, "all grains can fall through, and nothing is left of a partition curve"));
+    double nearest = 1;
+    for (prepare::ClassCount const& size : c.classes)
+        nearest = std::min(nearest, std::abs(size.diameter / opening - 1));
+    findings.push_back(least(
+        "size nearest to the opening: difference / overlap at the trough's speed", "grains.youngs_modulus",
+        nearest * mean_diameter(c.scenario) / overlap_at_impact(c, c.time.impact_speed / 2), 1, 0,
+        "stiffen the grains, or move the size or the opening: grains that are pressed together by so much "
+        "can be pushed through holes that are too small for them"));
+    findings.push_back(least("holes of the screen along the box", "layer.length", c.domain.screen->along, 3,
+                             0, "lengthen the box, so that a grain does not meet the same hole again"));
+    findings.push_back(least("holes of the screen across the box", "layer.width", c.domain.screen->across, 3,
+                             0, "widen the box, so that a grain does not meet the same hole again"));
+}
+
 /// The mesh moves through the periodic box; nodes that leave it on one side enter on the other.
 void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
@@ -309,6 +332,7 @@ std::vector<Finding> check_drive(prepare::PreparedCase const& prepared) {
         check_softness(findings, prepared);
         check_numerics(findings, prepared);
         check_sizes(findings, prepared);
+        check_screen(findings, prepared);
     }
     check_stroke(findings, prepared);
     check_unusual(findings, prepared);

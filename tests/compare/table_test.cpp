@@ -95,7 +95,18 @@ std::vector<std::string> const contract{"case",
                                         "wear_rate_w_per_m2",
                                         "wear_rate_half_width_w_per_m2",
                                         "specific_wear_j_per_t_m",
-                                        "specific_wear_half_width_j_per_t_m"};
+                                        "specific_wear_half_width_j_per_t_m",
+                                        "screening_efficiency",
+                                        "screening_efficiency_half_width",
+                                        "screening_efficiency_by_model",
+                                        "passed_share",
+                                        "passed_share_half_width",
+                                        "undersize_share",
+                                        "undersize_share_half_width",
+                                        "cut_size_mm",
+                                        "cut_size_half_width_mm",
+                                        "screen_distance_m",
+                                        "screen_distance_half_width_m"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",

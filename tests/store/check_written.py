@@ -61,7 +61,7 @@ def check_file(path, heading, reference):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|wear)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|screen|sizes|passed|wear)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"

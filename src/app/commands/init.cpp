@@ -85,6 +85,7 @@ void add_init(CLI::App& program, int& exit_code) {
   chute     a trough of your own from an STL file: a V with a step
   open      a trough with feed and discharge: flows, depth, how long grains stay
   mixture   two materials of different size and density: do they separate?
+  screen    a vibrating screen: which sizes pass, how fast, and which stay?
   stages    a trough that starts, stops and starts again: how fast is the layer, where does it stop?
   design    three machines with the same largest acceleration: which one carries most?
 
