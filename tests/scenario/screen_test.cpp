@@ -19,6 +19,9 @@ std::string screened(std::string const& lines = "opening = \"5 mm\"\nwire = \"1 
 TEST(Screen, HasTheLengthThatItIsGiven) {
     auto const one = single_case(screened());
     EXPECT_TRUE(has_given_length(one));
+    EXPECT_DOUBLE_EQ(*one.screen.opening, 0.005);
+    EXPECT_DOUBLE_EQ(*one.screen.wire, 0.001);
+    EXPECT_EQ(one.screen.time, 2.0);
     EXPECT_EQ(one.measure.max_cycles, std::lround(2 * one.trough.frequency));
     EXPECT_EQ(one.measure.max_packings, one.measure.packings);
     std::string const text = to_toml(one);
