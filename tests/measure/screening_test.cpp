@@ -31,7 +31,7 @@ TEST(Screening, CountsEachSize) {
     EXPECT_EQ(s.diameter, (std::vector{0.002, 0.006}));
     EXPECT_EQ(s.number, (std::vector{4.0, 2.0}));
     EXPECT_EQ(s.passed, (std::vector{3.0, 0.0}));
-    EXPECT_EQ(share_curve(s, 0, 4), (std::vector{1, 0.75, 0.75, 0.25, 0.25}));
+    EXPECT_EQ(share_curve(s, 0, 4), (std::vector{1.0, 0.75, 0.75, 0.25, 0.25}));
     EXPECT_EQ(share_curve(s, 1, 4), std::vector<double>(5, 1));
 }
 
@@ -42,7 +42,7 @@ TEST(Screening, EfficiencyIsTheRecoveryOfUndersize) {
     EXPECT_DOUBLE_EQ(*s.passed_share, 24.0 / 464);
     EXPECT_DOUBLE_EQ(*s.undersize, 8.0 / 440);
     EXPECT_DOUBLE_EQ(*s.distance, 0.1);
-    EXPECT_EQ(efficiency_curve(s, 0.005, 4), (std::vector{0, 0.25, 0.25, 0.75, 0.75}));
+    EXPECT_EQ(efficiency_curve(s, 0.005, 4), (std::vector{0.0, 0.25, 0.25, 0.75, 0.75}));
     EXPECT_TRUE(efficiency_curve(s, 0.002, 4).empty());  // nothing is smaller than the opening
 }
 
