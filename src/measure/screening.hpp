@@ -39,17 +39,17 @@ std::optional<std::string> size_imbalance(CycleSeries const& series, std::vector
 
 /// What was measured in one packing on a screen. The lists have one value for each size, from the smallest.
 struct Screening {
-    std::vector<double> diameter;         ///< m
-    std::vector<double> number;           ///< of grains at first
-    std::vector<double> mass;             ///< kg, of one grain
-    std::vector<double> passed;           ///< number of grains that passed until the end
-    std::vector<double> passed_cycle;     ///< of each grain that passed, in their order: the cycle
-    std::vector<double> passed_diameter;  ///< m, of the same grains
-    std::optional<double> efficiency;     ///< mass of undersize that passed over that at first
-    std::optional<double> passed_share;   ///< mass that passed over that at first
-    std::optional<double> undersize;      ///< mass share of undersize in what is still on the screen
-    std::optional<double> cut_size;       ///< m, see cut_size()
-    std::optional<double> distance;       ///< m, that the layer was conveyed
+    std::vector<double> diameter;             ///< m
+    std::vector<double> number;               ///< of grains at first
+    std::vector<double> mass;                 ///< kg, of one grain
+    std::vector<double> passed;               ///< number of grains that passed until the end
+    std::vector<double> passed_cycle;         ///< of each grain that passed, in their order: the cycle
+    std::vector<double> passed_diameter;      ///< m, of the same grains
+    std::optional<double> efficiency = {};    ///< mass of undersize that passed over that at first
+    std::optional<double> passed_share = {};  ///< mass that passed over that at first
+    std::optional<double> undersize = {};     ///< mass share of undersize in what is still on the screen
+    std::optional<double> cut_size = {};      ///< m, see cut_size()
+    std::optional<double> distance = {};      ///< m, that the layer was conveyed
 };
 
 /// Measures a packing, of whose grains the balance is known to hold. Grains smaller than the opening are

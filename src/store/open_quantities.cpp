@@ -57,7 +57,8 @@ std::vector<PackingTable> const& open_tables() {
 }
 
 std::optional<double> measured_mass_per_area(Case record) {
-    if (is_screen(record.scenario)) return {};  // it becomes less
+    bool const is_batch = is_screen(record.scenario) && !is_open(record.scenario);
+    if (is_batch) return {};  // it becomes less
     if (!is_open(record.scenario)) return mass_per_area(record.scenario);
     auto const depth = mean_over_packings(record, flow<&Flow::window_depth>());
     if (!depth) return {};

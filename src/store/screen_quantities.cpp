@@ -4,6 +4,7 @@
 #include "prepare/screen.hpp"
 #include "store/measured_quantity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,8 +41,11 @@ PackingTable of_screening(std::string_view group, std::string_view name, std::st
         group, {name, units, meaning}, packing_field([](auto& p) -> auto& { return p.screening.*member; })};
 }
 
+/// Cycles that all packings have.
 int cycles_of(Case record) {
-    return record.packings.front().series.cycles();
+    int cycles = record.packings.front().series.cycles();
+    for (PackingRecord const& packing : record.packings) cycles = std::min(cycles, packing.series.cycles());
+    return cycles;
 }
 
 double period_of(Case record) {

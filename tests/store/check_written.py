@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "triangles": (2,), "materials": (4,), "stages": (1,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "triangles": (2,), "materials": (4,), "stages": (1,), "sizes": (2,), "grains": (3,), "sizes * (cycles + 1)": (4,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -137,6 +137,11 @@ def check_result_values(file):
     assert case["wear_rate"] == 2.25 and case["specific_wear"] == 0.75
     assert math.isclose(case["specific_wear_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
     assert list(file["wear/2"]["rate"]) == [1.5, 3.0] and list(file["wear/1"]["x"]) == [0.01, 0.02]
+    # Three of five passed, with ((3 - 2) / 4)^2 at an attempt.
+    assert np.allclose(file["partition"]["stays"], [0.4, 1]) and list(file["partition"]["probability"]) == [0.0625, 0]
+    assert math.isclose(file["partition"]["attempts"][0], math.log(0.4) / math.log(0.9375), rel_tol=1e-12)
+    assert case["screening_efficiency"] == 0.6 and math.isclose(case["screening_efficiency_by_model"], 0.0625, rel_tol=1e-12)
+    assert np.allclose(file["screening"]["efficiency"], [0, 0.6]) and np.allclose(file["partition_cycles"]["stays"], [1, 0.4, 1, 1])
     assert list(file["rolling/1"]["grain_torque"]) > list(file["rolling/1"]["phase"])
     packings = file["packings"]
     assert [text.decode() for text in packings["rolling_problem"]] == ["", "no file"]

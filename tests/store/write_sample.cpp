@@ -29,13 +29,28 @@ void open(vibrotrough::store::CaseRecord& record) {
     }
 }
 
-/// The sample with four materials and a stage in an open trough, so that it has every table.
+/// As if the trough were a screen with openings of 3 mm, on which three of five small grains passed.
+void put_on_screen(vibrotrough::store::CaseRecord& record) {
+    record.scenario.screen = {0.003, 0.001, 0.1};
+    for (vibrotrough::store::PackingRecord& packing : record.packings) {
+        packing.screening = {.diameter = {0.002, 0.004},
+                             .number = {5, 2},
+                             .mass = {1e-5, 8e-5},
+                             .passed = {3, 0},
+                             .passed_cycle = {1, 1, 1},
+                             .passed_diameter = {0.002, 0.002, 0.002},
+                             .efficiency = 0.6};
+    }
+}
+
+/// The sample with four materials and a stage in an open trough with holes, so that it has every table.
 vibrotrough::store::CaseRecord sample_mixture() {
     using namespace vibrotrough::store;
     CaseRecord record = sample_record();
     for (char const* const name : {"a", "b", "c"})
         record.scenario.materials.push_back({.name = name, .number_fraction = 0.1});
     open(record);
+    put_on_screen(record);
     record.scenario.stages = {{.cycles = 1}};  // as many cycles as the shorter packing has
     record.scenario_toml = to_toml(record.scenario);
     for (PackingRecord& packing : record.packings) {
