@@ -104,7 +104,9 @@ def value_of(answer: dict[str, Any], name: str) -> float:
 
 
 def length_of(words: list[str], option: str) -> float:
-    return float(words[words.index(option) + 1].split()[0])
+    """m"""
+    number, unit = words[words.index(option) + 1].split()
+    return float(number) * {"m": 1.0, "mm": 1e-3}[unit]
 
 
 def stored_energies(theory: Theory, words: list[str], answer: dict[str, Any]) -> tuple[float, float] | None:
