@@ -12,12 +12,12 @@
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double rounding = 1e-5;  // of a diameter: the engine writes six digits
+constexpr double size_rounding = 1e-5;  // of a diameter: the engine writes six digits
 
 /// The index of the size that a grain has.
 std::optional<std::size_t> size_of(double diameter, std::vector<double> const& diameters) {
     for (std::size_t i = 0; i < diameters.size(); ++i)
-        if (std::abs(diameter - diameters[i]) <= rounding * diameters[i]) return i;
+        if (std::abs(diameter - diameters[i]) <= size_rounding * diameters[i]) return i;
     return {};
 }
 

@@ -21,8 +21,8 @@ from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E4
 from validation_case import ValidationCase, read_table  # noqa: E402
 
 CAMPAIGNS = design.RECURRENCE + design.WHOLE + design.UPHILL  # of the atlas' own layers
-HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16, "h5": 16}  # campaigns of random layers, and how many each has
-SEEN = 21  # the first of them were known when the trend was chosen; the others judge
+HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16}  # campaigns of random layers, and how many each has
+SEEN = 40  # the first of them were known when the trend and the uphill campaigns were chosen; the others judge
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
 COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome"]
 PREDICTED = ["number", "case", "throw_number", "tan_inclination", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
@@ -164,7 +164,8 @@ def judge(run: ValidationCase) -> None:
         every = run.table("predicted.csv")
         all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)
         least, most = scipy.stats.binom.ppf([0.025, 0.975], len(every), 0.95)
-        scores = {"all": len(every), "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
+        all_rms = {key: math.sqrt(float(np.mean([(float(row["efficiency"]) - float(row[key])) ** 2 for row in every]))) for key in rms}
+        scores = {"all": len(every), **{f"all_rms_{key}": f"{one:.3f}" for key, one in all_rms.items()}, "all_held": all_held, "all_least": f"{least:.0f}", "all_most": f"{most:.0f}", "layers": len(run.table("layers.csv")), "judging": len(judging), "held": held, **{f"rms_{key}": f"{one:.3f}" for key, one in rms.items()}, "own": f"{own:.3f}", **others}
         run.follows("scores.csv", ["score", "value"], [[name, one] for name, one in scores.items()])
 
 
