@@ -14,8 +14,8 @@ namespace vibrotrough::store {
 using MeasuredNumber = Field<PackingRecord, std::optional<double>>;
 
 /// Adds a number of the packings and the half-width of its interval, with one column each.
-/// @param number  gives the way to it
-/// @param view    of the number; that of the half-width has the same unit and the next places
+/// @tparam number  gives the way to it
+/// @param view  of the number; that of the half-width has the same unit and the next places
 template <MeasuredNumber (*number)()>
 void add_measured(std::vector<Quantity>& rows, std::string_view name, std::string_view half_width_name,
                   std::string_view units, std::string_view meaning, View const& view) {

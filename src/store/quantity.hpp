@@ -87,7 +87,7 @@ struct View {
     std::optional<TerminalView> terminal = {};  ///< none: not in the terminal's table
     std::optional<ReportView> report = {};      ///< none: not in the report's table
 
-    static constexpr int behind_all = 1000;  ///< the place of columns that are added
+    static constexpr int behind_all = 2000;  ///< the place of columns that are added
 };
 
 /// How the value of a case follows from the values of its packings. The mean and the largest are taken over
