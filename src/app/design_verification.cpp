@@ -84,7 +84,7 @@ Simulated simulate_machine(fs::path const& file, theory::Drive const& drive,
         found.is_interrupted = true;
         return found;
     }
-    if (double const cost = cost_to_go(ready.plan); cost > left) {
+    if (double const cost = cost_to_go(ready.plan); cost > 0 && cost > left) {
         found.is_too_dear = true;
         found.core_time = cost;
         return found;
@@ -104,8 +104,9 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
             auto const said = model.at(layer.drive, layer.friction);
             if (!said) continue;
             double const missed = std::hypot(said->sd(), model.missed(layer.drive, {}));
-            all.push_back({layer.friction, said->efficiency, atlas::deviations_in_half_width * missed,
-                           layer.efficiency, std::hypot(layer.statistics_half_width, layer.numerical_error)});
+            all.push_back({layer.friction, model.name, said->efficiency,
+                           atlas::deviations_in_half_width * missed, layer.efficiency,
+                           std::hypot(layer.statistics_half_width, layer.numerical_error)});
         }
     }
     return all;
@@ -115,19 +116,54 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
 class Verifier {
   public:
     Verifier(learn::DesignTask const& task, VerificationOptions const& options)
-        : original_(task), options_(options), found_{task, learn::design_with_risk(task), {}} {}
+        : original_(with_known_errors(task)),
+          options_(options),
+          found_{original_, design_of(original_), {}} {}
 
     VerifiedDesign run() {
         core::make_folder(options_.output);
         for (int number = 1; number <= most_machines; ++number) {
             if (!is_worth_simulating()) return ended(learn::Verdict::no_machine, "");
+            // What is known of it is its own simulation.
+            if (found_.design.feasible && was_simulated(found_.design))
+                return ended(learn::Verdict::verified, "");
             if (!try_machine(number)) return found_;
-            found_.design = learn::design_with_risk(found_.task);
+            found_.design = design_of(found_.task);
         }
         return ended(learn::Verdict::budget, fmt::format("{} machines were not enough", most_machines));
     }
 
   private:
+    /// A calibration says what its model misses draw by draw; the correction takes their root mean square.
+    static learn::DesignTask with_known_errors(learn::DesignTask task) {
+        double squares = 0;
+        for (double const one : task.friction.discrepancies) squares += one * one;
+        for (learn::DesignModel& model : task.models) {
+            if (!model.uses_calibrated_discrepancy) continue;
+            model.uses_calibrated_discrepancy = false;
+            model.discrepancy = std::sqrt(squares / static_cast<double>(task.friction.discrepancies.size()));
+        }
+        return task;
+    }
+
+    static learn::RiskDesign design_of(learn::DesignTask const& task) {
+        try {
+            return learn::design_with_risk(task);
+        } catch (std::invalid_argument const& error) {
+            throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
+        }
+    }
+
+    /// Whether the last machine that was simulated is this one.
+    bool was_simulated(learn::RiskDesign const& design) const {
+        if (found_.verification.machines.empty()) return false;
+        learn::SimulatedMachine const& last = found_.verification.machines.back();
+        return last.drive.frequency == design.drive.frequency &&
+               last.drive.amplitude == design.drive.amplitude &&
+               last.drive.vibration_angle == design.drive.vibration_angle &&
+               last.drive.inclination == design.drive.inclination && last.depth == design.depth;
+    }
+
     learn::CheckedLayer layer() const {
         return {*original_.grain_diameter, half_width, box_length, box_width};
     }
@@ -156,11 +192,11 @@ class Verifier {
             return false;
         }
         if (simulated.is_too_dear) {
-            ended(
-                learn::Verdict::budget,
-                fmt::format("the next machine would take about {:.2g} core-hours, and {:.2g} are left; "
-                            "the same command with more goes on",
-                            simulated.core_time / 3600, (options_.budget - verification().core_time) / 3600));
+            ended(learn::Verdict::budget,
+                  fmt::format("the next machine would take about {:.2g} core-hours, and {:.2g} are left; "
+                              "the same command with more goes on",
+                              simulated.core_time / 3600,
+                              std::max(0.0, options_.budget - verification().core_time) / 3600));
             return false;
         }
         verification().core_time += simulated.core_time;
@@ -180,15 +216,18 @@ class Verifier {
                 learn::corrected_design_model(original_.models[i], layers_, *original_.grain_diameter);
         theory::Drive const drive = found_.design.drive;
         double const depth = found_.design.depth;
+        auto const speeds_tried = found_.design.speeds_tried;
         found_.design = learn::judge_machine(found_.task, drive, depth);
+        found_.design.speeds_tried = speeds_tried;
+        std::optional<double> probability;
+        if (!found_.design.untested) probability = found_.design.probability;
         bool const agrees = std::ranges::all_of(promised, &learn::ComparedLayer::agrees);
-        verification().machines.push_back({file.string(), drive, depth, promised, found_.design.probability});
+        verification().machines.push_back({file.string(), drive, depth, promised, probability});
         if (!options_.quiet)
-            tell(
-                "design: machine {} is simulated: {} what was promised, and carries the mass flow with "
-                "{:.1f} %\n",
-                verification().machines.size(), agrees ? "as" : "other than",
-                100 * found_.design.probability);
+            tell("design: machine {} is simulated: {} what was promised; it carries the mass flow with {}\n",
+                 verification().machines.size(), agrees ? "as" : "other than",
+                 probability ? fmt::format("{:.1f} %", 100 * *probability)
+                             : "a probability that is not known");
         if (!agrees || !found_.design.feasible) return false;
         ended(learn::Verdict::verified, "");
         return true;

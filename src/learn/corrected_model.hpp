@@ -25,6 +25,8 @@ struct SimulatedLayer {
 /// slow for a layer here is mostly so there, too. Conditioned on the layers it is small where they were
 /// simulated, and the model's own elsewhere.
 ///
+/// The depth of the layer is not among the inputs: layers of one drive at several depths are averaged.
+///
 /// The error counts as known where the layers have halved its standard deviation; elsewhere as the model
 /// says.
 /// @param layers    at least one

@@ -294,7 +294,7 @@ std::string design_campaign(DesignTask const& t, RiskDesign const& d, CheckedLay
     double const rolling = t.rolling_friction.value_or(0);
     std::string const rotation =
         rolling > 0 ? fmt::format("rotation = \"rolling\"\nrolling_friction = {:.4g}\n", rolling) : "";
-    double const mm = 1e3 * layer.diameter, depth = std::max(1e3 * d.depth, 3 * mm);
+    double const mm = 1e3 * layer.diameter, depth = std::max(1e3 * d.depth, least_simulated_depth * mm);
     // Waves and convection need a part that is as long as the layer is deep and as the stroke along the
     // trough.
     double const stroke_along = 2e3 * m.amplitude * std::cos(m.vibration_angle);

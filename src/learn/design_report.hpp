@@ -8,6 +8,9 @@
 
 namespace vibrotrough::learn {
 
+/// Diameters of its grains, of the thinnest layer that a campaign simulates of a design.
+inline constexpr double least_simulated_depth = 3;
+
 /// The layer that a campaign simulates of a design.
 struct CheckedLayer {
     double diameter;           ///< m, of the grains, > 0

@@ -309,8 +309,10 @@ RiskDesign design_with_risk(DesignTask const& task) {
 
 RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth) {
     check(task);
-    RiskSearch search(task, allowed_space(task));
-    return described(task, search, drive, depth);
+    DesignTask one = task;
+    if (!one.frequencies.empty()) one.space.frequency = {drive.frequency, drive.frequency};
+    RiskSearch search(one, allowed_space(one));
+    return described(one, search, drive, depth);
 }
 
 }  // namespace vibrotrough::learn

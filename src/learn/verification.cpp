@@ -21,13 +21,14 @@ std::string first_words(DesignTask const& task, Verification const& v) {
                 "Verified: this machine was simulated at its own depth, and reaches the mass flow with "
                 "{:.1f} % "
                 "({:.4g} % asked)",
-                100 * v.machines.back().probability, 100 * task.confidence);
+                100 * v.machines.back().probability.value_or(0), 100 * task.confidence);
         case Verdict::no_machine:
             return v.machines.empty()
                        ? "No machine within the limits is expected to do it, and none was simulated"
-                       : "No machine within the limits does it, as simulated layers say";
+                       : "By the models, corrected with simulated layers, no machine within the limits does "
+                         "it "
+                         "so surely";
         case Verdict::budget:
-            return "Not verified within the budget";
         case Verdict::not_steady:
             return "Not verified";
     }
@@ -57,25 +58,28 @@ bool ComparedLayer::agrees() const {
 std::string verification_text(DesignTask const& task, Verification const& v) {
     std::string text = first_words(task, v);
     if (!v.why.empty()) text += ": " + v.why;
-    text += fmt::format(". Core time: {:.3g} h.\n\n", v.core_time / seconds_per_hour);
-    text +=
-        fmt::format("{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16} {:>8} {:>12}\n", "machine", "stroke",
-                    "speed", "angle", "depth", "friction", "promised", "simulated", "", "probability");
-    text += fmt::format("{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16}\n", "", "mm", "1/min", "deg", "mm",
-                        "", "efficiency", "efficiency");
+    text += fmt::format(". Core time: {:.3g} h.\n", v.core_time / seconds_per_hour);
+    if (v.machines.empty()) return text;
+    constexpr char const* line = "{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16} {:>7} {:>12}  {}\n";
+    text += "\n" + fmt::format(fmt::runtime(line), "machine", "stroke", "speed", "angle", "depth", "friction",
+                               "promised", "simulated", "", "probability", "by");
+    text += fmt::format(fmt::runtime(line), "", "mm", "1/min", "deg", "mm", "", "efficiency", "efficiency",
+                        "", "", "");
     int number = 0;
     for (SimulatedMachine const& m : v.machines) {
         ++number;
+        auto const digits = [](double value, int count) { return fmt::format("{:.{}g}", value, count); };
+        std::string const probability =
+            m.probability ? fmt::format("{:.1f} %", 100 * *m.probability) : "not known";
         for (ComparedLayer const& layer : m.layers) {
             bool const first = &layer == &m.layers.front();
             text +=
-                fmt::format("{:<8} {:>7.4g} {:>7.4g} {:>6.3g} {:>7.3g} {:>9.3f} {:>16} {:>16} {:>8} {:>12}\n",
-                            number, 2e3 * m.drive.amplitude, 60 * m.drive.frequency,
-                            m.drive.vibration_angle / degree, 1e3 * m.depth, layer.friction,
+                fmt::format(fmt::runtime(line), number, digits(2e3 * m.drive.amplitude, 4),
+                            digits(60 * m.drive.frequency, 4), digits(m.drive.vibration_angle / degree, 3),
+                            digits(1e3 * m.depth, 3), fmt::format("{:.3f}", layer.friction),
                             fmt::format("{:.3f} +- {:.3f}", layer.promised, layer.promised_half_width),
                             fmt::format("{:.3f} +- {:.3f}", layer.simulated, layer.simulated_half_width),
-                            layer.agrees() ? "agree" : "differ",
-                            first ? fmt::format("{:.1f} %", 100 * m.probability) : "");
+                            layer.agrees() ? "agree" : "differ", first ? probability : "", layer.model);
         }
     }
     return text;
@@ -90,6 +94,7 @@ Json verification_json(Verification const& v) {
         Json layers = Json::array();
         for (ComparedLayer const& layer : m.layers) {
             layers.push_back({{"friction", layer.friction},
+                              {"model", layer.model},
                               {"promised", layer.promised},
                               {"promised_half_width", layer.promised_half_width},
                               {"simulated", layer.simulated},
@@ -102,7 +107,7 @@ Json verification_json(Verification const& v) {
                                     {"vibration_angle_deg", m.drive.vibration_angle / degree},
                                     {"inclination_deg", m.drive.inclination / degree},
                                     {"layer_depth_mm", 1e3 * m.depth},
-                                    {"probability", m.probability},
+                                    {"probability", m.probability ? Json(*m.probability) : Json(nullptr)},
                                     {"layers", layers}});
     }
     return json;

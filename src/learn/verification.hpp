@@ -2,6 +2,7 @@
 
 #include "learn/risk_design.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace vibrotrough::learn {
 
-/// What a model promised of a layer, and what its simulation says. Half-widths are of 95 % intervals with
-/// numerical errors.
+/// What a model promised of a layer, and what its simulation says. Half-widths are of 95 % intervals; those
+/// of simulations contain the numerical errors, which promises of a model that rests on simulations share.
 struct ComparedLayer {
     double friction;                         ///< of the material on the trough
+    std::string model;                       ///< that promised it
     double promised, promised_half_width;    ///< velocity efficiency
     double simulated, simulated_half_width;  ///< velocity efficiency
 
@@ -26,15 +28,16 @@ struct SimulatedMachine {
     theory::Drive drive;                ///< of the machine
     double depth;                       ///< m, of its layer
     std::vector<ComparedLayer> layers;  ///< by friction, and within a friction by model
-    double probability;                 ///< that it carries the mass flow, by the corrected models
+    /// That it carries the mass flow, by the corrected models; nothing where their error is not known.
+    std::optional<double> probability;
 };
 
 /// How a verification ended.
 enum class Verdict {
     verified,    ///< the simulation agrees with the promise, and the mass flow is reached
     no_machine,  ///< by the corrected models, no machine within the limits reaches the mass flow
-    budget,      ///< the core time was not enough
-    not_steady,  ///< a layer has no steady speed
+    budget,      ///< core time or the number of machines was not enough
+    not_steady,  ///< a layer has no steady speed, or no result
 };
 
 /// The machines that were simulated for a task until simulation and promise agreed.

@@ -84,7 +84,7 @@ double share_by_model(Case record, double diameter, double attempts) {
 /// Attempts per cycle that would leave this share: ln(share) / (n ln(1 - p)).
 double attempts_per_cycle(Case record, double diameter, double share) {
     double const probability = prepare::passage_probability(record.scenario.screen, diameter);
-    if (probability <= 0 || share <= 0) return not_known;
+    if (probability <= 0 || share <= 0 || share >= 1) return not_known;
     return std::log(share) / (cycles_of(record) * std::log1p(-probability));
 }
 

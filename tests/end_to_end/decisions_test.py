@@ -182,7 +182,7 @@ class Engineer(EndToEndTest):
             (["--friction", "0.3", "--rpm", "960,5"], "decimal comma"),
             (["--friction", "0.3", "--verify"], "write --grain-diameter"),
             (["--friction", "0.3", "--verify", "--grain-diameter", "3 mm"], "write --rolling-friction 0.1, or 0"),
-            (["--friction", "0.3", "--budget", "1 core-hours"], "belongs to --verify"),
+            (["--friction", "0.3", "--budget", "1 core-hours"], "--budget requires --verify"),
             (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1"], "neither the point mass"),
         ):
             answer = self.call(*task, *words)

@@ -38,10 +38,7 @@ learn::DesignTask read_task(DesignArguments const& options) {
         throw core::InputError(
             "--rolling-friction: neither the point mass nor the rolling-layer law knows it; write --model "
             "atlas, --verify or --campaign as well, or leave it out");
-    if (!options.verify) {
-        if (options.budget) throw core::InputError("--budget: belongs to --verify");
-        return task;
-    }
+    if (!options.verify) return task;
     if (!task.grain_diameter)
         throw core::InputError(
             "--verify: simulates the layer and needs the size of its grains; write --grain-diameter \"3 "
@@ -51,6 +48,18 @@ learn::DesignTask read_task(DesignArguments const& options) {
             "--verify: simulates the layer and needs its rolling friction; write --rolling-friction 0.1, or "
             "0 "
             "for spheres that roll freely");
+    if (std::ranges::find(options.task.models, "surface") != options.task.models.end() ||
+        !options.task.surface.empty())
+        throw core::InputError(
+            "--verify: its layers are not those of the surface's campaign; simulate the machine with that "
+            "campaign's grains, or verify another model");
+    double const least = learn::least_simulated_depth * *task.grain_diameter;
+    if (task.depth.high < least)
+        throw core::InputError(fmt::format(
+            "--verify: simulates layers of {:g} diameters or more, {:.3g} mm here; allow a deeper layer with "
+            "--layer-depth",
+            learn::least_simulated_depth, 1e3 * least));
+    task.depth.low = std::max(task.depth.low, least);
     return task;
 }
 
@@ -92,11 +101,12 @@ int run_design(DesignArguments const& options) {
 }
 
 void add_verification(CLI::App& command, DesignArguments& options) {
-    auto const add = [&](CLI::Option* option) { option->group("Verification"); };
-    add(command.add_flag(
-        "--verify", options.verify,
-        "Simulate the machine at its own depth, with grains of --grain-diameter and "
-        "--rolling-friction; correct the models with the result, and repeat until both agree"));
+    CLI::Option* const verify = command.add_flag("--verify", options.verify,
+                                                 "Simulate the machine at its own depth, with grains of "
+                                                 "--grain-diameter and --rolling-friction; correct "
+                                                 "the models with the result, and repeat until both agree");
+    verify->group("Verification");
+    auto const add = [&](CLI::Option* option) { option->needs(verify)->group("Verification"); };
     add(command
             .add_option(
                 "--budget", options.budget,
@@ -166,9 +176,9 @@ Examples:
   vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
       --posterior friction.json --model point-mass,rolling-layer --objective least-machine-number \
       --page design.html --campaign check_design.toml
-  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "400 mm" --friction 0.3 --rpm 960 \
-      --machine-number 4 --grain-diameter "3.5 mm" --rolling-friction 0.1 --model rolling-layer \
-      --verify --budget "2 core-hours")";
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "400 mm" \
+      --friction 0.3 --rpm 960 --machine-number 4 --grain-diameter "3.5 mm" --rolling-friction 0.1 \
+      --model rolling-layer --verify --budget "2 core-hours")";
 
 }  // namespace
 
