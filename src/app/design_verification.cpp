@@ -33,7 +33,7 @@ constexpr double half_width = 0.08, box_length = 8, box_width = 5;
 /// What the simulation of one machine said.
 struct Simulated {
     std::vector<learn::SimulatedLayer> layers;  ///< with a steady speed
-    std::optional<std::string> not_steady;      ///< why one has none
+    std::optional<std::string> no_speed;        ///< why one has none
     double core_time = 0;                       ///< s
     bool is_interrupted = false, is_too_dear = false;
 };
@@ -45,14 +45,14 @@ void read_layers(campaign::Plan const& plan, theory::Drive const& drive, Simulat
         double const friction = planned.scenario().trough.friction;
         auto const summary = campaign::find_summary(planned);
         if (!summary) {
-            found.not_steady = fmt::format("the layer with a friction of {:.3f} has no result", friction);
+            found.no_speed = fmt::format("the layer with a friction of {:.3f} has no result", friction);
             continue;
         }
         store::CaseRecord const& record = summary->record;
         for (auto const& packing : record.packings) found.core_time += packing.core_time;
         if (!record.estimate.mean || !record.estimate.half_width) {
-            found.not_steady = fmt::format("the layer with a friction of {:.3f} ended as {}", friction,
-                                           core::name_of(record.outcome));
+            found.no_speed = fmt::format("the layer with a friction of {:.3f} ended as {}", friction,
+                                         core::name_of(record.outcome));
             continue;
         }
         auto const study = studied.find(planned.id);
@@ -103,7 +103,7 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
         for (learn::DesignModel const& model : task.models) {
             auto const said = model.at(layer.drive, layer.friction);
             if (!said) continue;
-            double const missed = std::hypot(said->sd(), model.missed(layer.drive, {}));
+            double const missed = std::hypot(said->statistics_sd, model.missed(layer.drive, {}));
             all.push_back({layer.friction, model.name, said->efficiency,
                            atlas::deviations_in_half_width * missed, layer.efficiency,
                            std::hypot(layer.statistics_half_width, layer.numerical_error)});
@@ -118,7 +118,7 @@ class Verifier {
     Verifier(learn::DesignTask const& task, VerificationOptions const& options)
         : original_(with_known_errors(task)),
           options_(options),
-          found_{original_, design_of(original_), {}} {}
+          found_{original_, propose_machine(original_), {}} {}
 
     VerifiedDesign run() {
         core::make_folder(options_.output);
@@ -128,9 +128,9 @@ class Verifier {
             if (found_.design.feasible && was_simulated(found_.design))
                 return ended(learn::Verdict::verified, "");
             if (!try_machine(number)) return found_;
-            found_.design = design_of(found_.task);
+            found_.design = propose_machine(found_.task);
         }
-        return ended(learn::Verdict::budget, fmt::format("{} machines were not enough", most_machines));
+        return ended(learn::Verdict::too_many, fmt::format("{} machines were not enough", most_machines));
     }
 
   private:
@@ -144,14 +144,6 @@ class Verifier {
             model.discrepancy = std::sqrt(squares / static_cast<double>(task.friction.discrepancies.size()));
         }
         return task;
-    }
-
-    static learn::RiskDesign design_of(learn::DesignTask const& task) {
-        try {
-            return learn::design_with_risk(task);
-        } catch (std::invalid_argument const& error) {
-            throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
-        }
     }
 
     /// Whether the last machine that was simulated is this one.
@@ -200,8 +192,8 @@ class Verifier {
             return false;
         }
         verification().core_time += simulated.core_time;
-        if (simulated.not_steady) {
-            ended(learn::Verdict::not_steady, *simulated.not_steady);
+        if (simulated.no_speed) {
+            ended(learn::Verdict::no_speed, *simulated.no_speed);
             return false;
         }
         return !accepts(file, simulated.layers);
@@ -240,6 +232,14 @@ class Verifier {
 };
 
 }  // namespace
+
+learn::RiskDesign propose_machine(learn::DesignTask const& task) {
+    try {
+        return learn::design_with_risk(task);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
+    }
+}
 
 VerifiedDesign verify_design(learn::DesignTask const& task, VerificationOptions const& options) {
     return Verifier(task, options).run();

@@ -24,6 +24,10 @@ struct VerifiedDesign {
     bool is_interrupted = false;       ///< by a signal; the same call goes on
 };
 
+/// The machine that a task's models propose, simulated or not.
+/// @throws core::InputError when no machine keeps the limits of the task
+learn::RiskDesign propose_machine(learn::DesignTask const& task);
+
 /// Simulates the machine that a task's models propose, at its own depth and with grains of its diameter, at
 /// the median of the friction and at the ends of its central 95 %; corrects the models with what the layers
 /// say, and repeats, until a machine's simulation agrees with what was promised of it and the mass flow is

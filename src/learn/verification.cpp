@@ -29,7 +29,8 @@ std::string first_words(DesignTask const& task, Verification const& v) {
                          "it "
                          "so surely";
         case Verdict::budget:
-        case Verdict::not_steady:
+        case Verdict::too_many:
+        case Verdict::no_speed:
             return "Not verified";
     }
     return "";
@@ -43,8 +44,10 @@ char const* name_of(Verdict verdict) {
             return "no-machine";
         case Verdict::budget:
             return "budget";
-        case Verdict::not_steady:
-            return "not-steady";
+        case Verdict::too_many:
+            return "too-many";
+        case Verdict::no_speed:
+            return "no-speed";
     }
     return "";
 }

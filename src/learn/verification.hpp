@@ -10,8 +10,9 @@
 
 namespace vibrotrough::learn {
 
-/// What a model promised of a layer, and what its simulation says. Half-widths are of 95 % intervals; those
-/// of simulations contain the numerical errors, which promises of a model that rests on simulations share.
+/// What a model promised of a layer, and what its simulation says. Half-widths are of 95 % intervals. That of
+/// the simulation contains its numerical errors; that of the promise does not, since a model that rests on
+/// simulations has the same ones.
 struct ComparedLayer {
     double friction;                         ///< of the material on the trough
     std::string model;                       ///< that promised it
@@ -36,8 +37,9 @@ struct SimulatedMachine {
 enum class Verdict {
     verified,    ///< the simulation agrees with the promise, and the mass flow is reached
     no_machine,  ///< by the corrected models, no machine within the limits reaches the mass flow
-    budget,      ///< core time or the number of machines was not enough
-    not_steady,  ///< a layer has no steady speed, or no result
+    budget,      ///< the core time was not enough
+    too_many,    ///< it was not found among the machines that are simulated at most
+    no_speed,    ///< a layer has no steady speed, or no result
 };
 
 /// The machines that were simulated for a task until simulation and promise agreed.
@@ -51,7 +53,8 @@ struct Verification {
 /// The machines, promises and simulations for people, after the verdict in a sentence.
 std::string verification_text(DesignTask const& task, Verification const& verification);
 
-/// All numbers for programs: `verdict` (verified, no-machine, budget, not-steady), `why`, `core_hours`,
+/// All numbers for programs: `verdict` (verified, no-machine, budget, too-many,
+/// no-speed), `why`, `core_hours`,
 /// `machines`.
 nlohmann::ordered_json verification_json(Verification const& verification);
 

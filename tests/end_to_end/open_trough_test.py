@@ -2,13 +2,12 @@
 overfed trough end as they should."""
 
 import json
-import signal
 import unittest
 
 import h5py
 import numpy as np
 
-from trough_program import EndToEndTest, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest
 
 OPEN = {
     "layer.grains": None,
@@ -72,21 +71,7 @@ class OpenTrough(EndToEndTest):
 
     def test_a_killed_run_gives_the_same_numbers(self):
         campaign = self.write_campaign({**OPEN, "measure.packings": 1})
-        undisturbed = self.folder / "undisturbed"
-        self.run_campaign(campaign, undisturbed, wanted=None)
-
-        def sealed_cycle():
-            seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
-            return json.loads(seals[0].read_text())["cycle"] if seals else 0
-
-        driver = self.start_campaign(campaign)
-        wait_until(lambda: sealed_cycle() >= 8 or driver.poll() is not None, "a checkpoint was sealed")
-        driver.send_signal(signal.SIGKILL)
-        self.finish(driver)
-        wait_until(lambda: not processes_in(self.output), "the engine was gone")
-        self.run_campaign(campaign, wanted=None)
-        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
-        one, other = (next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed))
+        one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
         with h5py.File(one) as file, h5py.File(other) as same:
             for table in ("flow/1", "along/1", "residence/1"):
                 np.testing.assert_array_equal(file[table][()], same[table][()], table)

@@ -1,14 +1,13 @@
 """A screen with the real engine: its numbers against the engine's files, in result.h5, in ParaView's files, after a kill, in a bundle, and when nothing is left on it."""
 
 import json
-import signal
 import unittest
 
 import h5py
 import numpy as np
 from vtk import vtkXMLPolyDataReader
 
-from trough_program import EndToEndTest, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest
 
 # Grains of 2.7, 3 and 3.3 mm on openings of 3.2 mm, for 24 cycles.
 SCREEN = {
@@ -98,21 +97,7 @@ class Screen(EndToEndTest):
 
     def test_a_killed_run_gives_the_same_numbers(self):
         campaign = self.write_screen({"measure.packings": 1})
-        undisturbed = self.folder / "undisturbed"
-        self.run_campaign(campaign, undisturbed)
-
-        def sealed_cycle():
-            seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
-            return json.loads(seals[0].read_text())["cycle"] if seals else 0
-
-        driver = self.start_campaign(campaign)
-        wait_until(lambda: sealed_cycle() >= 6 or driver.poll() is not None, "a checkpoint was sealed")
-        driver.send_signal(signal.SIGKILL)
-        self.finish(driver)
-        wait_until(lambda: not processes_in(self.output), "the engine was gone")
-        self.run_campaign(campaign)
-        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
-        one, other = (next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed))
+        one, other = self.results_with_and_without_a_kill(campaign, 6)
         with h5py.File(one) as file, h5py.File(other) as same:
             for table in ("partition", "screening", "passed/1", "screen/1"):
                 self.assertEqual(file[table][()].tobytes(), same[table][()].tobytes(), table)

@@ -207,6 +207,25 @@ class EndToEndTest(unittest.TestCase):
         output, errors = process.communicate(timeout=PATIENCE)
         return process.returncode, output, errors
 
+    def results_with_and_without_a_kill(self, campaign, cycle, wanted=0):
+        """Runs a campaign of one packing twice: driver and engine are killed when `cycle` is sealed and go on, or are left alone.
+        `compare` says the same of both. Returns both results."""
+        undisturbed = self.folder / "undisturbed"
+        self.run_campaign(campaign, undisturbed, wanted=wanted)
+
+        def sealed_cycle():
+            seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
+            return json.loads(seals[0].read_text())["cycle"] if seals else 0
+
+        driver = self.start_campaign(campaign)
+        wait_until(lambda: sealed_cycle() >= cycle or driver.poll() is not None, "a checkpoint was sealed")
+        driver.send_signal(signal.SIGKILL)
+        self.finish(driver)
+        wait_until(lambda: not processes_in(self.output), "the engine was gone")
+        self.run_campaign(campaign, wanted=wanted)
+        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
+        return [next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed)]
+
     def ask_json(self, command, output=None):
         answer = self.call(command, output or self.output, "--json")
         self.assertEqual(answer.returncode, 0, answer.stderr)

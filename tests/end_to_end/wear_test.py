@@ -1,7 +1,6 @@
 """The wear of the trough with the real engine: its numbers against the engine's files, in result.h5, in ParaView's files, after a kill and in a bundle."""
 
 import json
-import signal
 import unittest
 
 import h5py
@@ -9,7 +8,7 @@ import numpy as np
 from vtk import vtkXMLPolyDataReader
 from vtk.util.numpy_support import vtk_to_numpy
 
-from trough_program import EndToEndTest, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest
 
 SHORT = {"measure.wear": True, "measure.min_cycles": 24, "measure.max_cycles": 24, "output.checkpoint_cycles": 8}
 COLUMNS = ["wear_rate_w_per_m2", "wear_rate_half_width_w_per_m2", "specific_wear_j_per_t_m", "specific_wear_half_width_j_per_t_m"]
@@ -94,21 +93,7 @@ class Wear(EndToEndTest):
 
     def test_a_killed_run_gives_the_same_numbers(self):
         campaign = self.write_campaign(SHORT | {"measure.packings": 1})
-        undisturbed = self.folder / "undisturbed"
-        self.run_campaign(campaign, undisturbed, wanted=None)
-
-        def sealed_cycle():
-            seals = list(self.output.glob("cases/*/packing-1/checkpoint.json"))
-            return json.loads(seals[0].read_text())["cycle"] if seals else 0
-
-        driver = self.start_campaign(campaign)
-        wait_until(lambda: sealed_cycle() >= 8 or driver.poll() is not None, "a checkpoint was sealed")
-        driver.send_signal(signal.SIGKILL)
-        self.finish(driver)
-        wait_until(lambda: not processes_in(self.output), "the engine was gone")
-        self.run_campaign(campaign, wanted=None)
-        self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
-        one, other = (next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed))
+        one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
         with h5py.File(one) as file, h5py.File(other) as same:
             np.testing.assert_array_equal(file["wear/1"][()], same["wear/1"][()])
 

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,13 +40,12 @@ learn::DesignTask read_task(DesignArguments const& options) {
     if (!options.verify) return task;
     if (!task.grain_diameter)
         throw core::InputError(
-            "--verify: simulates the layer and needs the size of its grains; write --grain-diameter \"3 "
-            "mm\"");
+            "--verify: simulates the layer and needs the size of its grains; write "
+            "--grain-diameter \"3 mm\"");
     if (!task.rolling_friction)
         throw core::InputError(
-            "--verify: simulates the layer and needs its rolling friction; write --rolling-friction 0.1, or "
-            "0 "
-            "for spheres that roll freely");
+            "--verify: simulates the layer and needs its rolling friction; write --rolling-friction "
+            "0.1, or 0 for spheres that roll freely");
     if (std::ranges::find(options.task.models, "surface") != options.task.models.end() ||
         !options.task.surface.empty())
         throw core::InputError(
@@ -65,15 +63,11 @@ learn::DesignTask read_task(DesignArguments const& options) {
 
 /// Verifies the design unless it was not asked for; tells how.
 VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask const& task) {
-    try {
-        if (!options.verify) return {task, learn::design_with_risk(task), {}};
-        VerificationOptions how = options.verification;
-        if (options.budget) how.budget = read_core_time(*options.budget);
-        if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
-        return verify_design(task, how);
-    } catch (std::invalid_argument const& error) {
-        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
-    }
+    if (!options.verify) return {task, propose_machine(task), {}};
+    VerificationOptions how = options.verification;
+    if (options.budget) how.budget = read_core_time(*options.budget);
+    if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
+    return verify_design(task, how);
 }
 
 int run_design(DesignArguments const& options) {

@@ -111,7 +111,7 @@ std::shared_ptr<File const> read_once(std::map<std::string, std::shared_ptr<File
 
 /// The rows of the table by the sections that they describe.
 std::span<Key const> trough_keys();
-std::span<Key const> grains_keys();    ///< [grains] and [layer]
+std::span<Key const> grains_keys();    ///< [grains], [layer], [feed] and [screen]
 std::span<Key const> material_keys();  ///< [[materials]] and [[pairs]], one row for each entry of a list
 std::span<Key const> stage_keys();     ///< [[stages]], one row for each entry
 std::span<Key const> plan_keys();      ///< [measure], [output], [solver] and [engine]
