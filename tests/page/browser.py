@@ -113,7 +113,11 @@ class Browser:
         return json.loads(done["result"]["value"]) if done["result"]["type"] == "string" else None
 
     def wait(self, condition: str) -> None:
-        self._waited(lambda: self.run(f"Boolean({condition})"))
+        try:
+            self._waited(lambda: self.run(f"Boolean({condition})"))
+        except TimeoutError:
+            state = self.run("({...document.documentElement.dataset, hidden: document.hidden, focus: document.activeElement.outerHTML.slice(0, 200)})")
+            raise TimeoutError(f"the page did not get to: {condition}; it is {state}, its console {self.console}") from None
 
     def text(self, identity: str) -> str:
         return str(self.run(f"document.getElementById('{identity}').textContent"))
