@@ -44,6 +44,8 @@ void add_compare(CLI::App& program, int& exit_code);
 void add_archive(CLI::App& program, int& exit_code);
 /// Measures the friction of layers as a whole.
 void add_friction_test(CLI::App& program, int& exit_code);
+/// Finds the largest feed of an open trough.
+void add_capacity(CLI::App& program, int& exit_code);
 /// Measures the numerical error of a campaign's results.
 void add_convergence(CLI::App& program, int& exit_code);
 /// Learns the velocity efficiency over a domain.

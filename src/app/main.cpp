@@ -73,6 +73,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_status(program, exit_code);
     add_friction_test(program, exit_code);
     add_convergence(program, exit_code);
+    add_capacity(program, exit_code);
     add_compare(program, exit_code);
     add_archive(program, exit_code);
     add_learn(program, exit_code);

@@ -151,6 +151,13 @@ void check_filling(std::vector<Finding>& findings, prepare::PreparedCase const& 
              fmt::format("raise it to {:.0f} or more, and max_cycles with it, so that the trough is full for "
                          "half of the cycles",
                          std::ceil(2 * cycles))));
+    double const needed = layer_height(s) + 2 * largest_diameter(s);
+    findings.push_back(
+        most("expected layer and two grains / height of the feed", "feed.height", needed / feed_height(s), 1,
+             never,
+             fmt::format("the case may end as overfull: raise it to {:.3g} mm or more, or feed less; the "
+                         "expected layer is known within a factor of two",
+                         1e3 * needed)));
 }
 
 /// Measured at throw number 2: lengths of 8, 12 and 24 diameters give eta 0.822, 0.826 and 0.79 to 0.81.

@@ -28,7 +28,7 @@ ARGUMENTS = {
     "init": ("--output", "{o}.toml"), "run": ("{c}", "--output", "{r}"), "plan": ("{c}",), "prepare": ("{c}", "--task-list", "{o}", "--output", "{r}"),
     "work": ("{r}", "--task-list", "{c}", "--index", "0"), "keys": (), "quantities": (), "deck": ("{c}", "--output", "{o}"), "measure": ("{r}",),
     "status": ("{r}",), "friction-test": ("{c}", "--output", "{r}", "--liggghts", "/nonexistent"), "convergence": ("{r}", "--liggghts", "/nonexistent"),
-    "compare": ("{r}", "--csv"), "archive": ("{r}", "--output", "{o}.zip"), "learn": ("{c}", "--half-width", "0.03", "--budget", "1 core-hours"),
+    "capacity": ("{c}", "--output", "{r}"), "compare": ("{r}", "--csv"), "archive": ("{r}", "--output", "{o}.zip"), "learn": ("{c}", "--half-width", "0.03", "--budget", "1 core-hours"),
     "predict": ("{r}", "--at", "throw_number=1.9"), "calibrate": ("{r}", "--measured", "{s}", "--free", "trough.friction"),
     "design": ("--mass-flow", "12 t/h", "--bulk-density", "600 kg/m3", "--width", "300 mm", "--friction", "nothing"), "export": ("{r}",),
     "plot": ("{r}", "--python", "/nonexistent"), "report": ("{r}", "--python", "/nonexistent"), "check": ("{c}",), "probe-engine": ("--liggghts", "/nonexistent"),

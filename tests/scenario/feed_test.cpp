@@ -64,7 +64,8 @@ TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"8 mm\"\n")), HasSubstr("feed.length"));
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"150 mm\"\n")),
                 HasSubstr("half of the trough"));
-    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nheight = \"5 mm\"\n")), HasSubstr("too low"));
+    EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nheight = \"5 mm\"\n")),
+                HasSubstr("less than 3 of the largest diameters"));
     EXPECT_THAT(error(with("diameter_spread = 0.1", "shape = \"cube\"", fed())),
                 HasSubstr("fed with spheres"));
     EXPECT_THAT(error(fed() + "[[materials]]\nname = \"b\"\nmass_fraction = 0.1\n"),

@@ -168,11 +168,14 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
                         "largest diameters ({:.6g} m each) to half of the trough",
                         length, s.layer.length, largest),
             fmt::format("write feed.length = \"{:.6g} mm\", or lengthen the trough", 4e3 * largest));
-    if (feed_height(s) < layer_height(s) + 2 * largest)
-        given.fail("feed.height",
-                   fmt::format("{:.6g} m is too low: the layer will be about {:.3g} m high", feed_height(s),
-                               layer_height(s)),
-                   fmt::format("write at least \"{:.6g} mm\"", 1e3 * (layer_height(s) + 2 * largest)));
+    if (feed_height(s) < 3 * largest)
+        given.fail(
+            "feed.height",
+            fmt::format(
+                "{:.6g} m is less than 3 of the largest diameters: grains would find no room above those "
+                "that lie on the floor",
+                feed_height(s)),
+            fmt::format("write at least \"{:.6g} mm\"", 3e3 * largest));
     if (feed_speed(s) > fastest)
         given.fail(
             "feed.mass_flow",

@@ -1,0 +1,48 @@
+#include "learn/capacity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace vibrotrough::learn {
+namespace {
+
+/// Twelve doublings are a factor of 4096: the first feed was no guess of this trough's.
+constexpr std::size_t most_steps_without_bracket = 12;
+
+double to_three_digits(double value) {
+    double const step = std::pow(10.0, std::floor(std::log10(value)) - 2);
+    return std::round(value / step) * step;
+}
+
+}  // namespace
+
+CapacityBounds capacity_bounds(std::vector<FeedTrial> const& trials) {
+    CapacityBounds bounds;
+    for (FeedTrial const& trial : trials) {
+        if (!trial.is_carried)
+            bounds.refused = std::min(bounds.refused.value_or(trial.mass_flow), trial.mass_flow);
+    }
+    for (FeedTrial const& trial : trials) {
+        if (!trial.is_carried) continue;
+        std::optional<double>& place =
+            bounds.refused && trial.mass_flow >= *bounds.refused ? bounds.contradiction : bounds.carried;
+        place = std::max(place.value_or(trial.mass_flow), trial.mass_flow);
+    }
+    return bounds;
+}
+
+std::optional<double> next_feed(std::vector<FeedTrial> const& trials, double first, double precision) {
+    if (trials.empty()) return first;
+    CapacityBounds const bounds = capacity_bounds(trials);
+    if (bounds.carried && bounds.refused) {
+        if (*bounds.refused <= *bounds.carried * (1 + precision)) return std::nullopt;
+        double const middle = std::sqrt(*bounds.carried * *bounds.refused);
+        double const rounded = to_three_digits(middle);
+        return rounded > *bounds.carried && rounded < *bounds.refused ? rounded : middle;
+    }
+    if (trials.size() >= most_steps_without_bracket) return std::nullopt;
+    return bounds.carried ? 2 * *bounds.carried : *bounds.refused / 2;
+}
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,69 @@
+// The search for the largest feed of an open trough: C with every feed <= C carried and every larger one not.
+
+#include "learn/capacity.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+using testing::DoubleEq;
+using testing::Optional;
+
+/// All feeds that are tried until the search ends by itself.
+std::vector<FeedTrial> search(double capacity, double first, double precision) {
+    std::vector<FeedTrial> trials;
+    while (auto const feed = next_feed(trials, first, precision))
+        trials.push_back({*feed, *feed <= capacity});
+    return trials;
+}
+
+TEST(Capacity, BeginsWithTheFirstFeedAndDoublesOrHalves) {
+    EXPECT_THAT(next_feed({}, 3, 0.1), Optional(3.0));
+    EXPECT_THAT(next_feed({{3, true}}, 3, 0.1), Optional(6.0));
+    EXPECT_THAT(next_feed({{3, false}}, 3, 0.1), Optional(1.5));
+    // sqrt(3 * 6) = 4.2426, of which three digits are kept.
+    EXPECT_THAT(next_feed({{3, true}, {6, false}}, 3, 0.1), Optional(DoubleEq(4.24)));
+}
+
+// The bracket holds the capacity, and its ratio is at most 1 + precision. From a factor of two it takes
+// log2(ln 2 / ln(1 + precision)) halvings of its logarithm: 6.1 for 1 %; rounding to three digits may cost
+// one.
+RC_GTEST_PROP(Capacity, IsBracketedAsPreciselyAsAsked, ()) {
+    double const capacity = std::exp(*rc::gen::inRange(-6000, 6000) / 1000.0);
+    double const precision = *rc::gen::inRange(10, 500) / 1000.0;
+    auto const trials = search(capacity, 1, precision);
+    CapacityBounds const bounds = capacity_bounds(trials);
+    RC_ASSERT(bounds.carried.has_value());
+    RC_ASSERT(bounds.refused.has_value());
+    RC_ASSERT(!bounds.contradiction.has_value());
+    RC_ASSERT(*bounds.carried <= capacity);
+    RC_ASSERT(*bounds.refused > capacity);
+    RC_ASSERT(*bounds.refused <= *bounds.carried * (1 + precision));
+    double const doublings = std::ceil(std::abs(std::log2(capacity))) + 1;
+    double const halvings = std::ceil(std::log2(std::log(2) / std::log1p(precision))) + 1;
+    RC_ASSERT(static_cast<double>(trials.size()) <= doublings + 1 + std::max(0.0, halvings));
+}
+
+TEST(Capacity, EndsWhereNothingIsRefusedOrNothingIsCarried) {
+    EXPECT_EQ(search(1e300, 1, 0.1).size(), 12);
+    EXPECT_EQ(search(0, 1, 0.1).size(), 12);
+    EXPECT_FALSE(capacity_bounds(search(1e300, 1, 0.1)).refused);
+    EXPECT_FALSE(capacity_bounds(search(0, 1, 0.1)).carried);
+}
+
+// Of trials of an earlier call, or near the capacity by chance: what was carried above a refusal does not
+// count.
+TEST(Capacity, NamesAContradiction) {
+    CapacityBounds const bounds = capacity_bounds({{4, true}, {2, false}, {1, true}, {3, true}});
+    EXPECT_THAT(bounds.carried, Optional(1.0));
+    EXPECT_THAT(bounds.refused, Optional(2.0));
+    EXPECT_THAT(bounds.contradiction, Optional(4.0));
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn
