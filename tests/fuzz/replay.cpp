@@ -1,4 +1,5 @@
-// In place of libFuzzer: hands every file of the folders that are named to the target once, with any compiler and without a sanitizer.
+// In place of libFuzzer: hands every file of the folders that are named to the target once, with any compiler
+// and without a sanitizer.
 
 #include "core/atomic_file.hpp"
 
