@@ -201,15 +201,15 @@ feed.mass_flow count as well. Ctrl-C stops cleanly, and the same command continu
 
 Exit codes:
     0  the capacity is known
-    1  only one side of it is known: twelve feeds in a row were carried, or were not, or the next one does not fit
-       through the zone that the feed falls into
+    1  only one side of it is known: twelve feeds in a row were carried, or were not, or the next
+       one does not fit through the zone that the feed falls into
     2  the input is wrong
-    3  something is missing: no liggghts, one that failed its probes, no disk space, or a feed that failed otherwise
+    3  something is missing: no liggghts, one that failed its probes, no disk space, or the result
+       of a feed that failed for another reason
   130  interrupted
 
 Example:
-  vibrotrough init open
-  vibrotrough capacity open.toml --jobs 2)");
+  vibrotrough capacity open.toml --jobs 2        # with the file of 'vibrotrough init open')");
     command->callback([options, &exit_code] {
         double const precision = options->precision
                                      ? read_number_within("--precision", *options->precision, "0.1", 0.005, 1)
