@@ -47,7 +47,8 @@ class Capacity(EndToEndTest):
 
     def test_a_feed_that_cannot_be_simulated_ends_the_search(self):
         """A stream faster than 1.5 m/s is refused: what the trough itself could carry is not known then."""
-        campaign = self.write_campaign({**LOW, "feed.length": "14 mm", "feed.height": "60 mm", "feed.mass_flow": "0.15 t/h"})
+        campaign = self.write_campaign({**LOW, "layer.length": "45 mm", "measure.min_cycles": 20, "measure.max_cycles": 20,
+                                        "feed.length": "14 mm", "feed.height": "60 mm", "feed.mass_flow": "0.15 t/h"})
         done = self.search(campaign, "--precision", 1)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertRegex(done.stdout, "cannot be simulated: .*does not fit through a zone")

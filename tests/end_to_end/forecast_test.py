@@ -9,7 +9,7 @@ from trough_program import EndToEndTest
 # The demo's range of throw numbers, in the order in which the cases run; the first tenth is one case.
 THROW_NUMBERS = [2.0, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.75, 3.0]
 # The 60 grains are so soft and their box so small that their cases end as not-precise: statistics get all of this.
-PLAN = {"measure.packings": 4, "measure.max_packings": 16, "measure.half_width": 0.06, "measure.max_cycles": 96}
+PLAN = {"measure.packings": 4, "measure.max_packings": 16, "measure.half_width": 0.06, "measure.max_cycles": 48}
 
 
 class Forecast(EndToEndTest):

@@ -6,7 +6,7 @@ import h5py
 
 from trough_program import EndToEndTest
 
-QUICK = {"measure.packings": 1, "measure.max_cycles": 60, "measure.half_width": 0.5}
+QUICK = {"measure.packings": 1, "measure.max_cycles": 24, "measure.half_width": 0.5}
 
 
 class Grains(EndToEndTest):

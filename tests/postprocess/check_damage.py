@@ -1,12 +1,13 @@
 """Takes away, one after the other, what figures and report are drawn from, or gives it another type: nobody sees a traceback.
 
-usage: check_damage.py SCRIPTS SAMPLE COLUMNS WORK
-COLUMNS is the program that prints the columns as campaign.json describes them. Every file keeps a right checksum: what is damaged by chance is
+usage: check_damage.py SCRIPTS SAMPLE COLUMNS WORK EVERY
+COLUMNS is the program that prints the columns as campaign.json describes them. Of the changes one of EVERY is made. Every file keeps a right checksum: what is damaged by chance is
 refused before.
 """
 
 import contextlib
 import io
+import itertools
 import json
 import pathlib
 import re
@@ -107,7 +108,7 @@ def said_by(call):
     return errors.getvalue(), gave_up
 
 
-def main(scripts, sample, columns, work):
+def main(scripts, sample, columns, work, every):
     sys.path.insert(0, scripts)
     sys.dont_write_bytecode = True
     import figures
@@ -120,7 +121,7 @@ def main(scripts, sample, columns, work):
     described = json.loads(subprocess.run([columns], capture_output=True, text=True, check=True).stdout)
     folder = make_campaign(pathlib.Path(sample), described, work)
     tried = drawn = 0
-    for what, happen in changes(folder, scripts):
+    for what, happen in itertools.islice(changes(folder, scripts), 0, None, int(every)):
         undo = happen()
         # Figures of the campaign read campaign.h5 and the notes, those of a case its result.h5, and both show names.
         of_campaign = ("efficiency", "residuals", "budget")
@@ -143,10 +144,10 @@ def main(scripts, sample, columns, work):
                 assert "left out" not in said and not gave_up, f"a name is only a name: {what}: {said}"
         undo()
     print(f"{tried} tried, {drawn} figures drawn")
-    assert tried > 120 and drawn > 100
+    assert tried > 120 / int(every) and drawn > 100 / int(every)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 6:
         sys.exit(__doc__)
     main(*sys.argv[1:])

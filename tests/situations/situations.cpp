@@ -235,8 +235,8 @@ std::vector<std::string> classes_of(Situations const& all) {
     return {kinds.begin(), kinds.end()};
 }
 
-/// Looks at every `workers`-th situation, from number `first` on.
-void look_at_part(std::size_t first, std::size_t workers, Shared& shared) {
+/// Looks at one situation of `every`: the share of the worker `first` of `workers`.
+void look_at_part(std::size_t first, std::size_t workers, std::size_t every, Shared& shared) {
     constexpr std::size_t shown_in_full = 4;  // of so many situations one is also reported and archived
     CampaignOnDisk const campaign;
     core::TemporaryFolder const scratch;
@@ -244,9 +244,9 @@ void look_at_part(std::size_t first, std::size_t workers, Shared& shared) {
         static_cast<char*>(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
     Situations const all = make_situations(campaign);
     auto const kinds = classes_of(all);
-    for (std::size_t i = first; i < all.size(); i += workers) {
+    for (std::size_t i = first * every; i < all.size(); i += workers * every) {
         auto const kind = static_cast<std::size_t>(std::ranges::find(kinds, all[i].kind) - kinds.begin());
-        Depth const depth = i / workers % shown_in_full == 0 ? Depth::published : Depth::shown;
+        Depth const depth = i / (workers * every) % shown_in_full == 0 ? Depth::published : Depth::shown;
         std::string const fault = look(campaign, all[i], depth, scratch.path(), words);
         ++shared.tried.at(kind);
         if (fault.empty()) {
@@ -261,7 +261,7 @@ void look_at_part(std::size_t first, std::size_t workers, Shared& shared) {
     }
 }
 
-int print_table(Shared const& shared) {
+int print_table(Shared const& shared, int wanted) {
     auto const kinds = classes_of(make_situations(CampaignOnDisk()));
     int count = 0, held = 0;
     fmt::print("{:<36} {:>6} {:>6}\n", "class", "tried", "held");
@@ -271,29 +271,31 @@ int print_table(Shared const& shared) {
         held += shared.held.at(i);
     }
     fmt::print("{:<36} {:>6} {:>6}\n", "all", count, held);
-    return count == held && count >= 5000 ? 0 : 1;
+    return count == held && count >= wanted ? 0 : 1;
 }
 
-int look_at_all() {
+/// @param every  one situation of so many is looked at
+int look_at(int every) {
     auto* const memory =
         ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     auto& shared = *new (memory) Shared{};
     std::size_t const workers = std::max(1U, std::thread::hardware_concurrency());
     for (std::size_t worker = 0; worker < workers; ++worker) {
         if (::fork() != 0) continue;
-        look_at_part(worker, workers, shared);
+        look_at_part(worker, workers, static_cast<std::size_t>(every), shared);
         std::_Exit(0);
     }
     bool all_ended = true;
     for (int status = 0; ::wait(&status) > 0;)
         all_ended = all_ended && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    int const code = print_table(shared);
+    int const code = print_table(shared, 5000 / every);
     return all_ended ? code : 1;
 }
 
 }  // namespace
 }  // namespace vibrotrough::situations
 
-int main() {
-    return vibrotrough::situations::look_at_all();
+// situations [EVERY]: looks at one situation of EVERY; at all by default.
+int main(int count, char** words) {
+    return vibrotrough::situations::look_at(count > 1 ? std::max(1, std::atoi(words[1])) : 1);
 }
