@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "learn/calibration.hpp"
+#include "learn/joint_misfit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@ constexpr int starts = 5;
 class ChiSquare {
   public:
     ChiSquare(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
-              std::vector<MeasuredSpeed> const& speeds)
-        : model_(model), parameters_(parameters), speeds_(speeds) {}
+              std::vector<MeasuredSpeed> const& speeds, double common_error)
+        : model_(model), parameters_(parameters), speeds_(speeds), common_error_(common_error) {}
 
     std::vector<double> values(std::vector<double> const& cube) const {
         std::vector<double> result;
@@ -31,16 +32,8 @@ class ChiSquare {
     }
 
     double operator()(std::vector<double> const& cube) const {
-        std::vector<double> const at = values(cube);
-        double sum = 0;
-        for (MeasuredSpeed const& measured : speeds_) {
-            auto const answer = model_(at, measured);
-            if (!answer) return impossible;
-            double const misfit =
-                (measured.speed - answer->speed) / std::hypot(measured.uncertainty, answer->sd);
-            sum += misfit * misfit;
-        }
-        return std::min(sum, impossible);
+        auto const misfit = joint_misfit(model_, values(cube), speeds_, 0, common_error_);
+        return misfit ? std::min(misfit->chi_square, impossible) : impossible;
     }
 
     static double for_nlopt(std::vector<double> const& cube, std::vector<double>&, void* self) {
@@ -51,6 +44,7 @@ class ChiSquare {
     SpeedModel const& model_;
     std::vector<FreeParameter> const& parameters_;
     std::vector<MeasuredSpeed> const& speeds_;
+    double common_error_;
 };
 
 /// Points spread over the unit cube: the additive recurrence of M. Roberts' generalised golden ratio.
@@ -71,8 +65,8 @@ std::vector<std::vector<double>> spread_points(std::size_t dimensions, int count
 }  // namespace
 
 BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
-                 std::vector<MeasuredSpeed> const& speeds) {
-    ChiSquare chi_square(model, parameters, speeds);
+                 std::vector<MeasuredSpeed> const& speeds, double common_error) {
+    ChiSquare chi_square(model, parameters, speeds, common_error);
     std::vector<std::pair<double, std::vector<double>>> points;
     for (auto& point : spread_points(parameters.size(), 400)) {
         double const value = chi_square(point);

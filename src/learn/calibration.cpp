@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "inference/diagnostics.hpp"
+#include "learn/joint_misfit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,21 +16,6 @@ namespace {
 constexpr double impossible = -std::numeric_limits<double>::infinity();
 /// Draws of the posterior for which the misfits are worked out.
 constexpr int draws_for_misfits = 1000;
-
-double log_likelihood(SpeedModel const& model, std::span<double const> values,
-                      std::vector<MeasuredSpeed> const& speeds, double discrepancy) {
-    double sum = 0;
-    for (MeasuredSpeed const& measured : speeds) {
-        auto const answer = model(values, measured);
-        if (!answer) return impossible;
-        double const off = discrepancy * answer->trough_speed;
-        double const variance =
-            measured.uncertainty * measured.uncertainty + answer->sd * answer->sd + off * off;
-        double const misfit = measured.speed - answer->speed;
-        sum -= 0.5 * (misfit * misfit / variance + std::log(variance));
-    }
-    return sum;
-}
 
 Estimate estimate(FreeParameter const& parameter, std::vector<double> draws, double rhat, double ess) {
     Estimate e{parameter,
@@ -51,7 +37,7 @@ Estimate estimate(FreeParameter const& parameter, std::vector<double> draws, dou
 }
 
 std::vector<Misfit> misfits(SpeedModel const& model, inference::Sample const& sample, std::size_t parameters,
-                            std::vector<MeasuredSpeed> const& speeds) {
+                            std::vector<MeasuredSpeed> const& speeds, double common_error) {
     int const total = sample.chains * sample.draws;
     int const step = std::max(1, total / draws_for_misfits);
     std::vector<Misfit> result;
@@ -63,7 +49,8 @@ std::vector<Misfit> misfits(SpeedModel const& model, inference::Sample const& sa
             auto const answer = model(draw, measured);
             if (!answer) continue;  // cannot happen: the density is zero there
             answers.push_back(answer->speed);
-            variance += answer->sd * answer->sd;
+            double const common = std::hypot(answer->common_sd, common_error * answer->trough_speed);
+            variance += answer->sd * answer->sd + common * common;
         }
         variance /= static_cast<double>(answers.size());
         Misfit one{measured, inference::quantile(answers, 0.5), inference::quantile(answers, 0.025),
@@ -108,7 +95,7 @@ std::vector<inference::Bounds> highest_density_ranges(std::vector<double> const&
 
 Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
                       std::vector<MeasuredSpeed> const& speeds, CalibrationSettings const& settings) {
-    BestFit const best = best_fit(model, parameters, speeds);
+    BestFit const best = best_fit(model, parameters, speeds, settings.common_error);
     bool const estimated = settings.discrepancy == Discrepancy::estimated;
     std::size_t const count = parameters.size();
     std::vector<inference::Bounds> bounds;
@@ -116,10 +103,13 @@ Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const&
     // The chains walk in log(delta), whose prior is uniform.
     if (estimated) bounds.push_back({std::log(discrepancy_prior.low), std::log(discrepancy_prior.high)});
     auto const density = [&](std::span<double const> point) {
-        return log_likelihood(model, point.first(count), speeds, estimated ? std::exp(point.back()) : 0);
+        auto const misfit = joint_misfit(model, point.first(count), speeds,
+                                         estimated ? std::exp(point.back()) : 0, settings.common_error);
+        return misfit ? -0.5 * (misfit->chi_square + misfit->log_determinant) : impossible;
     };
     inference::Sample const sample = inference::sample(density, bounds, settings.sampler);
-    Calibration result{{}, {}, misfits(model, sample, count, speeds), best, sample.converged};
+    Calibration result{
+        {}, {}, misfits(model, sample, count, speeds, settings.common_error), best, sample.converged};
     for (std::size_t p = 0; p < count; ++p)
         result.parameters.push_back(
             estimate(parameters[p], sample.of(static_cast<int>(p)), sample.rhat[p], sample.ess[p]));

@@ -24,6 +24,9 @@ struct ModelSpeed {
     double speed;         ///< m/s
     double sd;            ///< m/s, standard deviation of the model's own uncertainty; 0 for an exact theory
     double trough_speed;  ///< m/s, omega r cos(beta): the speed of velocity efficiency 1
+    /// m/s, standard deviation of the part of the uncertainty that is the same in all measurements, in units
+    /// of each one's; it comes beside `sd`.
+    double common_sd;
 };
 
 /// The model's answer for one value per free parameter, or nothing when the material has no steady speed
@@ -40,7 +43,10 @@ enum class Discrepancy {
 /// How a calibration is made.
 struct CalibrationSettings {
     Discrepancy discrepancy = Discrepancy::estimated;  ///< of the model
-    inference::SamplerSettings sampler = {};           ///< of the posterior
+    /// Standard deviation, in velocity efficiency, of an error of the model that has the same size and sign
+    /// in all measurements, >= 0.
+    double common_error = 0;
+    inference::SamplerSettings sampler = {};  ///< of the posterior
 };
 
 /// Smallest and largest standard deviation of the model discrepancy, in velocity efficiency.
@@ -86,9 +92,11 @@ struct Calibration {
 
 /// Finds the free parameters of a model from measured speeds.
 ///
-/// Likelihood of a measurement: normal, around the model's speed, with the variance
-///     uncertainty^2 + sd^2 + (delta omega r cos(beta))^2
-/// of measurement, model (the surface of a learnt layer) and model discrepancy. delta, in velocity
+/// Likelihood of the measurements: normal, around the model's speeds, with the covariance
+///     diag(uncertainty^2 + sd^2 + (delta omega r cos(beta))^2) + c c^T,
+///     c_i^2 = common_sd_i^2 + (common_error omega_i r_i cos(beta_i))^2
+/// of measurement, model (the surface of a learnt layer) and model discrepancy, and of what the model misses
+/// in all measurements alike. delta, in velocity
 /// efficiency, is the same for all measurements and is estimated; its prior is uniform in log(delta) between
 /// the ends of `discrepancy_prior`, which prefers no size, so that data which the model explains make it
 /// vanish. (After M.C. Kennedy and A. O'Hagan, J. R. Stat. Soc. B 63 (2001) 425-464, with errors that are
@@ -101,9 +109,10 @@ Calibration calibrate(SpeedModel const& model, std::vector<FreeParameter> const&
 /// The values of the free parameters, within their priors, at which the model without discrepancy fits best:
 /// the least chi-square of a search by NLopt (SBPLX) from the best of a few hundred points spread over the
 /// prior.
+/// @param common_error  as CalibrationSettings
 /// @throws core::InputError as calibrate
 BestFit best_fit(SpeedModel const& model, std::vector<FreeParameter> const& parameters,
-                 std::vector<MeasuredSpeed> const& speeds);
+                 std::vector<MeasuredSpeed> const& speeds, double common_error = 0);
 
 /// The shortest set of ranges that holds 95 % of the draws, from a histogram of 50 bins. Gaps of fewer than
 /// three bins are closed.

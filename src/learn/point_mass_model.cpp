@@ -1,7 +1,9 @@
 #include "learn/point_mass_model.hpp"
 
 #include "core/error.hpp"
+#include "learn/given_quantities.hpp"
 #include "learn/machine_keys.hpp"
+#include "scenario/model/scenario.hpp"
 #include "theory/conveyor.hpp"
 #include "theory/efficiency.hpp"
 
@@ -10,26 +12,11 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <set>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double gravity = 9.81;  // m/s^2
-
 using Values = std::map<std::string, double>;
-
-void check_name(std::string const& name) {
-    auto const& known = point_mass_parameters();
-    if (std::ranges::any_of(known, [&](FreeParameter const& p) { return p.name == name; })) return;
-    std::vector<std::string> names;
-    for (FreeParameter const& p : known) names.push_back(p.name);
-    throw core::InputError(fmt::format("'{}' is not a quantity of the point mass; choose from {}", name,
-                                       fmt::join(names, ", ")));
-}
 
 /// The quantities in the order of point_mass_parameters(); what is not given is empty.
 enum Quantity : std::size_t {
@@ -67,13 +54,13 @@ class PointMassModel {
         double const alpha = all[inclination] ? *all[inclination] * degree : measured.inclination.value_or(0);
         double const omega = 2 * std::numbers::pi * measured.frequency;
         theory::PointMass const point{
-            omega * omega * measured.amplitude * std::sin(beta) / (gravity * std::cos(alpha)), std::tan(beta),
-            std::tan(alpha), *all[friction]};
+            omega * omega * measured.amplitude * std::sin(beta) / (scenario::gravity * std::cos(alpha)),
+            std::tan(beta), std::tan(alpha), *all[friction]};
         auto const eta = plastic_ ? plastic_efficiency(point, measured.line)
                                   : general_efficiency(point, all, measured.line);
         if (!eta) return {};
         double const trough_speed = omega * measured.amplitude * std::cos(beta);
-        return ModelSpeed{*eta * trough_speed, 0, trough_speed};
+        return ModelSpeed{*eta * trough_speed, 0, trough_speed, 0};
     }
 
   private:
@@ -121,30 +108,10 @@ std::vector<FreeParameter> const& point_mass_parameters() {
 
 SpeedModel point_mass_model(std::vector<std::string> const& free, Values const& fixed,
                             std::vector<MeasuredSpeed> const& speeds) {
-    std::set<std::string> given;
-    for (std::string const& name : free) {
-        check_name(name);
-        if (!given.insert(name).second)
-            throw core::InputError(fmt::format("{} is free twice; name it once", name));
-    }
-    for (auto const& [name, value] : fixed) {
-        check_name(name);
-        if (!given.insert(name).second)
-            throw core::InputError(fmt::format("{} is both free and fixed; choose one of the two", name));
-    }
-    if (!given.contains("friction"))
+    check_given(free, fixed, point_mass_parameters(), "the point mass", speeds);
+    if (std::ranges::find(free, "friction") == free.end() && !fixed.contains("friction"))
         throw core::InputError(
             "the friction is not known; add it to --free, or give it with --fix friction=0.3");
-    if (!given.contains("vibration_angle")) {
-        for (MeasuredSpeed const& m : speeds) {
-            if (m.vibration_angle) continue;
-            throw core::InputError(
-                fmt::format("line {} has no vibration angle; write the column vibration_angle_deg, or give "
-                            "one for all with "
-                            "--fix vibration_angle=30",
-                            m.line));
-        }
-    }
     return PointMassModel(free, fixed);
 }
 

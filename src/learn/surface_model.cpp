@@ -77,7 +77,7 @@ class SurfaceModel {
         auto const [efficiency, half_width] = surface_->at(at, *theory);
         double const trough_speed = drive_of(measured).trough_speed();
         double const sd = std::hypot(half_width, numerics_) / atlas::deviations_in_half_width;
-        return ModelSpeed{efficiency * trough_speed, sd * trough_speed, trough_speed};
+        return ModelSpeed{efficiency * trough_speed, sd * trough_speed, trough_speed, 0};
     }
 
     CampaignTheory const& theory() const { return theory_; }

@@ -78,6 +78,12 @@ TEST_F(TheoryCalibrate, WrongInputsAreRefusedInOneLine) {
           Case{file + "friction --prior friction=0.5", "LOW:HIGH"},
           Case{file + "friction --fix restitution", "NAME=VALUE"},
           Case{file + "friction --fix restitution=7", "at most"},
+          Case{file + "friction --common-error 2", "--common-error"},
+          Case{file + "friction --model atlas", "--grain-diameter \"3 mm\""},
+          Case{file + "friction --grain-diameter '3 mm'", "belongs to --model atlas"},
+          Case{file + "friction --model atlas --grain-diameter '3 mm' --fix depth=12",
+               "the atlas has 3 to 6"},
+          Case{file + "friction --model atlas --grain-diameter '0.1 mm'", "the atlas has a"},
           Case{"theory calibrate /nowhere.csv --free friction", "/nowhere.csv"},
           Case{"theory calibrate '" + write("rpm,speed_m_per_s\n1,2\n", "other.csv") + "' --free friction",
                "neither a column stroke_mm nor amplitude_mm"}}) {

@@ -54,6 +54,10 @@ void CalibrationOptions::add_to(CLI::App& command) {
     command.add_option(
         "--uncertainty", uncertainty,
         "Standard uncertainty of speeds that have none in the file, as a fraction, for example 0.03");
+    command.add_option(
+        "--common-error", common_error,
+        "Standard deviation of an error of the model that is the same in all measurements, in velocity "
+        "efficiency, for example 0.05; it looks like another friction and widens its interval");
     command.add_flag("--without-discrepancy", exact, "Take the model to be exact");
     command.add_option("--seed", seed, "Of the random numbers; default: 1");
     command
@@ -132,6 +136,8 @@ std::vector<learn::FreeParameter> CalibrationOptions::parameters(
 learn::CalibrationSettings CalibrationOptions::settings() const {
     learn::CalibrationSettings result;
     if (exact) result.discrepancy = learn::Discrepancy::none;
+    if (common_error)
+        result.common_error = read_number_within("--common-error", *common_error, "0.05", 0, 0.5);
     if (seed)
         result.sampler.seed = static_cast<std::uint64_t>(read_count("--seed", *seed, "1", 0, 1'000'000'000));
     return result;

@@ -2,7 +2,9 @@
 #include "app/commands/calibration_options.hpp"
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
+#include "app/standard_streams.hpp"
 #include "core/error.hpp"
+#include "learn/atlas_speed_model.hpp"
 #include "learn/calibration_report.hpp"
 #include "learn/point_mass_model.hpp"
 
@@ -20,18 +22,23 @@ struct TheoryCalibrateArguments {
     std::string file;
     CalibrationOptions shared;
     std::vector<std::string> fixed;
+    std::string model = "point-mass";
+    Text grain_diameter;
 };
 
-int run_theory_calibrate(TheoryCalibrateArguments const& options) {
-    auto const speeds = options.shared.read_speeds(options.file);
+/// The values of --fix. @throws core::InputError unless each is NAME=NUMBER, and none comes twice
+std::map<std::string, double> read_fixed(std::vector<std::string> const& texts) {
     std::map<std::string, double> fixed;
-    for (std::string const& text : options.fixed) {
+    for (std::string const& text : texts) {
         auto const [name, value] = split_setting("--fix", text, "friction=0.3");
         if (!fixed.emplace(name, read_number("--fix", value, "friction=0.3")).second)
             throw core::InputError(fmt::format("--fix {}: {} is fixed twice; name it once", text, name));
     }
-    learn::SpeedModel const model = learn::point_mass_model(options.shared.free, fixed, speeds);
-    auto const parameters = options.shared.parameters(learn::point_mass_parameters());
+    return fixed;
+}
+
+/// @throws core::InputError when a fixed value is far from what the point mass usually has
+void check_fixed(std::map<std::string, double> const& fixed) {
     for (auto const& [name, value] : fixed) {
         inference::Bounds const usual =
             std::ranges::find(learn::point_mass_parameters(), name, &learn::FreeParameter::name)->prior;
@@ -39,9 +46,35 @@ int run_theory_calibrate(TheoryCalibrateArguments const& options) {
             throw core::InputError(fmt::format("--fix {}={:g}: must be at most {:g}; write a value within",
                                                name, value, 2 * usual.high));
     }
-    learn::Calibration const calibration =
-        learn::calibrate(model, parameters, speeds, options.shared.settings());
-    print_calibration(options.shared, calibration, {"the point mass"});
+}
+
+int run_theory_calibrate(TheoryCalibrateArguments const& options) {
+    auto const speeds = options.shared.read_speeds(options.file);
+    auto const fixed = read_fixed(options.fixed);
+    bool const is_atlas = options.model == "atlas";
+    if (is_atlas != options.grain_diameter.has_value())
+        throw core::InputError(is_atlas ? "--model atlas needs the diameter of the grains; write for example "
+                                          "--grain-diameter \"3 mm\""
+                                        : "--grain-diameter belongs to --model atlas");
+    CalibrationOptions shared = options.shared;
+    learn::SpeedModel model;
+    if (is_atlas) {
+        shared.free = learn::with_unknown_layer(shared.free, fixed);
+        model = learn::atlas_speed_model(
+            read_positive_quantity("--grain-diameter", *options.grain_diameter, "m", "3 mm"), shared.free,
+            fixed, speeds);
+    } else {
+        model = learn::point_mass_model(shared.free, fixed, speeds);
+        check_fixed(fixed);
+    }
+    auto const parameters =
+        shared.parameters(is_atlas ? learn::atlas_parameters() : learn::point_mass_parameters());
+    if (is_atlas)
+        tell(
+            "theory calibrate: asking the atlas tens of thousands of times; this takes about half a "
+            "minute\n");
+    learn::Calibration const calibration = learn::calibrate(model, parameters, speeds, shared.settings());
+    print_calibration(shared, calibration, {is_atlas ? "the atlas" : "the point mass"});
     return calibration.converged ? all_well : some_cases_failed;
 }
 
@@ -60,15 +93,27 @@ void add_theory_calibrate(CLI::App& theory, int& exit_code) {
         ->type_name("NAME=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        ->add_option("--model", options->model,
+                     "point-mass, or atlas: the simulated layers of spheres (validation/atlas)")
+        ->check(CLI::IsMember({"point-mass", "atlas"}))
+        ->capture_default_str();
+    command->add_option("--grain-diameter", options->grain_diameter, "Of the grains, for --model atlas")
+        ->type_name("LENGTH");
     command->footer(
-        R"(The quantities that can be free or fixed are friction, static_friction, landing_friction, restitution,
-inclination and vibration_angle (both in degrees).
+        R"(The quantities of the point mass that can be free or fixed are friction, static_friction, landing_friction,
+restitution, inclination and vibration_angle (both in degrees). Those of the atlas are friction (on the trough),
+grain_friction, rolling_friction, restitution, depth (in diameters), inclination and vibration_angle. What of the grains
+and of the depth is not fixed is free as well: it is the same in all measurements, so that the interval of the friction
+holds what is not known of it.
 
 )" + std::string(calibration_help) +
         R"(
 
 Example:
-  vibrotrough theory calibrate speeds.csv --free friction,inclination --plot corner.png)");
+  vibrotrough theory calibrate speeds.csv --free friction,inclination --plot corner.png
+  vibrotrough theory calibrate speeds.csv --free friction --model atlas \
+      --grain-diameter "3.5 mm" --fix depth=4)");
     command->callback([options, &exit_code] { exit_code = run_theory_calibrate(*options); });
 }
 
