@@ -14,6 +14,7 @@ Case = dict[str, Any]
 Swept = list[dict[str, Any]]
 
 MOST_CASES = 3  # that are explained one by one
+LONGEST_LABEL = 80
 # What a point mass under the layer's own normal force is known to, as `vibrotrough compare --help` says.
 RESOLUTION = 0.05
 # 95 %: the rolling-layer law misses layers that it was not fitted to with an rms error of 0.045 (validation/rolling_layer).
@@ -32,8 +33,19 @@ def difference(case: Case) -> float:
     return float(case["efficiency"] - case["efficiency_theory"])
 
 
+def place(case: Case) -> str:
+    """By what distinguishes the case; by its id where that is too much to read."""
+    label = plain(place_of(case))
+    return label if len(label) <= LONGEST_LABEL else f"in case {case['case']}"
+
+
 def signed(value: float, error: float) -> str:
     return f"{value:+.2f} \u00b1 {error:.2f}".replace("-", "\u2212")
+
+
+def passing_on(case: Case) -> tuple[float, float]:
+    """What of the difference comes from how the grains pass friction on, and its uncertainty."""
+    return float(case["efficiency"] - case["efficiency_by_normal_force"]), math.hypot(RESOLUTION, half_width(case))
 
 
 def amount(value: float, error: float) -> str:
@@ -45,10 +57,10 @@ def parts_of(case: Case) -> list[str]:
     sentences = []
     if known(case, "efficiency_by_normal_force"):
         # A point mass under the measured force of the layer parts the two.
-        middle, passing_error = float(case["efficiency_by_normal_force"]), math.hypot(RESOLUTION, half_width(case))
-        pressing, passing = middle - case["efficiency_theory"], case["efficiency"] - middle
-        sentences.append(f"Flight and landing (when and how hard the layer presses on the trough): {amount(pressing, RESOLUTION)}; "
-                         f"rolling, spin and shear (how its grains pass friction on): {amount(passing, passing_error)}.")
+        middle = float(case["efficiency_by_normal_force"])
+        pressing, passing = amount(middle - case["efficiency_theory"], RESOLUTION), amount(*passing_on(case))
+        sentences.append(f"Flight and landing (when and how hard the layer presses on the trough): {pressing}; "
+                         f"rolling, spin and shear (how its grains pass friction on): {passing}.")
     if known(case, "efficiency_rolling_layer"):
         rolling = float(case["efficiency_rolling_layer"] - case["efficiency_theory"])
         rest = float(case["efficiency"] - case["efficiency_rolling_layer"])
@@ -67,7 +79,7 @@ def parts_of(case: Case) -> list[str]:
 
 
 def explained(case: Case) -> str:
-    where = plain(place_of(case))
+    where = place(case)
     if abs(difference(case)) <= half_width(case):
         return f"{where[0].upper()}{where[1:]} the layer agrees with the theory within its interval of \u00b1 {half_width(case):.2f}."
     side = "above" if difference(case) > 0 else "below"
@@ -90,7 +102,7 @@ def trends(cases: list[Case], swept: Swept) -> list[str]:
             continue
         low, high = max(pairs, key=lambda pair: abs(difference(pair[1]) - difference(pair[0])))
         change, error = difference(high) - difference(low), math.hypot(half_width(low), half_width(high))
-        of = f"From {plain(place_of(low)).removeprefix('at ')} to {plain(place_of(high)).removeprefix('at ')}"
+        of = f"From {place(low).removeprefix('at ').removeprefix('in ')} to {place(high).removeprefix('at ').removeprefix('in ')}"
         sentences.append(f"{of}, the difference from the theory changes by {signed(change, error)}." if abs(change) > error else
                          f"{of}, the difference from the theory changes by no more than can be told (\u00b1 {error:.2f}).")
     return sentences
@@ -121,13 +133,18 @@ def what_to_change(cases: list[Case]) -> list[str]:
         error = math.hypot(first.get("conveying_speed_half_width_m_per_s") or 0.0, second.get("conveying_speed_half_width_m_per_s") or 0.0)
         ahead = first["conveying_speed_m_per_s"] - second["conveying_speed_m_per_s"]
         if ahead > error:
-            sentences.append(f"Machine: of these, the fastest layer is {plain(place_of(first))}, by {ahead:.3f} \u00b1 {error:.3f} m/s.")
+            sentences.append(f"Machine: of these, the fastest layer is {place(first)}, by {ahead:.3f} \u00b1 {error:.3f} m/s.")
         else:
-            sentences.append(f"Machine: the two fastest layers, {plain(place_of(first))} and {plain(place_of(second))}, differ by no more than can be "
+            sentences.append(f"Machine: the two fastest layers, {place(first)} and {place(second)}, differ by no more than can be "
                              f"told (\u00b1 {error:.3f} m/s); choose between them by wear, power or cost.")
+    rolling = [case for case in told if abs(difference(case)) > half_width(case) and known(case, "efficiency_by_normal_force")
+               and abs(passing_on(case)[0]) > passing_on(case)[1]]
+    if rolling:
+        sentences.append(f"Machine: in {len(rolling)} of {len(told)} cases rolling, spin and shear make a difference that can be told. What real grains do there depends on "
+                         "their own rolling friction: measure it, or sweep grains.rolling_friction, before such a machine is built.")
     numerical = [case for case in told if case.get("larger_error") == "numerical"]
     if numerical:
-        sentences.append(f"Campaign: in {len(numerical)} of {len(told)} cases the numerical error is the larger part of the interval: more packings do not "
+        sentences.append(f"Campaign: in {len(numerical)} of {len(told)} cases the numerical error is the larger part of the interval: more packings hardly "
                          "narrow it; stiffer grains and a larger box do ('vibrotrough check' says which).")
     statistical = len(told) - len(numerical)
     if statistical:
@@ -151,6 +168,10 @@ def not_known(cases: list[Case], campaign: dict[str, Any]) -> list[str]:
         state = {"blocked": "the grains cannot rotate, which real ones can"}.get(
             grains.get("rotation", "free"), "the grains roll freely" if rolling is None else f"{rolling:g} is an input")
         sentences.append(f"Rolling friction: {state}. How much the answer depends on it, a sweep over grains.rolling_friction tells.")
+    unvaried = [name for name, keys in (("depth", ("layer.height", "layer.diameters", "layer.grains")), ("slope", ("trough.inclination",))) if not varied & set(keys)]
+    if unvaried:
+        sentences.append(f"{' and '.join(unvaried).capitalize()}: not varied here, so that what {'they do' if len(unvaried) > 1 else 'it does'} to the difference from the theory is "
+                         "not seen.")
     if not any(known(case, "numerical_error_case") for case in told):
         sentences.append("Box, stiffness and time step: their errors are bounds from other layers and not those of this campaign ('vibrotrough convergence').")
     return sentences

@@ -52,6 +52,11 @@ def check_rolling():
     assert "grains roll: too little to tell (\u00b1 0.09);" in sentence and "it leaves +0.20 \u00b1 0.10." in sentence, sentence
 
 
+def check_a_long_name():
+    (sentence,) = told([dict(CASE, label=", ".join(f"grains.friction {number}" for number in range(9)))])["Why theory"]
+    assert sentence.startswith("In case a the velocity efficiency is above"), sentence
+
+
 def check_trends():
     deep = dict(CASE, case="b", label="layer.height 18 mm", **{"layer.height": 0.018}, efficiency=0.80)
     same(told([CASE, deep])["Why theory"][-1], "From layer height 6 mm to layer height 18 mm, the difference from the theory changes by +0.15 \u00b1 0.07.")
@@ -67,14 +72,20 @@ def check_changes():
     fast = dict(CASE, case="b", label="layer.height 18 mm", conveying_speed_m_per_s=0.205, larger_error="statistical")
     changes = told([CASE, fast])["What change"]
     assert "differ by no more than can be told (\u00b1 0.014 m/s)" in changes[0], changes
-    assert "in 1 of 2 cases the numerical error is the larger part" in changes[1] and "in 1 of 2 cases the scatter" in changes[2], changes
+    assert changes[1].startswith("Machine: in 2 of 2 cases rolling, spin and shear make a difference"), changes
+    assert "in 1 of 2 cases the numerical error is the larger part" in changes[2] and "in 1 of 2 cases the scatter" in changes[3], changes
+    agreeing = told([dict(CASE, efficiency=0.46), dict(fast, efficiency=0.46)])["What change"]
+    assert not any("rolling" in sentence for sentence in agreeing), agreeing
     changes = told([CASE, dict(fast, conveying_speed_m_per_s=0.25)])["What change"]
     assert "the fastest layer is at layer height 18 mm, by 0.050 \u00b1 0.014 m/s" in changes[0], changes
 
 
 def check_what_is_not_known():
-    same([sentence.split(":")[0] for sentence in told([CASE])["What known"]], ["Friction", "Rolling friction", "Box, stiffness and time step"])
-    assert "What known" not in told([dict(CASE, friction_layer=0.28, numerical_error_case="a")], campaign='[sweep]\n"grains.rolling_friction" = [0, 0.1]\n')
+    same([sentence.split(":")[0] for sentence in told([CASE])["What known"]], ["Friction", "Rolling friction", "Depth and slope", "Box, stiffness and time step"])
+    swept = '[sweep]\n"grains.rolling_friction" = [0, 0.1]\n"layer.height" = ["6 mm"]\n'
+    assert told([CASE], campaign=swept)["What known"][1].startswith("Slope: not varied here, so that what it does"), told([CASE], campaign=swept)
+    whole = dict(CASE, friction_layer=0.28, numerical_error_case="a")
+    assert "What known" not in told([whole], campaign=swept + '"trough.inclination" = ["0 deg"]\n')
     assert "cannot rotate" in told([CASE], campaign='[grains]\nrotation = "blocked"\n')["What known"][1]
     assert "roll freely" in told([CASE], campaign="not TOML")["What known"][1]
     same(told([dict(CASE, efficiency=None)]), {})
@@ -87,5 +98,5 @@ def check_the_laws_error():
     assert abs(report_reasons.LAW_HALF_WIDTH - 1.96 * rms) < 1e-12, rms
 
 
-for check in (check_a_difference, check_an_agreement, check_rolling, check_trends, check_changes, check_what_is_not_known, check_the_laws_error):
+for check in (check_a_difference, check_an_agreement, check_rolling, check_a_long_name, check_trends, check_changes, check_what_is_not_known, check_the_laws_error):
     check()
