@@ -111,7 +111,8 @@ def design_page(data: Data) -> Page:
         "title": "Design of a vibrating trough",
         "good": data["feasible"],
         "conclusion": [data["sentence"],
-                       f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.4g} mm deep."],
+                       f"Stroke {data['stroke_mm']:.4g} mm, {data['rpm']:.4g} 1/min, {data['vibration_angle_deg']:.4g}\u00b0, layer {data['layer_depth_mm']:.4g} mm deep.",
+                       *([data["verification"]] if "verification" in data else [])],
         "facts": [{"heading": "The machine", "rows": machine}, {"heading": "What was asked", "rows": asked}],
         "svg": draw_flow(data),
         "caption": "" if data["untested"] is not None else
@@ -124,6 +125,7 @@ def design_page(data: Data) -> Page:
         "basis": "The friction has a distribution, and each model misses the truth by its discrepancy. Every limit is kept by the machine as it is printed, "
                  "the landing speed at every friction in the central 99.7 % of its distribution.",
         "command": "by vibrotrough design",
+        "signed": ["Checked by", "Date", "Signature"],
     }
 
 
@@ -187,6 +189,7 @@ def calibration_page(data: Data) -> Page:
         "warnings": [],
         "basis": "\u00b1 is one standard uncertainty. The model discrepancy is the standard deviation of what the model misses from setting to setting, in velocity efficiency; "
                  "it is estimated with the rest.",
+        "signed": [],
         "command": "by vibrotrough " + ("theory calibrate" if data["model"] == "the point mass" else "calibrate"),
     }
 

@@ -21,6 +21,7 @@ import markupsafe
 
 from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
 from figure_style import Problem, one_line, plain, shown
+from report_reasons import reasons
 from report_words import conclusion
 
 # Of units that are not written as they are.
@@ -208,6 +209,7 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
     return environment.get_template("report.html").render(
         overview=overview,
         conclusion=conclusion(cases),
+        reasons=reasons(overview),
         mode_letters=MODE_LETTERS,
         plain=plain,
         script_digest=script_digest((folder / "report.html").read_text(encoding="utf-8")),

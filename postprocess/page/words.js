@@ -152,7 +152,7 @@ function say(key, ...values) {
 
 /// The sentences of the theory (tested_range.cpp, unusual.cpp, machine.cpp): what they match, which words say the same, and with what.
 const theorySentences = [
-  [/^the rolling-layer law has not been tested at (.+?) = ([^ ,]+)(.*), outside (\[.*\])$/, "theory_outside", (m) => [nameOf(m[1]), short(m[2]), placeOf(m[3]), rangeOf(m[4])]],
+  [/^the rolling-layer law has not been tested at (.+?) = ([^ ,]+)(.*), outside (\[[^\]]*\])(?: \(.*\))?$/, "theory_outside", (m) => [nameOf(m[1]), short(m[2]), placeOf(m[3]), rangeOf(m[4])]],
   [/^the rolling-layer law has not been tested at throw_number = ([^ ,]+)(.*), where it has been for throw numbers in (\[.*\])$/, "theory_there",
     (m) => [nameOf("throw_number"), short(m[1]), placeOf(m[2]), rangeOf(m[3])]],
   [/^the rolling-layer law has not been tested at throw_number = ([^ ,]+)(.*)$/, "theory_nowhere", (m) => [nameOf("throw_number"), short(m[1]), placeOf(m[2])]],
@@ -170,10 +170,10 @@ function short(text) { return showNumber(Number(text)); }
 function nameOf(name) { return say(name.startsWith("a depth") ? "name_depth" : `name_${name}`); }
 function rangeOf(text) { return text.slice(1, -1).split(",").map(short).join(` ${say("to")} `); }
 
-/// What follows the number: ", tan_inclination = 0.05, a depth in diameters of the grains = 4".
+/// What follows the number: " (5 deg), tan_inclination = 0.05 (2.862 deg), a depth in diameters of the grains = 4".
 function placeOf(text) {
   const parts = text.split(", ").filter((part) => part.includes(" = ")).map((part) => part.split(" = "));
-  return parts.length === 0 ? "" : ` (${parts.map(([name, value]) => `${nameOf(name)} ${short(value)}`).join(", ")})`;
+  return parts.length === 0 ? "" : ` (${parts.map(([name, value]) => `${nameOf(name)} ${short(value.split(" ")[0])}`).join(", ")})`;
 }
 
 /// A sentence of the theory in the page's language; as it is when none matches.

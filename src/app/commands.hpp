@@ -20,6 +20,8 @@ constexpr char const* mode_letters =
 
 /// Writes a campaign file to begin with.
 void add_init(CLI::App& program, int& exit_code);
+/// Prints or writes a walk through the program.
+void add_tutorial(CLI::App& program, int& exit_code);
 /// Simulates the cases of a campaign.
 void add_run(CLI::App& program, int& exit_code);
 /// Lists the cases of a campaign and what they will cost.

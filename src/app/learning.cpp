@@ -2,13 +2,12 @@
 
 #include "app/commands/theory/options.hpp"
 #include "app/progress_log.hpp"
+#include "app/standard_streams.hpp"
 #include "campaign/schedule/until_precise.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
 
 namespace vibrotrough::app {
 
@@ -34,7 +33,7 @@ bool simulate(RunOptions const& options, ReadyCampaign& ready, std::map<std::str
             campaign::run_campaign(ready.plan, options.campaign_file, campaign::UntilPrecise(wanted),
                                    *ready.kind, ready.inputs, campaign::Until::done, observer);
         if (summary.interrupted) {
-            fmt::print("interrupted; the same command continues it\n");
+            tell("interrupted; the same command continues it\n");
             return false;
         }
     }

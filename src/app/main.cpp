@@ -34,6 +34,9 @@ the point-mass theory of vibratory conveying
 
 What do you want to do?
 
+  learn it by an example, from a question to a figure, or to a design that is signed:
+      vibrotrough tutorial depth
+      vibrotrough tutorial design
   size a trough for a mass flow, and know how sure that is:
       vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
           --friction 0.3 --friction-uncertainty 0.03
@@ -61,6 +64,7 @@ What do you want to do?
       vibrotrough export runs/pellets)";
 
 void add_commands(CLI::App& program, int& exit_code) {
+    add_tutorial(program, exit_code);
     add_init(program, exit_code);
     add_run(program, exit_code);
     add_plan(program, exit_code);

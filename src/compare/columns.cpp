@@ -21,18 +21,14 @@ std::optional<double> difference(Row const& row) {
     return *efficiency - *row.efficiency_theory;
 }
 
-std::string three_digits(std::optional<double> const& value) {
-    return value ? core::without_sign_of_zero(fmt::format("{:.3f}", *value)) : "-";
-}
-
 std::string efficiency_cell(Row const& row) {
     auto const efficiency = row.number("efficiency"), width = row.number("efficiency_whole_half_width");
-    return three_digits(efficiency) + (efficiency && width ? " +- " + three_digits(width) : "");
+    return core::three_digits(efficiency) + (efficiency && width ? " +- " + core::three_digits(width) : "");
 }
 
 std::string atlas_cell(Row const& row) {
     auto const width = row.efficiency_atlas_half_width;
-    return three_digits(row.efficiency_atlas) + (width ? " +- " + three_digits(width) : "");
+    return core::three_digits(row.efficiency_atlas) + (width ? " +- " + core::three_digits(width) : "");
 }
 
 /// A mass flow in t/h with its half-width.
@@ -236,8 +232,8 @@ std::string budget_cell(Row const& row) {
     auto const statistical = row.number("efficiency_half_width"),
                numerical = row.number("efficiency_numerical_error");
     if (!statistical || !numerical) return efficiency_cell(row);
-    return three_digits(row.number("efficiency")) + " +- " + three_digits(statistical) + " +- " +
-           (is_bound(row) ? "<" : "") + three_digits(numerical) + (is_borrowed(row) ? "*" : "");
+    return core::three_digits(row.number("efficiency")) + " +- " + core::three_digits(statistical) + " +- " +
+           (is_bound(row) ? "<" : "") + core::three_digits(numerical) + (is_borrowed(row) ? "*" : "");
 }
 
 std::string larger_error_colour(Row const& row) {

@@ -168,6 +168,10 @@ double parse_number(std::string_view text) {
     return number + 0.0;  // "-0" is 0
 }
 
+std::string unit_of(std::string_view text) {
+    return std::string(split_number(trimmed(text), "does not begin with a finite number").rest);
+}
+
 double parse_quantity(std::string_view text, std::string const& unit) {
     std::string_view const whole = trimmed(text);
     auto const [number, rest] = split_number(whole, "does not begin with a finite number");

@@ -25,6 +25,10 @@ class QuantityError : public std::runtime_error {
 ///   dimension, or the result is not finite
 double parse_quantity(std::string_view text, std::string const& unit);
 
+/// The unit of such a text as it is written: "mm" of "6 mm". @throws QuantityError when it does not begin
+/// with a number
+std::string unit_of(std::string_view text);
+
 /// Reads a number without a unit, such as "0.3", or a percentage, such as "30 %".
 /// @param text  a finite decimal number
 /// @throws QuantityError when it is something else; a decimal comma is named

@@ -86,6 +86,10 @@ std::string without_sign_of_zero(std::string number) {
     return number;
 }
 
+std::string three_digits(std::optional<double> const& value) {
+    return value ? without_sign_of_zero(fmt::format("{:.3f}", *value)) : "-";
+}
+
 bool is_utf16(std::string_view text) {
     return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
 }

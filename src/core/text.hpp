@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,9 @@ std::string harmless(std::string_view text);
 
 /// A printed number that rounds to zero without a sign: "0.0000" for "-0.0000".
 std::string without_sign_of_zero(std::string number);
+
+/// A number with three digits behind the point; "-" where it is not known.
+std::string three_digits(std::optional<double> const& value);
 
 /// Whether a text begins with the byte order mark of UTF-16, as Excel's "Unicode text" does.
 bool is_utf16(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "learn/machine_keys.hpp"
+#include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
 #include <algorithm>
@@ -145,10 +146,12 @@ SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario
         for (std::size_t k = 0; k < inputs.size(); ++k) {
             double const margin = 0.02 * (inputs[k].high - inputs[k].low);
             if (place[k] >= inputs[k].low - margin && place[k] <= inputs[k].high + margin) continue;
-            throw core::InputError(
-                fmt::format("line {}: {} is {:.4g} there, outside the range {:.4g} to {:.4g} of the "
-                            "campaign; simulate it, too",
-                            m.line, inputs[k].key, place[k], inputs[k].low, inputs[k].high));
+            auto const text = [&](double value) {
+                return scenario::written_value(*scenario::find_key(inputs[k].key), value);
+            };
+            throw core::InputError(fmt::format(
+                "line {}: {} is {} there, outside the range {} to {} of the campaign; simulate it, too",
+                m.line, inputs[k].key, text(place[k]), text(inputs[k].low), text(inputs[k].high)));
         }
     }
     return model;

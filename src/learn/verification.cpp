@@ -58,16 +58,20 @@ bool ComparedLayer::agrees() const {
     return std::abs(promised - simulated) <= std::hypot(promised_half_width, simulated_half_width);
 }
 
+std::string verification_sentence(DesignTask const& task, Verification const& v) {
+    return first_words(task, v) + (v.why.empty() ? "" : ": " + v.why) + ".";
+}
+
 std::string verification_text(DesignTask const& task, Verification const& v) {
-    std::string text = first_words(task, v);
-    if (!v.why.empty()) text += ": " + v.why;
-    text += fmt::format(". Core time: {:.3g} h.\n", v.core_time / seconds_per_hour);
+    std::string text = verification_sentence(task, v);
+    text += fmt::format(" Core time: {:.3g} h.\n", v.core_time / seconds_per_hour);
     if (v.machines.empty()) return text;
     constexpr char const* line = "{:<8} {:>7} {:>7} {:>6} {:>7} {:>9} {:>16} {:>16} {:>7} {:>12}  {}\n";
     text += "\n" + fmt::format(fmt::runtime(line), "machine", "stroke", "speed", "angle", "depth", "friction",
                                "promised", "simulated", "", "probability", "by");
-    text += fmt::format(fmt::runtime(line), "", "mm", "1/min", "deg", "mm", "", "efficiency", "efficiency",
-                        "", "", "");
+    std::string const units = fmt::format(fmt::runtime(line), "", "mm", "1/min", "deg", "mm", "",
+                                          "efficiency", "efficiency", "", "", "");
+    text += units.substr(0, units.find_last_not_of(" \n") + 1) + "\n";
     int number = 0;
     for (SimulatedMachine const& m : v.machines) {
         ++number;

@@ -50,6 +50,9 @@ struct Verification {
     double core_time = 0;                    ///< s, of all packings
 };
 
+/// The verdict with its reason.
+std::string verification_sentence(DesignTask const& task, Verification const& verification);
+
 /// The machines, promises and simulations for people, after the verdict in a sentence.
 std::string verification_text(DesignTask const& task, Verification const& verification);
 

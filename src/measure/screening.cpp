@@ -61,8 +61,8 @@ std::optional<std::string> size_imbalance(CycleSeries const& series, std::vector
         for (; next != passed.end() && next->cycle <= static_cast<int>(cycle); ++next) {
             auto const size = size_of(next->size, diameters);
             if (!size || ++left[*size] > sizes[*size].number)
-                return fmt::format("grain {} of {:.6g} m passed the screen in cycle {}, and there {} on it",
-                                   next->id, next->size, next->cycle,
+                return fmt::format("grain {} of {:.6g} mm passed the screen in cycle {}, and there {} on it",
+                                   next->id, 1e3 * next->size, next->cycle,
                                    size ? "were no more of this size" : "was none of this size");
             --held;
             held_mass -= sizes[*size].mass;

@@ -57,7 +57,7 @@ VariedSetting vary_modulus(scenario::Scenario const& s) {
         varied.variations.push_back({modulus, std::pow(factor, contact_order), stiff});
     }
     if (varied.variations.empty())
-        varied.left_out = fmt::format("{:.3g} Pa is as stiff as the key allows", given);
+        varied.left_out = fmt::format("{:.3g} MPa is as stiff as the key allows", 1e-6 * given);
     return varied;
 }
 

@@ -76,6 +76,24 @@ class MeasuredColumn {
     double confidence_;
 };
 
+/// The same for a share, with the ends of its interval. Student's interval knows no bounds: an end beyond 0
+/// or 1, which no share can have, is moved there.
+class MeasuredShare : public MeasuredColumn {
+  public:
+    using MeasuredColumn::MeasuredColumn;
+
+    void put_into(std::vector<CaseValues>& columns) const {
+        MeasuredColumn::put_into(columns);
+        std::vector<double> low, high;
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            low.push_back(std::isnan(half_widths[i]) ? not_known : std::max(0.0, means[i] - half_widths[i]));
+            high.push_back(std::isnan(half_widths[i]) ? not_known : std::min(1.0, means[i] + half_widths[i]));
+        }
+        columns.emplace_back(low);
+        columns.emplace_back(high);
+    }
+};
+
 /// The probability that a grain is still on the screen after some attempts.
 double share_by_model(Case record, double diameter, double attempts) {
     return std::pow(1 - prepare::passage_probability(record.scenario.screen, diameter), attempts);
@@ -101,6 +119,8 @@ std::optional<double> efficiency_by_model(Case record) {
     return passed / all;
 }
 
+constexpr auto low_end = "Lower end of this interval, at least 0, because a share is; NaN with one packing";
+constexpr auto high_end = "Upper end of this interval, at most 1; NaN with one packing";
 constexpr auto interval_over_packings =
     "Half-width of its interval at measure.confidence, Student's t over the packings; "
     "NaN with one packing";
@@ -139,6 +159,8 @@ std::vector<Entry> const& partition_entries() {
         {"number", "1", "Grains of this size in a packing at first"},
         {"stays", "1", "Share of them that is on the screen at the end, mean over the packings"},
         {"stays_half_width", "1", interval_over_packings},
+        {"stays_low", "1", low_end},
+        {"stays_high", "1", high_end},
         {"probability", "1",
          "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a "
          "sphere of "
@@ -160,7 +182,8 @@ std::vector<CaseValues> partition_table(Case record) {
     if (!has_screen(record)) return {};
     Screening const& first = record.packings.front().screening;
     double const confidence = record.scenario.measure.confidence;
-    MeasuredColumn stays(confidence), times(confidence);
+    MeasuredShare stays(confidence);
+    MeasuredColumn times(confidence);
     std::vector<double> relative, probability, model, attempts;
     for (std::size_t i = 0; i < first.diameter.size(); ++i) {
         EnsembleNumber share, time;
@@ -245,13 +268,15 @@ std::vector<Entry> const& partition_cycles_entries() {
         {"stays", "1",
          "Share of the grains of this size that is still on the screen, mean over the packings"},
         {"stays_half_width", "1", interval_over_packings},
+        {"stays_low", "1", low_end},
+        {"stays_high", "1", high_end},
     };
     return entries;
 }
 
 std::vector<CaseValues> partition_cycles_table(Case record) {
     if (!has_screen(record)) return {};
-    MeasuredColumn stays(record.scenario.measure.confidence);
+    MeasuredShare stays(record.scenario.measure.confidence);
     std::vector<double> diameters, times;
     Screening const& first = record.packings.front().screening;
     for (std::size_t i = 0; i < first.diameter.size(); ++i) {

@@ -69,7 +69,7 @@ std::vector<std::string> active_limits(DesignLimits const& l, Design const& d) {
         active.push_back("throw_number <= " + text(l.max_throw_number));
     }
     check_range("frequency", d.frequency, l.frequency, " Hz");
-    check_range("amplitude", d.amplitude, l.amplitude, " m");
+    check_range("amplitude", 1e3 * d.amplitude, {1e3 * l.amplitude.low, 1e3 * l.amplitude.high}, " mm");
     check_range("vibration_angle", d.vibration_angle * degrees, in_degrees(l.vibration_angle), " deg");
     check_range("inclination", d.inclination * degrees, in_degrees(l.inclination), " deg");
     if (l.min_mass_flow > 0 && d.mass_flow < l.min_mass_flow * (1 + near_limit)) {
@@ -92,7 +92,7 @@ Range with_friction_margin(Range inclination, double friction) {
     double const flattest = inclination.low > 0    ? inclination.low
                             : inclination.high < 0 ? inclination.high
                                                    : 0;
-    std::string const range = "up to " + detail::number_text(steepest * degrees) +
+    std::string const range = "up to " + detail::short_text(steepest * degrees) +
                               " deg, where tan(alpha) is 95 % of the friction coefficient";
     detail::require_range(std::abs(flattest) <= steepest, "inclination in deg", flattest * degrees,
                           range.c_str());

@@ -84,8 +84,8 @@ FrictionEstimate friction_from_shake(ShakeTest const& test, double displacement,
     FrictionEstimate estimate{friction_at(test, displacement), 0, 0, ""};
     if (std::abs(displacement_at(test, estimate.friction) - displacement) > 1e-6) {
         throw std::invalid_argument("no friction coefficient gives a max_relative_displacement of " +
-                                    detail::number_text(displacement) + " amplitudes at machine_number " +
-                                    detail::number_text(test.machine_number));
+                                    detail::short_text(displacement) + " amplitudes at machine_number " +
+                                    detail::short_text(test.machine_number));
     }
     estimate.low = friction_at(test, displacement + uncertainty);
     estimate.high = friction_at(test, displacement - uncertainty);

@@ -17,6 +17,16 @@ bool contains(Range const& range, double value) {
     return value >= range.low - rounding && value <= range.high + rounding;
 }
 
+std::string angle_text(double tangent) {
+    std::array<char, 32> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.4g", std::atan(tangent) * 180 / std::numbers::pi);
+    return buffer.data();
+}
+
+std::string tangent_text(char const* name, double tangent) {
+    return std::string(name) + " = " + detail::short_text(tangent) + " (" + angle_text(tangent) + " deg)";
+}
+
 /// The ends are rounded for the reader.
 std::string text(Range const& range) {
     std::array<char, 64> buffer{};
@@ -42,23 +52,31 @@ std::optional<Range> tested_throw_numbers(double tan_inclination, std::optional<
 
 std::optional<std::string> outside_tested_range(PointMass const& p, std::optional<double> depth) {
     std::string const untested = "the rolling-layer law has not been tested at ";
-    auto const outside = [&](char const* name, double value, Range const& range) {
-        return untested + name + " = " + detail::number_text(value) + ", outside " + text(range);
+    auto const outside = [&](std::string const& place, Range const& range) {
+        return untested + place + ", outside " + text(range);
+    };
+    // Who gave an angle finds it behind its tangent.
+    auto const outside_angle = [&](char const* name, double tangent, Range const& range) {
+        return outside(tangent_text(name, tangent), range) + " (" + angle_text(range.low) + " to " +
+               angle_text(range.high) + " deg)";
     };
     if (!contains(tested_tan_vibration_angle, p.tan_vibration_angle))
-        return outside("tan_vibration_angle", p.tan_vibration_angle, tested_tan_vibration_angle);
-    if (!contains(tested_friction, p.friction)) return outside("friction", p.friction, tested_friction);
+        return outside_angle("tan_vibration_angle", p.tan_vibration_angle, tested_tan_vibration_angle);
+    if (!contains(tested_friction, p.friction))
+        return outside("friction = " + detail::short_text(p.friction), tested_friction);
     Range const slopes{-tested_slopes.slope, tested_slopes.slope};
-    if (!contains(slopes, p.tan_inclination)) return outside("tan_inclination", p.tan_inclination, slopes);
+    if (!contains(slopes, p.tan_inclination))
+        return outside_angle("tan_inclination", p.tan_inclination, slopes);
     Range const depths{tested_shallow.depth, tested_deep.depth};
-    std::string const name = "a depth in diameters of the grains";
-    if (depth && !contains(depths, *depth)) return outside(name.c_str(), *depth, depths);
+    std::string const deep =
+        depth ? "a depth in diameters of the grains = " + detail::short_text(*depth) : "";
+    if (depth && !contains(depths, *depth)) return outside(deep, depths);
     auto const throw_numbers = tested_throw_numbers(p.tan_inclination, depth);
     std::string const where =
-        (p.tan_inclination != 0 ? ", tan_inclination = " + detail::number_text(p.tan_inclination) : "") +
-        (depth ? ", " + name + " = " + detail::number_text(*depth) : "");
+        (p.tan_inclination != 0 ? ", " + tangent_text("tan_inclination", p.tan_inclination) : "") +
+        (depth ? ", " + deep : "");
     if (throw_numbers && contains(*throw_numbers, p.throw_number)) return {};
-    return untested + "throw_number = " + detail::number_text(p.throw_number) + where +
+    return untested + "throw_number = " + detail::short_text(p.throw_number) + where +
            (throw_numbers ? ", where it has been for throw numbers in " + text(*throw_numbers) : "");
 }
 

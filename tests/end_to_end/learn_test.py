@@ -4,9 +4,11 @@ import csv
 import io
 import json
 import math
+import signal
+import subprocess
 import unittest
 
-from trough_program import EndToEndTest, campaign_text
+from trough_program import PROGRAM, EndToEndTest, campaign_text, wait_until
 
 # A domain of one input and few points, with a goal that a few batches reach.
 PLAN = {"grains.youngs_modulus": "0.3 MPa", "measure.packings": 4, "measure.half_width": 0.2, "measure.max_cycles": 48, "measure.max_packings": 8}
@@ -67,6 +69,17 @@ class Learn(EndToEndTest):
         self.assertIn("--budget", answer.stdout)
         self.assertIn("the numerical errors of the simulations alone may be", answer.stderr)  # which leave no room in 0.01
         self.assertEqual(len(self.results()), 4)  # the start is always simulated
+
+    def test_an_interruption_is_told_apart_from_the_answer(self):
+        words = ["learn", self.write_domain(), "--output", self.output, "--liggghts", self.engine, "--quiet", "--accept-findings", "--half-width", "0.4",
+                 "--budget", "1 core-hours"]
+        process = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        self.addCleanup(self.end, process)
+        wait_until(lambda: self.take_starts(), "a packing was simulated", process)
+        process.send_signal(signal.SIGINT)
+        code, output, errors = self.finish(process)
+        self.assertEqual((code, output), (130, ""), errors)
+        self.assertIn("interrupted; the same command continues it", errors)
 
     def test_calibration_on_a_campaign(self):
         campaign = self.write_campaign({**PLAN, "measure.half_width": 0.15},

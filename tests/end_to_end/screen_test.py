@@ -63,6 +63,10 @@ class Screen(EndToEndTest):
             weight = sizes[number]["number"] * sizes[number]["diameter"] ** 3
             passed_mass.append((weight * (1 - stays[-1]))[:2].sum() / weight[:2].sum())
         np.testing.assert_allclose(partition["stays"], np.mean(stays, axis=0), atol=1e-12)
+        # Student's interval knows no bounds; a share has them. The largest size stays altogether.
+        np.testing.assert_allclose(partition["stays_low"], np.maximum(0, partition["stays"] - partition["stays_half_width"]), atol=1e-12)
+        np.testing.assert_allclose(partition["stays_high"], np.minimum(1, partition["stays"] + partition["stays_half_width"]), atol=1e-12)
+        self.assertEqual(partition["stays_high"][2], 1)
         np.testing.assert_allclose(partition["probability"], [(0.5 / 5) ** 2, (0.2 / 5) ** 2, 0], rtol=1e-9)
         self.assertAlmostEqual(row["screening_efficiency"], np.mean(passed_mass), delta=1e-12)
         self.assertAlmostEqual(screening["efficiency"][-1], np.mean(passed_mass), delta=1e-12)

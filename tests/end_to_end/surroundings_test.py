@@ -39,6 +39,7 @@ ARGUMENTS = {
     "theory friction": ("--machine-number", "1.5", "--max-relative-displacement", "1.9"),
     "theory design": ("--friction", "0.3", "--machine-number", "4", "--stroke", "nothing"), "theory batch": ("{s}", "--output", "{o}.csv"),
     "theory calibrate": ("{s}", "--free", "friction"), "page": ("{r}", "--output", "{o}.html"),
+    "tutorial": ("design",),
 }  # fmt: skip
 
 

@@ -137,7 +137,7 @@ TEST(CampaignFile, ErrorsNamePositionProblemAndCure) {
               "the speed of "
               "the drive; keep one of the two");
     EXPECT_EQ(error_of(with("length = \"36 mm\"", "length = \"12 mm\"")),
-              "c.toml:23:1: layer.length: 0.012 m is less than 4 diameters of the largest grains (0.0033 m "
+              "c.toml:23:1: layer.length: 12 mm is less than 4 diameters of the largest grains (3.3 mm "
               "each), so that "
               "grains would "
               "touch their own periodic images; write at least \"13.2 mm\"");

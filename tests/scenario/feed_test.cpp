@@ -60,7 +60,7 @@ TEST(Feed, WrongInputIsToldInOneLine) {
     EXPECT_THAT(error(example_campaign + "[feed]\nlength = \"25 mm\"\n"), HasSubstr("nothing is fed"));
     EXPECT_THAT(error(example_campaign + "[feed]\nmass_flow = \"0.1 t/h\"\n"), HasSubstr("feed.mass_flow"));
     EXPECT_THAT(error(fed("mass_flow = \"3 t/h\"\n")),
-                HasSubstr("does not fit through a zone of 0.02 m by 0.018 m"));
+                HasSubstr("does not fit through a zone of 20 mm by 18 mm"));
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"8 mm\"\n")), HasSubstr("feed.length"));
     EXPECT_THAT(error(fed("mass_flow = \"0.1 t/h\"\nlength = \"150 mm\"\n")),
                 HasSubstr("half of the trough"));

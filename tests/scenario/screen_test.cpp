@@ -34,7 +34,7 @@ TEST(Screen, HolesAreNotCutByTheBox) {
                 HasSubstr("write \"35 mm\" or \"40 mm\""));
     EXPECT_EQ(error_of(screened("opening = \"0 mm\"\nwire = \"1.1 mm\"\ntime = \"2 s\"\n")), "no error");
     EXPECT_THAT(error_of(screened("opening = \"5.9 mm\"\nwire = \"0.1 mm\"\ntime = \"2 s\"\n")),
-                HasSubstr("screen.wire: 0.0001 m is less than a twentieth of the opening"));
+                HasSubstr("screen.wire: 0.1 mm is less than a twentieth of the opening"));
 }
 
 TEST(Screen, NeedsAllItsKeys) {

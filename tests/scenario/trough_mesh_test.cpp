@@ -217,7 +217,7 @@ TEST_F(MeshCampaign, TheLevelGivesTheGrains) {
 TEST_F(MeshCampaign, MistakesAreNamed) {
     write("vee.stl", vee());
     EXPECT_THAT(error(on_mesh(with("length = \"36 mm\"", "length = \"35 mm\""))),
-                HasSubstr("trough.mesh: vee.stl: it is 0.036 m long, and layer.length is 0.035 m; write "
+                HasSubstr("trough.mesh: vee.stl: it is 36 mm long, and layer.length is 35 mm; write "
                           "layer.length = \"36 mm\""));
     EXPECT_THAT(error(on_mesh(with("restitution = 0.5", "restitution = 0.5\nmesh_unit = \"m\""))),
                 HasSubstr("is mesh_unit wrong?"));
@@ -233,16 +233,16 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     std::vector<Triangle> slope;
     add_rectangle(slope, {0, 0, 0}, {36, 0, 2}, {36, 18, 2}, {0, 18, 0});
     write("vee.stl", slope);
-    EXPECT_THAT(error(on_mesh()), HasSubstr("its two ends along the trough differ by 0.002 m in height"));
+    EXPECT_THAT(error(on_mesh()), HasSubstr("its two ends along the trough differ by 2 mm in height"));
     std::vector<Triangle> tilted;
     add_rectangle(tilted, {0, 0, 0}, {36, 0, 0}, {36, 18, 2}, {0, 18, 2});
     write("vee.stl", tilted);
-    EXPECT_THAT(error(on_mesh()), HasSubstr("its two sides differ by 0.002 m in height"));
+    EXPECT_THAT(error(on_mesh()), HasSubstr("its two sides differ by 2 mm in height"));
     std::vector<Triangle> gap;
     add_rectangle(gap, {0, 0, 0}, {20, 0, 0}, {20, 18, 0}, {0, 18, 0});
     add_rectangle(gap, {22, 0, 0}, {36, 0, 0}, {36, 18, 0}, {22, 18, 0});
     write("vee.stl", gap);
-    EXPECT_THAT(error(on_mesh()), HasSubstr("there is a hole in plan at x = 0.02"));
+    EXPECT_THAT(error(on_mesh()), HasSubstr("there is a hole in plan at x = 20"));
 }
 
 }  // namespace

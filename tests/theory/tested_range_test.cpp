@@ -106,10 +106,9 @@ TEST(TestedRange, NarrowsWithSlopeAndDepth) {
 
 // The two points that were once printed without a word, and the layer whose design was refuted.
 TEST(TestedRange, SaysWhatIsOutside) {
-    EXPECT_EQ(
-        outside_tested_range({2.8, 0.5, -0.06, 0.3}).value(),
-        "the rolling-layer law has not been tested at throw_number = 2.8, tan_inclination = -0.06, where "
-        "it has been for throw numbers in [1.513, 2.375]");
+    EXPECT_EQ(outside_tested_range({2.8, 0.5, -0.06, 0.3}).value(),
+              "the rolling-layer law has not been tested at throw_number = 2.8, tan_inclination = -0.06 "
+              "(-3.434 deg), where it has been for throw numbers in [1.513, 2.375]");
     EXPECT_TRUE(outside_tested_range({2.75, 0.5, -0.06, 0.3}));
     EXPECT_FALSE(outside_tested_range({2.4, 0.5, 0, 0.3}));
     EXPECT_TRUE(outside_tested_range({2.4, 0.5, 0, 0.3}, 15.6));

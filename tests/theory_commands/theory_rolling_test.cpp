@@ -59,6 +59,28 @@ TEST(TheoryRollingLayer, WithholdsItsAnswerOutsideItsRange) {
               std::string::npos);
 }
 
+// Numbers that were worked out from what was typed have few digits, and an angle is in degrees.
+TEST(TheoryRollingLayer, NamesPlacesWithFewDigits) {
+    std::string const machine = "theory point --rpm 1234 --stroke '12 mm' --friction 0.3 --rolling-layer ";
+    std::string const drive = machine + "--vibration-angle '30 deg'";
+    EXPECT_NE(run_program(drive).text.find("at throw_number = 5.10669, where"), std::string::npos);
+    EXPECT_NE(
+        run_program(drive + " --inclination '5 deg'")
+            .text.find("at tan_inclination = 0.0874887 (5 deg), outside [-0.08, 0.08] (-4.574 to 4.574 deg)"),
+        std::string::npos);
+    EXPECT_NE(
+        run_program(machine + "--tan-vibration-angle 0.9")
+            .text.find("at tan_vibration_angle = 0.9 (41.99 deg), outside [0.35, 0.75] (19.29 to 36.87 deg)"),
+        std::string::npos);
+    EXPECT_NE(run_program(machine + "--vibration-angle '95 deg'").text.find("between 0 and 90 degrees"),
+              std::string::npos);
+    EXPECT_NE(
+        run_program(
+            "theory design --friction 0.3 --machine-number 4 --stroke '4 mm to 12 mm' --inclination '25 deg'")
+            .text.find("inclination in deg = 25 is outside its range up to 15.9076 deg"),
+        std::string::npos);
+}
+
 TEST(TheoryRollingLayer, RefusesWrongConstantsInOneLine) {
     for (auto const& [constants, words] : std::vector<std::pair<std::string, std::string>>{
              {"torque=-1", "torque = -1 is outside its range"},

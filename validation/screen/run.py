@@ -81,7 +81,10 @@ def judge_sizes(run: ValidationCase, rows: list[Row]) -> None:
 def draw(run: ValidationCase, rows: list[Row]) -> None:
     figure, axes = new_figure(size=(6.4, 4.0), layout="constrained")
     size = [float(row["diameter_mm"]) for row in rows]
-    axes.errorbar(size, [float(row["stays"]) for row in rows], [float(row["stays_half_width"]) for row in rows], fmt=MARKERS[0], color=COLOURS[0], label="simulated")
+    stays, width = ([float(row[name]) for row in rows] for name in ("stays", "stays_half_width"))
+    # A share is from 0 to 1, and so is its interval.
+    ends = [[min(error, share) for share, error in zip(stays, width)], [min(error, 1 - share) for share, error in zip(stays, width)]]
+    axes.errorbar(size, stays, ends, fmt=MARKERS[0], color=COLOURS[0], label="simulated")
     axes.plot(size, [float(row["stays_by_model"]) for row in rows], MARKERS[1] + "--", color=COLOURS[1], label="Gaudin, one attempt per cycle")
     axes.axvline(5, color="0.7", lw=1)
     axes.set_xlabel("diameter  [mm]")

@@ -80,8 +80,11 @@ int run_design(DesignArguments const& options) {
             options.campaign, learn::design_campaign(task, design, {task.grain_diameter.value_or(0.003)}));
         tell("campaign written: {0}; next: vibrotrough check {0}\n", core::shell_word(options.campaign));
     }
-    if (!options.page.empty())
-        write_decision_page(learn::design_page_data(task, design), "design", options.page, options.python);
+    if (!options.page.empty()) {
+        auto data = learn::design_page_data(task, design);
+        if (options.verify) data["verification"] = learn::verification_sentence(task, found.verification);
+        write_decision_page(data, "design", options.page, options.python);
+    }
     if (options.json) {
         auto json = learn::design_json(task, design);
         if (options.verify) json["verification"] = learn::verification_json(found.verification);

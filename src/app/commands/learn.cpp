@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "prepare/numerical_errors.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <cmath>
 #include <memory>
@@ -34,7 +35,8 @@ learn::LearnGoal read_goal(LearnArguments const& options) {
 std::string place_text(atlas::Place const& place, std::vector<atlas::SurfaceInput> const& inputs) {
     std::string text;
     for (std::size_t k = 0; k < place.size(); ++k)
-        text += fmt::format("{}{}={:.4g}", k == 0 ? "" : ",", inputs[k].key, place[k]);
+        text += fmt::format("{}{}={}", k == 0 ? "" : ",", inputs[k].key,
+                            scenario::written_value(*scenario::find_key(inputs[k].key), place[k]));
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/outcome.hpp"
 #include "learn/campaign_surface.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,15 +79,20 @@ struct Prediction {
     double whole_half_width() const { return std::hypot(value.half_width, numerics); }
 };
 
+/// A value of a key in the unit that people write.
+std::string as_written(std::string const& key, double value) {
+    return scenario::written_value(*scenario::find_key(key), value);
+}
+
 atlas::Place numbers_at(std::map<std::string, scenario::Content> const& values,
                         std::vector<atlas::SurfaceInput> const& inputs, std::string const& text) {
     atlas::Place place;
     for (atlas::SurfaceInput const& input : inputs) {
         auto const found = values.find(input.key);
         if (found == values.end()) {
-            throw core::InputError(
-                fmt::format("--at {}: has no {}, which the campaign varies; write for example {},{}={:g}",
-                            text, input.key, text, input.key, (input.low + input.high) / 2));
+            throw core::InputError(fmt::format(
+                "--at {0}: has no {1}, which the campaign varies; write for example \"{0},{1}={2}\"", text,
+                input.key, as_written(input.key, (input.low + input.high) / 2)));
         }
         place.push_back(std::get<double>(found->second));
     }
@@ -193,7 +199,8 @@ void print_csv(std::vector<Prediction> const& predictions) {
 }
 
 void print_text(Prediction const& p) {
-    for (std::size_t k = 0; k < p.place.size(); ++k) fmt::print("{} = {:g}  ", p.inputs[k].key, p.place[k]);
+    for (std::size_t k = 0; k < p.place.size(); ++k)
+        fmt::print("{} = {}  ", p.inputs[k].key, as_written(p.inputs[k].key, p.place[k]));
     fmt::print(
         "\nvelocity efficiency  {:.3f} +- {:.3f}, of which statistics {:.3f} and numerical errors {:.3f} "
         "(theory "

@@ -77,23 +77,19 @@ void print_csv(std::vector<PredictedLayer> const& layers) {
     }
 }
 
-std::string three_digits(std::optional<double> const& value) {
-    return value ? core::without_sign_of_zero(fmt::format("{:.3f}", *value)) : "-";
-}
-
 void print_text(std::vector<PredictedLayer> const& layers) {
     std::size_t width = 4;
     for (PredictedLayer const& layer : layers) width = std::max(width, layer.label.size());
     fmt::print("{:{}}  {:>15}  {:>9}  {:>10}\n", "case", width, "eta, atlas", "speed", "eta theory");
     fmt::print("{:{}}  {:>15}  {:>9}  {:>10}\n", "", width, "95 %", "m/s", "point mass");
     for (PredictedLayer const& layer : layers) {
-        std::string const efficiency = layer.answer.efficiency
-                                           ? fmt::format("{} +- {}", three_digits(layer.answer.efficiency),
-                                                         three_digits(layer.answer.half_width))
-                                           : "-";
+        std::string const efficiency =
+            layer.answer.efficiency ? fmt::format("{} +- {}", core::three_digits(layer.answer.efficiency),
+                                                  core::three_digits(layer.answer.half_width))
+                                    : "-";
         std::string const outside = layer.outside(&atlas::Outside::why, ", ");
         fmt::print("{:{}}  {:>15}  {:>9}  {:>10}{}\n", layer.label, width, efficiency,
-                   three_digits(layer.speed()), three_digits(layer.theory),
+                   core::three_digits(layer.speed()), core::three_digits(layer.theory),
                    outside.empty() ? "" : "  outside: " + outside);
     }
     bool const is_all_inside =

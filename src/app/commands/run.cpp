@@ -126,7 +126,9 @@ or measure.max_packings, measure.max_cycles or measure.max_core_time is reached.
 still need is printed when it ends. A summary and the next command are printed at the end.
 
 Ctrl-C stops the run cleanly. The same command continues it; a finished case is never simulated again. A case that
-is not precise is continued after measure.max_packings or measure.max_core_time has been raised.
+is not precise is continued after measure.max_packings or measure.max_core_time has been raised. In the background of
+a script ('run ... &') a shell makes its programs ignore Ctrl-C and SIGINT: stop it there with 'kill PID' (SIGTERM), which
+is as clean.
 
 With the executor of a cluster under [run] in the campaign file, the next packings of each case are submitted as job arrays
 and the command returns. Call it again when they have ended, until it submits nothing more. With --wait it stays and

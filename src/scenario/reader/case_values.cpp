@@ -40,7 +40,8 @@ void complete_block(Scenario& scenario, GivenKeys const& given) {
     if (scenario.layer.block == Block::plate &&
         std::min(scenario.layer.length, scenario.layer.width) < needed) {
         given.fail("layer.block",
-                   fmt::format("a plate is 5 diameters long and needs a box of {:.6g} m", needed),
+                   fmt::format("a plate is 5 diameters long and needs a box of {}",
+                               given.text("layer.length", needed)),
                    "make length and width at least 8 diameters");
     }
     scenario.grains.rotation = scenario.layer.block == Block::point ? Rotation::blocked : Rotation::free;

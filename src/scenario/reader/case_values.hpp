@@ -27,8 +27,9 @@ struct FilePosition {
 
 /// A value and its position in the campaign file.
 struct Value {
-    Content content;  ///< the value itself
-    Position where;   ///< of the key
+    Content content;        ///< the value itself
+    Position where;         ///< of the key
+    std::string unit = {};  ///< of a quantity as it is written; empty where that is not known
 };
 
 /// Short paths first: most paths that are compared differ in length, which is known without reading them.

@@ -75,10 +75,12 @@ double DomainAxis::at(double fraction) const {
 
 void set_value(CaseValues& values, std::string const& key, Value const& value) {
     Key const& known = *find_key(key);
+    auto const before = values.find(known.path);
+    std::string const unit = before == values.end() || !value.unit.empty() ? value.unit : before->second.unit;
     if (!known.group.empty()) {
         std::erase_if(values, [&](auto const& entry) { return find_key(entry.first)->group == known.group; });
     }
-    values[known.path] = value;
+    values[known.path] = {value.content, value.where, unit};
 }
 
 std::optional<Content> value_of(Scenario const& scenario, CaseValues const& given, std::string_view key) {

@@ -1,10 +1,12 @@
 #include "scenario/reader/file_reader.hpp"
 
 #include "core/error.hpp"
+#include "core/quantity.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
 #include "scenario/reader/other_words.hpp"
 #include "scenario/reader/run_section.hpp"
+#include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>
@@ -226,8 +228,14 @@ class CampaignFileReader {
         if (key.kind == KeyKind::name) {
             read_name(key, where, node);
         } else {
-            result_.base[key.path] = {read_content(key, node, file_), where};
+            Content const content = read_content(key, node, file_);
+            result_.base[key.path] = {content, where, unit_of(key, node)};
         }
+    }
+
+    static std::string unit_of(Key const& key, toml::node const& node) {
+        auto const* const text = node.as_string();
+        return key.kind == KeyKind::quantity && text != nullptr ? core::unit_of(text->get()) : "";
     }
 
     void read_name(Key const& key, Position where, toml::node const& node) {
@@ -328,7 +336,7 @@ class CampaignFileReader {
         }
         for (double const value : {values.front(), values.back()}) {
             if (!(value >= key.least && value <= key.most)) {
-                fail(where, key.path, fmt::format("{} is out of range", value),
+                fail(where, key.path, fmt::format("{} is out of range", written_value(key, value)),
                      fmt::format("stay within {}", key.range));
             }
         }

@@ -1,7 +1,9 @@
 #include "scenario/reader/given_values.hpp"
 
 #include "core/atomic_file.hpp"
+#include "core/quantity.hpp"
 #include "core/text.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <cmath>
 
@@ -41,6 +43,15 @@ void GivenValue::refuse(std::string_view text, std::string_view allowed) const {
     fail(fmt::format("'{}' is not allowed", core::printable(text, 60)),
          fmt::format("{}; {}", write_instead(key_),
                      allowed.empty() ? fmt::format("allowed: {}", key_.range) : std::string(allowed)));
+}
+
+std::string GivenKeys::text(std::string_view key, double value) const {
+    Key const& known = *find_key(key);
+    auto const found = values_.find(key);
+    if (found == values_.end() || found->second.unit.empty()) return written_value(known, value);
+    std::string const& unit = found->second.unit;
+    // No unit of a key has a zero of its own, as those of temperatures have.
+    return fmt::format("{:.6g} {}", value / core::parse_quantity("1 " + unit, std::string(known.unit)), unit);
 }
 
 void GivenKeys::fail(std::string_view key, std::string_view wrong, std::string_view instead) const {

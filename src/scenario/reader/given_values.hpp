@@ -60,6 +60,8 @@ class GivenKeys {
 
     /// Whether the key is given.
     bool has(std::string_view key) const { return values_.contains(key); }
+    /// A number as the value of a key, in the unit in which the key is written: "12 mm".
+    std::string text(std::string_view key, double value) const;
     /// @throws core::InputError of one line: position of the key, key, what is wrong, what to write instead
     [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view instead) const;
 

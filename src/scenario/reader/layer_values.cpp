@@ -13,11 +13,12 @@ constexpr double most_grains_on_floor = 1e6;
 
 void check_box(std::string_view key, double side, double largest, GivenKeys const& given) {
     if (side >= 4 * largest) return;
-    given.fail(key,
-               fmt::format("{:.6g} m is less than 4 diameters of the largest grains ({:.6g} m each), so that "
-                           "grains would touch their own periodic images",
-                           side, largest),
-               fmt::format("write at least \"{:.6g} mm\"", 4e3 * largest));
+    given.fail(
+        key,
+        fmt::format("{} is less than 4 diameters of the largest grains ({} each), so that grains would "
+                    "touch their own periodic images",
+                    given.text(key, side), given.text("grains.diameter", largest)),
+        fmt::format("write at least \"{}\"", given.text(key, 4 * largest)));
 }
 
 /// The floor's mesh has a triangle for every few grains on it.
@@ -25,8 +26,8 @@ void check_floor(Layer const& layer, double diameter, GivenKeys const& given) {
     double const grains = layer.length * layer.width / (diameter * diameter);
     if (grains <= most_grains_on_floor) return;
     given.fail("layer.length",
-               fmt::format("{:.3g} grains of {:.3g} m would lie side by side on the floor, more than {:.0f}",
-                           grains, diameter, most_grains_on_floor),
+               fmt::format("{:.3g} grains of {} would lie side by side on the floor, more than {:.0f}",
+                           grains, given.text("grains.diameter", diameter), most_grains_on_floor),
                "make the box smaller or the grains larger; is the unit of the diameter right?");
 }
 
@@ -39,38 +40,35 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
     auto const fail = [&](std::string_view wrong, std::string_view instead) {
         given.fail(key, fmt::format("{}: {}", mesh.file.name, wrong), instead);
     };
-    auto const check_side = [&](char const* side, double given_side, double extent) {
+    auto const check_side = [&](char const* side, char const* adjective, double given_side, double extent) {
         if (std::abs(given_side - extent) <= 1e-6 * extent) return;
-        fail(fmt::format("it is {:.6g} m {}, and layer.{} is {:.6g} m", extent,
-                         side == std::string_view("length") ? "long" : "wide", side, given_side),
-             fmt::format("write layer.{} = \"{:.9g} mm\", or is mesh_unit wrong?", side, 1e3 * extent));
+        fail(fmt::format("it is {} {}, and {} is {}", given.text(side, extent), adjective, side,
+                         given.text(side, given_side)),
+             fmt::format("write {} = \"{:.9g} mm\", or is mesh_unit wrong?", side, 1e3 * extent));
     };
-    check_side("length", scenario.layer.length, unit * mesh.extent[0]);
-    check_side("width", scenario.layer.width, unit * mesh.extent[1]);
+    check_side("layer.length", "long", scenario.layer.length, unit * mesh.extent[0]);
+    check_side("layer.width", "wide", scenario.layer.width, unit * mesh.extent[1]);
     if (auto const hole = mesh.hole()) {
-        fail(
-            fmt::format(
-                "there is a hole in plan at x = {:.4g} m, y = {:.4g} m from its corner, through which grains "
-                "would fall",
-                unit * (*hole)[0], unit * (*hole)[1]),
-            "close it: the surface must cover its length and width");
+        fail(fmt::format(
+                 "there is a hole in plan at x = {}, y = {} from its corner, through which grains would fall",
+                 given.text("layer.length", unit * (*hole)[0]), given.text("layer.width", unit * (*hole)[1])),
+             "close it: the surface must cover its length and width");
     }
     double const size = smallest_diameter(scenario), grains = mesh.area * unit * unit / (size * size);
     if (grains > most_grains_on_floor) {
-        fail(fmt::format("{:.3g} grains of {:.3g} m would cover its surface, more than {:.0f}", grains, size,
-                         most_grains_on_floor),
+        fail(fmt::format("{:.3g} grains of {} would cover its surface, more than {:.0f}", grains,
+                         given.text("grains.diameter", size), most_grains_on_floor),
              "take a smaller piece of the trough or larger grains; is mesh_unit right?");
     }
     double const allowed = 0.01 * size;
     if (unit * mesh.mismatch_along > allowed) {
-        fail(
-            fmt::format("its two ends along the trough differ by {:.3g} m in height, but the box is periodic",
-                        unit * mesh.mismatch_along),
-            "make both ends the same: a step down needs a rise of the same height");
+        fail(fmt::format("its two ends along the trough differ by {} in height, but the box is periodic",
+                         given.text("layer.length", unit * mesh.mismatch_along)),
+             "make both ends the same: a step down needs a rise of the same height");
     }
     if (unit * mesh.mismatch_across > allowed && !mesh.has_upright_sides) {
-        fail(fmt::format("its two sides differ by {:.3g} m in height, but the box is periodic across",
-                         unit * mesh.mismatch_across),
+        fail(fmt::format("its two sides differ by {} in height, but the box is periodic across",
+                         given.text("layer.width", unit * mesh.mismatch_across)),
              "make both sides the same, or put upright walls there");
     }
     if (scenario.trough.side_wall_friction)
@@ -98,16 +96,21 @@ double space_below(double height, Scenario const& scenario) {
 int grains_for(double height, Scenario const& scenario, GivenKeys const& given) {
     double const diameter = mean_diameter(scenario);
     if (height < diameter) {
-        given.fail(height_key(given), fmt::format("{:.6g} m is less than one grain diameter", height),
-                   fmt::format("write at least \"{:.6g} mm\"", 1e3 * diameter));
+        given.fail(height_key(given),
+                   fmt::format("{} is less than one grain diameter", given.text("layer.height", height)),
+                   given.has("layer.diameters")
+                       ? "write at least 1"
+                       : fmt::format("write at least \"{}\"", given.text("layer.height", diameter)));
     }
     double const volume =
         scenario.trough.mesh ? settled_solid_fraction * space_below(height, scenario)
                              : settled_solid_fraction * scenario.layer.length * scenario.layer.width * height;
     double const count = volume / mean_grain_volume(scenario);
     if (count < 1) {
-        given.fail(height_key(given),
-                   fmt::format("{:.6g} m leaves no room for a grain above the trough", height), "raise it");
+        given.fail(
+            height_key(given),
+            fmt::format("{} leaves no room for a grain above the trough", given.text("layer.height", height)),
+            "raise it");
     }
     Key const& key = *find_key("layer.grains");
     if (count > key.most) {
@@ -164,24 +167,26 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
     if (length < 4 * largest || length > 0.5 * s.layer.length)
         given.fail(
             given.has("feed.length") ? "feed.length" : "layer.length",
-            fmt::format("the feed falls into the first {:.6g} m of {:.6g} m, which must be from 4 of the "
-                        "largest diameters ({:.6g} m each) to half of the trough",
-                        length, s.layer.length, largest),
-            fmt::format("write feed.length = \"{:.6g} mm\", or lengthen the trough", 4e3 * largest));
-    if (feed_height(s) < 3 * largest)
-        given.fail(
-            "feed.height",
             fmt::format(
-                "{:.6g} m is less than 3 of the largest diameters: grains would find no room above those "
-                "that lie on the floor",
-                feed_height(s)),
-            fmt::format("write at least \"{:.6g} mm\"", 3e3 * largest));
+                "the feed falls into the first {} of {}, which must be from 4 of the largest diameters "
+                "({} each) to half of the trough",
+                given.text("feed.length", length), given.text("layer.length", s.layer.length),
+                given.text("grains.diameter", largest)),
+            fmt::format("write feed.length = \"{}\", or lengthen the trough",
+                        given.text("feed.length", 4 * largest)));
+    if (feed_height(s) < 3 * largest)
+        given.fail("feed.height",
+                   fmt::format("{} is less than 3 of the largest diameters: grains would find no room above "
+                               "those that lie on the floor",
+                               given.text("feed.height", feed_height(s))),
+                   fmt::format("write at least \"{}\"", given.text("feed.height", 3 * largest)));
     if (feed_speed(s) > fastest)
         given.fail(
             "feed.mass_flow",
-            fmt::format("it does not fit through a zone of {:.6g} m by {:.6g} m: the stream would have to "
-                        "fall into the trough with {:.3g} m/s, faster than {} m/s",
-                        length, s.layer.width, feed_speed(s), fastest),
+            fmt::format("it does not fit through a zone of {} by {}: the stream would have to fall into the "
+                        "trough with {:.3g} m/s, faster than {} m/s",
+                        given.text("feed.length", length), given.text("layer.width", s.layer.width),
+                        feed_speed(s), fastest),
             "lengthen feed.length, widen the trough, or feed less");
 }
 

@@ -35,12 +35,13 @@ void check_side(Scenario const& s, char const* key, double side, GivenKeys const
     double const pitch = hole_pitch(s.screen), holes = std::max(1.0, std::round(side / pitch));
     if (std::abs(side - holes * pitch) <= rounding * side) return;
     double const fewer = std::floor(side / pitch) * pitch, more = std::ceil(side / pitch) * pitch;
-    given.fail(key,
-               fmt::format("{:.6g} m is not a whole number of pitches of {:.6g} m (screen.opening and "
-                           "screen.wire), so that the end of the periodic box would cut through holes",
-                           side, pitch),
-               fewer > 0 ? fmt::format("write \"{:.9g} mm\" or \"{:.9g} mm\"", 1e3 * fewer, 1e3 * more)
-                         : fmt::format("write \"{:.9g} mm\"", 1e3 * more));
+    given.fail(
+        key,
+        fmt::format("{} is not a whole number of pitches of {} (screen.opening and screen.wire), so that "
+                    "the end of the periodic box would cut through holes",
+                    given.text(key, side), given.text("screen.opening", pitch)),
+        fewer > 0 ? fmt::format("write \"{:.9g} mm\" or \"{:.9g} mm\"", 1e3 * fewer, 1e3 * more)
+                  : fmt::format("write \"{:.9g} mm\"", 1e3 * more));
 }
 
 /// The sheet is made of triangles that are about twice as long as the bars are wide.
@@ -49,8 +50,9 @@ void check_holes(Scenario const& s, GivenKeys const& given) {
     double const opening = *s.screen.opening, wire = *s.screen.wire;
     if (wire < opening / widest)
         given.fail("screen.wire",
-                   fmt::format("{:.6g} m is less than a twentieth of the opening of {:.6g} m", wire, opening),
-                   fmt::format("write at least \"{:.6g} mm\"", 1e3 * opening / widest));
+                   fmt::format("{} is less than a twentieth of the opening of {}",
+                               given.text("screen.wire", wire), given.text("screen.opening", opening)),
+                   fmt::format("write at least \"{}\"", given.text("screen.wire", opening / widest)));
     check_side(s, "layer.length", s.layer.length, given);
     check_side(s, "layer.width", s.layer.width, given);
     double const pitch = hole_pitch(s.screen);

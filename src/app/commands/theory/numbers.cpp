@@ -119,7 +119,7 @@ double read_angle(std::string const& option, std::string const& text, std::strin
     if (angle > low_deg * degree && angle < high_deg * degree) return angle;
     throw core::InputError(
         fmt::format("{} {}: must lie between {:g} and {:g} degrees; write for example {} \"{}\"", option,
-                    text, low_deg, high_deg, option, example));
+                    text, std::abs(low_deg) < 1e-6 ? 0 : low_deg, high_deg, option, example));
 }
 
 }  // namespace vibrotrough::app

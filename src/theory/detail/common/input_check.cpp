@@ -23,9 +23,15 @@ std::string number_text(double value) {
 #endif
 }
 
+std::string short_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
 void require_range(bool good, char const* name, double value, char const* range) {
     if (good) return;
-    throw std::invalid_argument(std::string(name) + " = " + number_text(value) + " is outside its range " +
+    throw std::invalid_argument(std::string(name) + " = " + short_text(value) + " is outside its range " +
                                 range);
 }
 

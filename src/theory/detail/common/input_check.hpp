@@ -10,6 +10,9 @@ namespace vibrotrough::theory::detail {
 /// The shortest text from which the same number is read back.
 std::string number_text(double value);
 
+/// A number for a message, with at most six digits.
+std::string short_text(double value);
+
 /// @throws std::invalid_argument "name = value is outside its range range" unless `good`
 void require_range(bool good, char const* name, double value, char const* range);
 
