@@ -8,6 +8,7 @@
     print(campaign.table()[["throw_number", "conveying_speed_m_per_s"]])
     case = campaign.case(campaign.table().index[0])
     print(case.result["packings/efficiency"], case.phases(1)["velocity_x"])
+    print(case.frames(1)[-1].positions)                         # where the campaign keeps frames; see help(vibrotrough_frames)
 
     vibrotrough.table([campaign, "runs/demo"])                  # the rows of several campaigns, with their names
 
@@ -26,6 +27,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import vibrotrough
+import vibrotrough_frames
 
 Progress = Callable[[dict[str, Any]], None]
 
@@ -96,6 +98,19 @@ class Case:
     def result(self) -> vibrotrough.File:
         """result.h5, with the series of cycles of each packing. @raises OSError when the case has none yet"""
         return vibrotrough.open_result(self.folder)
+
+    def packing(self, packing: int) -> vibrotrough_frames.Packing:
+        """What one of its packings wrote; packings count from 1. @raises KeyError when the result has none of this number"""
+        return vibrotrough_frames.Packing(self, packing)
+
+    def frames(self, packing: int = 1) -> vibrotrough_frames.Frames:
+        """The frames of a packing, which output.frames_per_cycle keeps: positions, velocities, radii and types of the grains as arrays.
+        @raises OSError when the packing kept none"""
+        return self.packing(packing).frames
+
+    def contacts(self, packing: int = 1) -> vibrotrough_frames.ContactFrames:
+        """The contacts in these frames with their forces, which output.contacts keeps. @raises OSError when the packing kept none"""
+        return self.packing(packing).contacts
 
     def phases(self, packing: int) -> dict[str, vibrotrough.Array]:
         """The motion of layer and trough over the cycle, averaged over the cycles that count: the columns of the packing's phases.
