@@ -272,7 +272,7 @@ class Cycle:
     packing: Packing
     number: int  # from 1
 
-    @functools.cached_property
+    @property
     def frames(self) -> list[Frame]:
         """Its frames: those after its start, until its end."""
         n = self.packing.steps_per_cycle
