@@ -49,7 +49,7 @@ def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str
     units: dict[str, str] = {}
 
     def keep(name: str, data: object) -> None:
-        if isinstance(data, h5py.Dataset):
+        if isinstance(data, h5py.Dataset) and not name.startswith("observables/"):
             columns[name] = data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
             units[name] = str(data.attrs.get("units", "1"))
 

@@ -41,6 +41,8 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module("vibrotrough_theory")
     if name in ("Campaign", "ProgramError", "table"):
         return getattr(importlib.import_module("vibrotrough_campaign"), name)
+    if name == "observable":
+        return importlib.import_module("vibrotrough_frames").observable
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -232,7 +234,7 @@ class CampaignFile(File):
         """
         import pandas  # only this function needs it
 
-        columns = [name for name in self if name != "case" and self[name].ndim == 1 and len(self[name]) == self.cases]
+        columns = [name for name in self if name != "case" and "/curve/" not in name and self[name].ndim == 1 and len(self[name]) == self.cases]
         frame = pandas.DataFrame({name: np.asarray(self[name]) for name in columns}, index=pandas.Index(list(self["case"]), name="case"))
         frame.attrs["units"] = {name: self[name].units for name in columns}
         frame.attrs["descriptions"] = {name: self[name].description for name in columns}

@@ -8,6 +8,7 @@
     print(campaign.table()[["throw_number", "conveying_speed_m_per_s"]])
     case = campaign.case(campaign.table().index[0])
     print(case.result["packings/efficiency"], case.phases(1)["velocity_x"])
+    print(case.frames(1)[-1].positions)                         # where the campaign keeps frames; see help(vibrotrough_frames)
 
     vibrotrough.table([campaign, "runs/demo"])                  # the rows of several campaigns, with their names
 
@@ -25,9 +26,8 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-import numpy as np
-
 import vibrotrough
+import vibrotrough_frames
 
 Progress = Callable[[dict[str, Any]], None]
 
@@ -88,17 +88,6 @@ class Line:
             print(file=sys.stderr)
 
 
-class Frame:
-    """The grains at one moment: heights above the trough (m), positions (m) and velocities (m/s) relative to the ground."""
-
-    def __init__(self, dump: pathlib.Path, trough_z: float) -> None:
-        lines = vibrotrough.read_regular(dump).decode("ascii").splitlines()
-        rows = np.array([line.split() for line in lines[9:]], dtype=float)
-        column = {name: rows[:, place] for place, name in enumerate(lines[8].split()[2:])}
-        self.positions, self.velocities = (np.column_stack([column[name + axis] for axis in "xyz"]) for name in ("", "v"))
-        self.heights = self.positions[:, 2] - trough_z
-
-
 class Case:
     """One case: its result, and what its packings wrote."""
 
@@ -110,12 +99,18 @@ class Case:
         """result.h5, with the series of cycles of each packing. @raises OSError when the case has none yet"""
         return vibrotrough.open_result(self.folder)
 
-    def frames(self, packing: int = 1) -> list[Frame]:
-        """The frames of a packing, which output.frames_per_cycle keeps. @raises OSError when it kept none"""
-        dumps = self.folder / f"packing-{packing}" / "dump"
-        lines = vibrotrough.read_regular(dumps / "frames.csv").decode("ascii").splitlines()
-        rows = [line.split(",") for line in lines if line[:1].isdigit()]
-        return [Frame(dumps / f"frames.{step}.dump", float(z)) for step, _, z in rows if (dumps / f"frames.{step}.dump").is_file()]
+    def packing(self, packing: int) -> vibrotrough_frames.Packing:
+        """What one of its packings wrote; packings count from 1. @raises KeyError when the result has none of this number"""
+        return vibrotrough_frames.Packing(self, packing)
+
+    def frames(self, packing: int = 1) -> vibrotrough_frames.Frames:
+        """The frames of a packing, which output.frames_per_cycle keeps: positions, velocities, radii and types of the grains as arrays.
+        @raises OSError when the packing kept none"""
+        return self.packing(packing).frames
+
+    def contacts(self, packing: int = 1) -> vibrotrough_frames.ContactFrames:
+        """The contacts in these frames with their forces, which output.contacts keeps. @raises OSError when the packing kept none"""
+        return self.packing(packing).contacts
 
     def phases(self, packing: int) -> dict[str, vibrotrough.Array]:
         """The motion of layer and trough over the cycle, averaged over the cycles that count: the columns of the packing's phases.

@@ -40,6 +40,8 @@ void add_deck(CLI::App& program, int& exit_code);
 void add_measure(CLI::App& program, int& exit_code);
 /// Shows how far a campaign is.
 void add_status(CLI::App& program, int& exit_code);
+/// Measures a person's own quantities.
+void add_observe(CLI::App& program, int& exit_code);
 /// Prints the table of measured and theoretical conveying.
 void add_compare(CLI::App& program, int& exit_code);
 /// Makes one file of a campaign, for a paper's supplement.

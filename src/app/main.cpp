@@ -56,6 +56,9 @@ What do you want to do?
       vibrotrough status runs/pellets
   compare layer and theory:
       vibrotrough compare runs/pellets --sort difference:desc
+  measure something of my own, with a function in Python:
+      vibrotrough observe --examples > my_observables.py
+      vibrotrough observe runs/pellets my_observables.py --allow-python my_observables.py
   give a campaign to the readers of a paper:
       vibrotrough archive runs/pellets
   know how large the numerical error is:
@@ -79,6 +82,7 @@ void add_commands(CLI::App& program, int& exit_code) {
     add_convergence(program, exit_code);
     add_capacity(program, exit_code);
     add_compare(program, exit_code);
+    add_observe(program, exit_code);
     add_archive(program, exit_code);
     add_learn(program, exit_code);
     add_predict(program, exit_code);

@@ -42,6 +42,7 @@ with the point-mass theory of vibratory conveying.
                            packing-<n>/ (the decks that LIGGGHTS ran: settle.liggghts, then in.liggghts)
   decks/<id>/              the decks of cases that were not simulated
   campaign.h5              all cases in one table, with units
+  observables.json         own quantities with the functions that measured them, where there are any
   tables/                  measured conveying beside the theory: compare.csv, compare.json, compare.txt
   report/                  figures and report, where they were made
   ro-crate-metadata.json   a description for machines (https://w3id.org/ro/crate/1.1)

@@ -3,6 +3,7 @@
 #include "archive/zip_file.hpp"
 #include "campaign/schedule/policy.hpp"
 #include "campaign/state/case_state.hpp"
+#include "campaign/state/observables.hpp"
 #include "core/error.hpp"
 #include "core/own_folder.hpp"
 #include "core/text.hpp"
@@ -89,8 +90,8 @@ std::string deck_that_ran(store::CaseRecord const& result, int packing) {
 
 std::vector<StoredFile> files_of_campaign(campaign::Plan const& plan) {
     Collection collection(plan.folder);
-    for (char const* name :
-         {"campaign.toml", "engine.json", "certificate.json", "friction.json", "numerics.json"})
+    for (char const* name : {"campaign.toml", "engine.json", "certificate.json", "friction.json",
+                             "numerics.json", campaign::observables_file})
         collection.add(name);
     for (std::string const& name : frozen_names(plan)) collection.add(name);
     collection.add_all("added");

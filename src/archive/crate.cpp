@@ -53,6 +53,8 @@ std::string description_of(std::string const& name) {
         {"campaign.h5", "All cases of the campaign in one table, with units"},
         {"friction.json", "Friction of the layers as a whole"},
         {"numerics.json", "Numerical error of the results"},
+        {"observables.json",
+         "Own quantities of the campaign's author, with the functions that measured them"},
         {"tables/compare.csv", "Measured conveying beside the point-mass theory, one row per case"},
         {"tables/compare.json", "The same table as JSON"},
         {"tables/compare.txt", "The same table for people"},

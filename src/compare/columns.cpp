@@ -309,6 +309,7 @@ std::optional<Value> Column::of(Row const& row) const {
     };
     if (swept >= 0) return at(row.swept, swept);
     if (stage >= 0) return at(row.stage, stage);
+    if (observed >= 0) return at(row.observed, observed);
     if (measured >= 0) {
         auto known = at(row.measured, measured);
         if (known && std::holds_alternative<double>(*known)) known = unit_factor * std::get<double>(*known);

@@ -2,8 +2,10 @@
 
 #include "compare/comparison.hpp"
 #include "scenario/reader/swept_keys.hpp"
+#include "store/observable.hpp"
 #include "store/quantity.hpp"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,7 +38,8 @@ struct Column {
     /// A function that gives the value of a row, none where it is not known. Its type is the column's type.
     using Function = std::variant<std::optional<double> (*)(Row const&), std::optional<int> (*)(Row const&),
                                   std::optional<std::string> (*)(Row const&)>;
-    Function value;  ///< gives the value of a row; of Row::swept, measured and stage only the type counts
+    Function value;  ///< gives the value of a row; of Row::swept, measured, stage and observed only the type
+                     ///< counts
     std::string meaning;  ///< one sentence for people, in the reference and the report
     std::string_view format =
         "{}";             ///< of a value in tables for people, as both fmt and Python understand it
@@ -50,10 +53,12 @@ struct Column {
     int swept = -1;             ///< place in Row::swept; negative for other columns
     int measured = -1;          ///< place in Row::measured; negative for other columns
     int stage = -1;             ///< place in Row::stage; negative for other columns
+    int observed = -1;          ///< place in Row::observed; negative for other columns
     double unit_factor = 1;     ///< of the values in `unit` against those in Row::measured
     double factor = 1;          ///< tables for people show the number times this, in the unit `shown_unit`
-    std::string_view shown_unit = "";     ///< empty: `unit`
-    int place = store::View::behind_all;  ///< in the order of JSON and CSV
+    std::string_view shown_unit = "";               ///< empty: `unit`
+    int place = store::View::behind_all;            ///< in the order of JSON and CSV
+    std::shared_ptr<std::string const> words = {};  ///< keeps headings that are not part of the program
 
     /// The type of the values.
     ColumnType type() const { return static_cast<ColumnType>(value.index()); }
@@ -69,6 +74,13 @@ std::span<Column const> all_columns();
 /// All columns and one for each swept key that has none, named like the key. The columns of swept keys come
 /// right behind the case in tables for people, and are left out last.
 std::vector<Column> columns_with_swept(scenario::SweptKeys const& swept);
+
+/// Adds the columns of a person's own quantities, for each number one of its mean and one of its half-width.
+/// Those that the program has meanwhile a quantity of the same name for are left out.
+void add_observed(std::vector<Column>& columns, std::span<store::Observable const> observables);
+
+/// Whether a column or a quantity of the program has this name, or had it once.
+bool is_name_of_program(std::string_view name, std::string const& unit);
 
 /// What the names of columns in text files end in, because these files tell no units: t/h/m is _t_per_h_m.
 std::string unit_suffix(std::string_view unit);

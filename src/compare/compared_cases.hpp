@@ -14,8 +14,14 @@ namespace vibrotrough::compare {
 struct ComparedCases {
     std::vector<campaign::CaseOverview> cases;  ///< in the order of the plan
     std::vector<Row> rows;                      ///< of the same cases in the same order
-    std::vector<Column> columns;                ///< of the rows, with those of the swept keys
+    std::vector<Column> columns;                ///< of the rows, see columns_of()
+    int outdated = 0;  ///< cases with observables of an earlier result, which no row has
 };
+
+/// The columns of a campaign: those of all, of its swept keys, and of its observables
+/// (campaign::read_observables).
+/// @throws core::InputError when observables.json is damaged
+std::vector<Column> columns_of(campaign::Plan const& plan);
 
 /// Compares all cases of a campaign with the theory. The friction of a layer is used where a friction test
 /// has measured it, and the numerical error where a study has (campaign::read_case_numerics).

@@ -41,6 +41,8 @@ struct Row {
     std::vector<std::optional<Value>> swept = {};
     /// Of a row of stage_rows(): the values of its stage_columns(); empty in other rows.
     std::vector<std::optional<Value>> stage = {};
+    /// Of each number among the campaign's observables, in their order, the mean and the half-width.
+    std::vector<std::optional<Value>> observed = {};
     /// Values of measured_quantities() in their order and units; empty without a result.
     std::vector<std::optional<Value>> measured = {};
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered

@@ -122,8 +122,9 @@ void add_interval(CaseEstimate& estimate, std::vector<double> const& means, Fluc
                           std::sqrt(estimate.packings);
 }
 
-CaseEstimate estimate_single(PackingValues const& packing, Precision const& wanted) {
-    PackingEstimate const one = estimate_packing(packing.values, wanted);
+CaseEstimate estimate_single(PackingValues const& packing, Precision const& wanted, int startup) {
+    PackingEstimate const one =
+        estimate_packing_after(std::max(startup, startup_length(packing.values)), packing.values, wanted);
     CaseEstimate estimate;
     estimate.packings = 1;
     estimate.discarded = one.discarded;
@@ -147,12 +148,12 @@ int common_startup_length(Runs runs) {
     return std::max(pooled_startup_length(runs), startup_length(mean));
 }
 
-CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted) {
+CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted, int startup) {
     if (packings.empty()) throw std::invalid_argument("there are no packings to combine");
     std::size_t const n = packings.front().values.size();
     if (!std::ranges::all_of(packings, [&](PackingValues const& one) { return one.values.size() == n; }))
         throw std::invalid_argument("the packings to combine have different numbers of cycles");
-    if (packings.size() == 1) return estimate_single(packings.front(), wanted);
+    if (packings.size() == 1) return estimate_single(packings.front(), wanted, startup);
     CaseEstimate estimate;
     estimate.packings = static_cast<int>(packings.size());
     if (n == 0) {
@@ -161,7 +162,7 @@ CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision co
     }
     std::vector<std::span<double const>> runs, kept;
     for (PackingValues const& packing : packings) runs.push_back(packing.values);
-    estimate.discarded = common_startup_length(runs);
+    estimate.discarded = std::max(startup, common_startup_length(runs));
     estimate.measured = static_cast<int>(n) - estimate.discarded;
     for (std::span<double const> const run : runs)
         kept.push_back(run.last(static_cast<std::size_t>(estimate.measured)));

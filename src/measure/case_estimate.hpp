@@ -86,8 +86,10 @@ int common_startup_length(Runs runs);
 ///
 /// A single packing is judged like estimate_packing().
 /// @param packings  at least one, equally long
+/// @param startup   cycles that are a start-up by what is known otherwise; more are left out if the values
+/// ask for it
 /// @throws std::invalid_argument when there are none, or their lengths differ
-CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted);
+CaseEstimate estimate_case(std::span<PackingValues const> packings, Precision const& wanted, int startup = 0);
 
 /// The number of packings after which the interval will probably be as narrow as wanted.
 /// @return none while the deviation of a packing is unknown; at most 1e6

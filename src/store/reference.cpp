@@ -1,6 +1,7 @@
 #include "store/reference.hpp"
 
 #include "store/material_quantities.hpp"
+#include "store/observable.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
 #include "store/screen_quantities.hpp"
@@ -134,14 +135,18 @@ std::vector<NameInFile> names_in_campaign() {
         {"swept/<key>", "float64 or text", "cases", "of the key",
          "The values of a key that the campaign sweeps, such as swept/grains.rolling_friction, in "
          "SI units (angles in rad); NaN or empty where a case has none"});
+    for (auto const& [name, type, shape, units, meaning] : observable_entries())
+        names.push_back(
+            {fmt::format("observables/<name>/{}", name), type, shape, units, std::string(meaning)});
     return names;
 }
 
 std::string file_reference() {
     // What campaign.h5 has in common with result.h5 is in the first table.
     std::vector<NameInFile> own = names_in_campaign();
-    std::erase_if(own,
-                  [](NameInFile const& row) { return row.shape == "cases" && row.units != "of the key"; });
+    std::erase_if(own, [](NameInFile const& row) {
+        return row.shape == "cases" && row.units != "of the key" && !row.name.starts_with("observables/");
+    });
     std::string facts;
     for (CaseFact const& fact : case_facts())
         facts += fmt::format("{}`{}`", facts.empty() ? "" : ", ", fact.entry.name);

@@ -314,7 +314,7 @@ Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases)
 }  // namespace
 
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           scenario::SweptKeys const& swept) {
+                           scenario::SweptKeys const& swept, std::span<Observable const> observables) {
     Hdf5MemoryFileWriter file;
     file.attribute("format", campaign_format);
     file.attribute("schema_version", campaign_schema_version);
@@ -330,6 +330,7 @@ std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord con
     for (auto const& [one, meaning] : case_columns())
         put({one->name, one->units, meaning}, stored_values(*one, cases));
     for (scenario::Key const* const key : swept) put(swept_entry(*key), swept_values(*key, cases), "swept/");
+    add_observables(file, cases, observables);
     return file.bytes();
 }
 
@@ -354,8 +355,9 @@ CaseRecord read_result(std::filesystem::path const& path) {
 }
 
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept) {
-    core::write_file_atomically(path, campaign_bytes(campaign, cases, swept));
+                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept,
+                    std::span<Observable const> observables) {
+    core::write_file_atomically(path, campaign_bytes(campaign, cases, swept, observables));
 }
 
 CampaignFit fit_of_campaign(std::filesystem::path const& path, scenario::SweptKeys const& swept) {

@@ -2,6 +2,7 @@
 
 #include "scenario/reader/swept_keys.hpp"
 #include "store/case_record.hpp"
+#include "store/observable.hpp"
 
 #include <filesystem>
 #include <span>
@@ -26,14 +27,17 @@ CaseRecord read_result(std::filesystem::path const& path);
 
 /// The bytes of campaign.h5: one dataset per column, with one value for each case in the order given. The
 /// same cases make the same bytes, so that a file holds these cases exactly if its bytes are these.
-/// @param swept  keys that differ between the cases, each of which becomes a dataset swept/KEY
+/// @param swept        keys that differ between the cases, each of which becomes a dataset swept/KEY
+/// @param observables  a person's own quantities, each of which becomes a group observables/NAME
 std::string campaign_bytes(std::string const& campaign, std::span<CaseRecord const> cases,
-                           scenario::SweptKeys const& swept = {});
+                           scenario::SweptKeys const& swept = {},
+                           std::span<Observable const> observables = {});
 
 /// Writes campaign.h5 atomically, with campaign_bytes().
 /// @throws core::MissingError when it cannot be written
 void write_campaign(std::filesystem::path const& path, std::string const& campaign,
-                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept = {});
+                    std::vector<CaseRecord> const& cases, scenario::SweptKeys const& swept = {},
+                    std::span<Observable const> observables = {});
 
 /// Whether a campaign.h5 is what this program would write, as far as the cases do not matter.
 enum class CampaignFit {

@@ -108,6 +108,36 @@ TEST(AnotherColumn, IsInTheReportAndInTheReadme) {
                                                      "| A hundred times the speed, for the test |\n"));
 }
 
+// A person's own number has a column for itself and one for its interval in every view, and none when the
+// program has that name.
+TEST(ObservedColumns, AreInEveryView) {
+    store::Observable const number{"temperature", "m2/s2", "Granular temperature", "", "", "", "", "", {}};
+    store::Observable curve = number, taken = number;
+    curve.name = "profile";
+    curve.over = "height";
+    taken.name = "efficiency";
+    std::vector<Column> all(all_columns().begin(), all_columns().end());
+    std::size_t const before = all.size();
+    add_observed(all, std::vector{curve, taken, number});
+    ASSERT_EQ(all.size(), before + 2);
+    Row row = drive_row("case",
+                        prepare::prepare_case(scenario::parse_campaign(example_campaign, "c.toml").cases[0]));
+    row.observed = {{}, {}, {}, {}, 0.25, 0.125};
+    std::vector const table{row};
+    EXPECT_THAT(to_csv(table, all), HasSubstr(",temperature_m2_per_s2,temperature_half_width_m2_per_s2\n"));
+    auto const json = nlohmann::json::parse(to_json(table, all));
+    EXPECT_EQ(json.at(0).at("temperature_m2_per_s2"), 0.25);
+    EXPECT_EQ(json.at(0).at("temperature_half_width_m2_per_s2"), 0.125);
+    EXPECT_THAT(to_table(table, {}, all), HasSubstr("temperature     +-"));
+    EXPECT_EQ(filtered(table, "temperature>0.2", all).size(), 1u) << "also without its unit";
+    EXPECT_EQ(filtered(table, "temperature>0.3", all).size(), 0u);
+    EXPECT_EQ(column_descriptions(all).at(before).at("meaning"), "Granular temperature");
+    for (char const* name : {"efficiency", "conveying_speed", "speed", "layer_mode", "throw_number"})
+        EXPECT_TRUE(is_name_of_program(name, "1")) << name;
+    EXPECT_TRUE(is_name_of_program("wall_time", "s"));
+    EXPECT_FALSE(is_name_of_program("temperature", "m2/s2"));
+}
+
 /// The columns of a campaign with these sections and the rows of its cases.
 struct SweptTable {
     explicit SweptTable(std::string const& sections)

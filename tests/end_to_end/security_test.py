@@ -1,5 +1,6 @@
 """What the program promises about folders and engines: each docstring is a sentence of .github/PROMISES.md (promises.py)."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -64,6 +65,33 @@ class Security(EndToEndTest):
             self.assertFalse(proof.exists(), f"{command} in {place} executed {proof.read_text() if proof.exists() else ''}")
             self.assertTrue(all(Path(line).is_file() for line in done.stdout.splitlines()), done.stdout)
 
+    def write_observable(self, before=""):
+        mine = self.folder / "mine.py"
+        mine.write_text(f"{before}import vibrotrough\n\n@vibrotrough.observable(of='packing', needs='cycles')\n"
+                        "def one(packing):\n    'One.'\n    return [1.0] * packing.result_cycles\n")  # fmt: skip
+        return mine
+
+    def test_no_function_runs_unless_its_file_is_allowed(self):
+        """`observe` runs a person's file only when `--allow-python` names that very file, and what it measures is stored with its text and SHA-256."""
+        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        proof = self.folder / "executed"
+        mine = self.write_observable(f"open({str(proof)!r}, 'w').close()\n")
+        other = self.folder / "other.py"
+        shutil.copy(mine, other)
+        for words in ([], ["--allow-python", other], ["--allow-python", self.folder]):
+            self.assert_refused(self.call("observe", self.output, mine, *words), 2, "--allow-python")
+        # A file of the campaign's folder is no exception, and neither is one with the name of a module.
+        for module in ("observables", "observe", *MODULES):
+            shutil.copy(mine, self.output / f"{module}.py")
+        self.assert_refused(self.call("observe", ".", cwd=self.output), 2, "no packing keeps frames")
+        self.assert_refused(self.call("observe", ".", "observables.py", cwd=self.output), 2, "--allow-python observables.py")
+        self.assertFalse(proof.exists())
+        done = self.call("observe", self.output, mine, "--allow-python", mine)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (kept,) = json.loads((self.output / "observables.json").read_text())["observables"]
+        self.assertEqual(kept["source"], mine.read_text())
+        self.assertEqual(kept["source_sha256"], hashlib.sha256(mine.read_bytes()).hexdigest())
+
     def test_nothing_is_written_or_removed_through_a_link(self):
         """Below a campaign's folder nothing is written or removed through a symbolic link."""
         campaign = self.write_campaign(ONE)
@@ -83,6 +111,7 @@ class Security(EndToEndTest):
             (self.precious / "checkpoint.json").unlink(missing_ok=True)
             self.assert_untouched()
             self.assertTrue((case / "result.h5").is_file())
+        mine = self.write_observable()
         # Folders and files that lead elsewhere are replaced, or the command ends and names them.
         for command, link, target in (
             (["run", campaign, "--output", self.output, "--liggghts", self.engine], "campaign.log", "letter"),
@@ -92,6 +121,7 @@ class Security(EndToEndTest):
             (["report", self.output], "report/report.html", "letter"),
             (["report", self.output], "report/data", ""),
             (["plot", self.output], "report/efficiency.svg", "letter"),
+            (["observe", self.output, mine, "--allow-python", mine], "observables.json", "letter"),
             (["export", self.output, "--table"], "view", ""),
             (["export", self.output, "--table"], "view/campaign.vtt", "letter"),
         ):

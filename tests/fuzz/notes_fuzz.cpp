@@ -123,6 +123,14 @@ void check_campaign(std::string_view text) {
         for (auto const& one : *list) require_number(core::note::known_number(one, "numerical_error"), 0);
         list->dump();
     }
+    if (auto const observables = believed([&] { return campaign::parse_observables(text); })) {
+        for (auto const& one : *observables) {
+            require(store::is_observable_name(one.name) && store::is_plain_unit(one.unit));
+            for (auto const* line : {&one.meaning, &one.over, &one.file}) require_line(*line);
+        }
+        std::string const written = campaign::to_json(*observables);
+        require(campaign::to_json(campaign::parse_observables(written)) == written);
+    }
     believed([&] { return deck::parse_written(text); });
 }
 

@@ -76,6 +76,8 @@ void write_other_files(fs::path const& folder, campaign::PlannedCase const& plan
         "friction": 0.2, "friction_low": 0.1, "friction_high": 0.3, "mode": "PN", "message": ""}])");
     write(folder / "numerics.json",
           R"({"format": "vibrotrough numerics", "schema_version": 1, "cases": []})");
+    write(folder / "observables.json",
+          R"({"format": "vibrotrough observables", "schema_version": 1, "observables": []})");
 }
 
 /// Readers that no table needs.

@@ -68,6 +68,13 @@ def check_file(path, heading, reference):
                 seen.add(row_name)
                 assert row_name in table and data[1] == shapes["cases"], name
                 continue
+            if name.startswith("observables/"):
+                row_name = "observables/<name>/" + name.split("/", 2)[2]
+                seen.add(row_name)
+                kind, shape = table[row_name][:2]
+                assert data[1] == {"cases": (2,), "points": (3,), "scalar": ()}[shape], name
+                assert (data[0] == TYPES[kind]) if kind in TYPES else h5py.check_string_dtype(data[0]), name
+                continue
             if series:
                 shapes |= {"cycles": (CYCLES[series[2]],), "cycles + 1": (CYCLES[series[2]] + 1,)}
             assert row_name in table, f"{path}: {name} is not documented"
@@ -162,6 +169,13 @@ def check_campaign_values(file):
     # Gamma goes with the square of the frequency; powers of two are exact in a double.
     assert file["throw_number"][1] == 4 * file["throw_number"][0]
     assert list(file["packings"]) == [2, 2]
+    # A person's own number and curve were measured in the first case alone.
+    number, curve = file["observables/temperature"], file["observables/profile/curve"]
+    assert number["mean"][0] == 0.25 and math.isnan(number["mean"][1]) and list(number["packings"]) == [2, 0]
+    assert (number["mean"].attrs["units"], number["mean"].attrs["description"]) == ("m2/s2", "Granular temperature")
+    assert list(number["steadiness"].asstr()) == ["drifting", ""] and number["source"].asstr()[()] == "text"
+    assert list(curve["at"]) == [0.001, 0.002, 0.003] and list(curve["mean"][:2]) == [1, 2] and math.isnan(curve["mean"][2])
+    assert list(curve.attrs["units"]) == ["1", "m", "m2/s2", "m2/s2", "1"] and curve.attrs["description"][1] == "height"
     # The first case has borrowed its numerical error, that of the second is the bound: the root of the sum of squares.
     bounds = [np.asarray(file[f"{part}_error"]) for part in ("softness", "box", "time_step")]
     assert file["efficiency_numerical_error"][0] == 0.034

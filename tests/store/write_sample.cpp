@@ -65,6 +65,21 @@ vibrotrough::store::CaseRecord sample_mixture() {
     return record;
 }
 
+/// A number and a curve of the first case; the second case has neither.
+std::vector<vibrotrough::store::Observable> sample_observables(vibrotrough::store::CaseRecord const& record) {
+    using namespace vibrotrough::store;
+    ObservedCase const one{record.id, mark_of(record), {1, 2}, 1, 2, {}, {{0.25, 0.125, "drifting"}}};
+    Observable number{"temperature", "m2/s2", "Granular temperature", "", "", "mine.py", "text",
+                      "5e1f",        {one}};
+    Observable curve = number;
+    curve.name = "profile";
+    curve.over = "height";
+    curve.over_unit = "m";
+    curve.cases[0].at = {0.001, 0.002, 0.003};
+    curve.cases[0].values = {{1.0, 0.5, "steady"}, {2.0, {}, "drifting"}, {{}, {}, "steady"}};
+    return {number, curve};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,7 +96,8 @@ int main(int argc, char** argv) {
         studied.studied = {0.034, "fedcba9876543210"};
         write_campaign(folder / "campaign.h5", "sample", {studied, sample_record("fedcba9876543210", 27.0)},
                        {vibrotrough::scenario::find_key("trough.frequency"),
-                        vibrotrough::scenario::find_key("grains.rotation")});
+                        vibrotrough::scenario::find_key("grains.rotation")},
+                       sample_observables(studied));
         return 0;
     } catch (std::exception const& error) {
         std::fprintf(stderr, "%s\n", error.what());

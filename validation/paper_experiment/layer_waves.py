@@ -8,23 +8,9 @@ from numpy.typing import NDArray
 
 import engine_deck
 from engine_deck import Floats
+from observables import surface_snapshots, wave_parts
 
 CYCLES = 3  # until the same phase is seen again: a snapshot every 0.3 cycles
-
-
-def snapshots(path: pathlib.Path) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """Steps, middles of the columns [m], and heights of the surface [m], a row per snapshot."""
-    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    steps, tables, row = [], [], 0
-    while row < len(lines):
-        columns = int(lines[row][1])
-        table = np.array(lines[row + 1:row + 1 + columns], dtype=float)
-        if len(table) == columns:
-            steps.append(int(lines[row][0]))
-            tables.append(table)
-        row += 1 + columns
-    stacked: Floats = np.array(tables)
-    return np.array(steps), stacked[0, :, 1], 2.0 * stacked[:, :, 4]  # a column is twice as high as its grains' mean
 
 
 def displacement(path: pathlib.Path, steps: NDArray[np.int64]) -> Floats:
@@ -40,14 +26,13 @@ def waves(packing: pathlib.Path, length: float, steps_per_cycle: int, discarded:
     of the variance, and `turnover`: its correlation, in the layer's own frame, with itself three cycles later, when the same
     phase is seen again. Waves at half the frequency give -1, dunes that the layer carries +1, noise 0.
     `x`, `two`: the surface three cycles before the end and at it, in the layer's frame, at that phase."""
-    steps, places, heights = snapshots(packing / "surface.0.txt")
+    steps, places, heights = surface_snapshots(packing)
     late = steps >= discarded * steps_per_cycle
     steps, heights = steps[late], heights[late]
     deviation = heights - heights.mean(axis=1, keepdims=True)
     x = displacement(packing / "phases.csv", steps)
     numbers = np.arange(1, len(places) // 2)
-    parts = deviation @ np.exp(-2j * np.pi * np.outer(places, numbers) / length) / len(places)
-    parts *= np.exp(2j * np.pi * np.outer(x, numbers) / length)  # in the frame that moves with the layer
+    parts = wave_parts(places, heights, length) * np.exp(2j * np.pi * np.outer(x, numbers) / length)  # in the frame that moves with the layer
     variances = (2 * np.abs(parts) ** 2).mean(axis=0)
     best = int(variances.argmax())
     later = {step: i for i, step in enumerate(steps)}

@@ -98,9 +98,15 @@ int run_compare(CompareArguments const& options) {
     campaign::Plan const plan = campaign::open_plan(bundle ? bundle->folder : fs::path(options.folder));
     compare::ComparedCases compared =
         compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
-    auto& [cases, rows, columns] = compared;
+    auto& [cases, rows, columns, outdated] = compared;
     if (bundle) tell_unknown_results(*bundle, rows, cases);
     tell_left_aside(plan, cases);
+    if (outdated > 0)
+        tell(
+            "vibrotrough: left aside: observables of {} case{}, which belong to an earlier result; "
+            "'vibrotrough observe' "
+            "measures them again\n",
+            outdated, outdated == 1 ? "" : "s");
     if (options.stages) {
         rows = compare::stage_rows(compared);
         columns = compare::stage_columns(columns);

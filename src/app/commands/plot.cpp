@@ -5,6 +5,7 @@
 #include "app/python.hpp"
 #include "campaign/execute/executors.hpp"
 #include "campaign/state/campaign_folder.hpp"
+#include "compare/compared_cases.hpp"
 #include "compare/report_data.hpp"
 #include "compare/select.hpp"
 #include "core/atomic_file.hpp"
@@ -107,7 +108,7 @@ std::vector<std::string> words_for_columns(PlotArguments const& options, campaig
     if (!options.only.empty() || !options.cases.empty())
         throw core::InputError(
             "--only and --case choose among the other figures; leave them out with --x and --y");
-    auto const columns = compare::columns_with_swept(plan.swept);
+    auto const columns = compare::columns_of(plan);
     compare::Column const& y = number_named(columns, "--y", options.y);
     std::vector<std::string> words{"--x", std::string(number_named(columns, "--x", options.x).name), "--y",
                                    std::string(y.name)};

@@ -4,6 +4,7 @@
 #include "core/note.hpp"
 #include "core/outcome.hpp"
 #include "evaluate/friction_test.hpp"
+#include "store/observable.hpp"
 
 #include <map>
 #include <optional>
@@ -82,5 +83,10 @@ core::note::Json parse_numerics(std::string_view text);
 
 constexpr char const* numerics_format = "vibrotrough numerics";  ///< the format that numerics.json names
 constexpr int numerics_schema = 1;                               ///< its schema version
+
+/// observables.json
+std::vector<store::Observable> parse_observables(std::string_view text);
+/// The text of observables.json.
+std::string to_json(std::vector<store::Observable> const& observables);
 
 }  // namespace vibrotrough::campaign

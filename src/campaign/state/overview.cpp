@@ -2,6 +2,7 @@
 
 #include "campaign/state/case_state.hpp"
 #include "campaign/state/numerics_results.hpp"
+#include "campaign/state/observables.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -227,7 +228,8 @@ CampaignFileState campaign_file_state(Plan const& plan) {
         case store::CampaignFit::fits:
             break;
     }
-    bool const holds_them = core::read_file(file) == store::campaign_bytes(plan.name, records, plan.swept);
+    bool const holds_them = core::read_file(file) == store::campaign_bytes(plan.name, records, plan.swept,
+                                                                           read_observables(plan.folder));
     return holds_them ? CampaignFileState::up_to_date : CampaignFileState::of_other_results;
 }
 
@@ -241,7 +243,8 @@ bool is_campaign_file_outdated(Plan const& plan) {
 }
 
 void write_campaign_file(Plan const& plan) {
-    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true), plan.swept);
+    store::write_campaign(plan.folder / "campaign.h5", plan.name, result_summaries(plan, true), plan.swept,
+                          read_observables(plan.folder));
 }
 
 }  // namespace vibrotrough::campaign

@@ -134,7 +134,10 @@ constexpr std::array rows_of_plans{
         field<&Scenario::engine, &EnginePlan::cohesion>.unless_default()},
     Key{"engine.extra", file, "", 0, 0, "none or a .liggghts file in the same folder", "", optional,
         "\"rotor.liggghts\"",
-        "commands of LIGGGHTS that the decks run as well; they can do anything, so that 'run' shows them and "
+        "commands of LIGGGHTS that the decks run as well; files of fix print and fix ave/time are opened "
+        "anew at "
+        "each checkpoint, so that their names need ${now}; commands can do anything, so that 'run' shows "
+        "them and "
         "refuses unless --allow-extra is given",
         KeyAccess{[](Scenario const& s) {
                       return content_of(std::string(s.engine.extra ? s.engine.extra->file.name : "none"));
