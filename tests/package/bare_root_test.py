@@ -66,8 +66,9 @@ class BareRoot(unittest.TestCase):
         folder = Path(temporary.name)
         Root.must(CPACK, "-G", "DEB", "--config", f"{BUILD}/CPackConfig.cmake", "-B", folder / "made")
         cls.root = Root(folder / "root")
-        [package] = (folder / "made").glob("*.deb")
-        shutil.copy(package, cls.root.path / "tmp/vibrotrough.deb")
+        for name in ("vibrotrough", "python3-vibrotrough"):
+            [package] = (folder / "made").glob(f"{name}_*.deb")
+            shutil.copy(package, cls.root.path / "tmp" / f"{name}.deb")
 
     def done(self, *words, **settings):
         done = self.root.call(*words, **settings)
@@ -80,7 +81,7 @@ class BareRoot(unittest.TestCase):
     def test_installed_used_and_removed(self):
         self.done("useradd", "--create-home", "engineer")
         before = self.root.files()
-        self.done("apt-get", "install", "--yes", "--no-install-recommends", "/tmp/vibrotrough.deb")
+        self.done("apt-get", "install", "--yes", "--no-install-recommends", "/tmp/vibrotrough.deb", "/tmp/python3-vibrotrough.deb")
         installed = self.root.files() - before
         self.assertIn("/usr/bin/vibrotrough", installed)
         self.assertIn("/usr/bin/liggghts", installed)
@@ -97,8 +98,10 @@ class BareRoot(unittest.TestCase):
         self.as_user("export", "runs/small")
         self.assertTrue(list(home.rglob("*.pvd")) and list(home.rglob("*.vtp")))
         self.assertIn("vibrotrough run", self.as_user("manual"))
+        read = "import vibrotrough; print(vibrotrough.open_campaign('runs/small').cases, vibrotrough.theory.solve(throw_number=2, tan_vibration_angle=0.5, friction=0.3).mode)"
+        self.assertEqual(self.done("python3", "-c", read, user="engineer", folder="/home/engineer").split(), ["1", "FN'"])
 
-        self.done("apt-get", "purge", "--yes", "vibrotrough")
+        self.done("apt-get", "purge", "--yes", "vibrotrough", "python3-vibrotrough")
         left = sorted(path for path in self.root.files() if "vibrotrough" in path and not path.startswith(KEPT_BY_DEBIAN))
         self.assertEqual(left, [], "the package leaves nothing of its own")
         self.done("apt-get", "autoremove", "--purge", "--yes")

@@ -32,15 +32,18 @@ class Unpacked(unittest.TestCase):
         made = call(CPACK, "-G", "DEB", "--config", f"{BUILD}/CPackConfig.cmake", "-B", cls.folder / "made", cwd=cls.folder)
         if made.returncode != 0:
             raise AssertionError(made.stdout + made.stderr)
-        [cls.package] = (cls.folder / "made").glob("*.deb")
-        cls.root = cls.folder / "root"
+        [cls.package] = (cls.folder / "made").glob("vibrotrough_*.deb")
+        [cls.module] = (cls.folder / "made").glob("python3-vibrotrough_*.deb")
+        assert len(list((cls.folder / "made").glob("*.deb"))) == 2
+        cls.root, cls.module_root = cls.folder / "root", cls.folder / "module-root"
         subprocess.run(["dpkg-deb", "--extract", cls.package, cls.root], check=True)
+        subprocess.run(["dpkg-deb", "--extract", cls.module, cls.module_root], check=True)
         cls.program = cls.root / "usr/bin/vibrotrough"
 
 
 class Package(Unpacked):
-    def field(self, name):
-        return call("dpkg-deb", "--field", self.package, name).stdout.strip()
+    def field(self, name, package=None):
+        return call("dpkg-deb", "--field", package or self.package, name).stdout.strip()
 
     def test_it_names_what_it_needs(self):
         self.assertEqual(self.field("Package"), "vibrotrough")
@@ -52,14 +55,27 @@ class Package(Unpacked):
             self.assertNotIn(name, needed)
 
     def test_nothing_points_into_the_folder_it_was_built_in(self):
-        for path in self.root.rglob("*"):
+        for path in [*self.root.rglob("*"), *self.module_root.rglob("*")]:
             if path.is_file():
                 content = path.read_bytes()
                 self.assertNotIn(SOURCE.encode(), content, path)
                 self.assertNotIn(BUILD.encode(), content, path)
 
+    def test_the_module_is_a_package_of_its_own(self):
+        """It needs neither the program nor the libraries of the program, and the two have no file in common, so that both can be installed."""
+        self.assertEqual(self.field("Package", self.module), "python3-vibrotrough")
+        self.assertIn("python3-vibrotrough", self.field("Recommends"))
+        needed = self.field("Depends", self.module)
+        for name in ("python3", "python3-numpy", "python3-h5py"):
+            self.assertIn(name, needed)
+        for name in ("liggghts", "libvtk", "libhdf5-", "matplotlib", "-dev"):
+            self.assertNotIn(name, needed)
+        files = [{str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()} for root in (self.root, self.module_root)]
+        self.assertEqual(files[0] & files[1], set())
+        self.assertEqual({path.rpartition("/")[0] for path in files[1]}, {"usr/lib/python3/dist-packages"})
+
     def test_python_finds_the_module(self):
-        modules = self.root / "usr/lib/python3/dist-packages"
+        modules = self.module_root / "usr/lib/python3/dist-packages"
         solved = "vibrotrough.theory.solve(throw_number=2, tan_vibration_angle=0.5, friction=0.3).mode"
         done = call("/usr/bin/python3", "-B", "-c", f"import vibrotrough; print(vibrotrough.__file__, vibrotrough.open_campaign.__name__, {solved})",
                     cwd="/", env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(modules)})  # fmt: skip
