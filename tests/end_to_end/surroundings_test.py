@@ -26,7 +26,7 @@ POINT = ("--throw-number", "2", "--vibration-angle", "30 deg", "--friction", "0.
 # this table has not fails the test. Where no exit code is named it is 0.
 ARGUMENTS = {
     "init": ("--output", "{o}.toml"), "run": ("{c}", "--output", "{r}"), "plan": ("{c}",), "prepare": ("{c}", "--task-list", "{o}", "--output", "{r}"),
-    "work": ("{r}", "--task-list", "{c}", "--index", "0"), "keys": (), "quantities": (), "deck": ("{c}", "--output", "{o}"), "measure": ("{r}",),
+    "work": ("{r}", "--task-list", "{c}", "--index", "0"), "keys": (), "quantities": (), "deck": ("{c}", "--output", "{o}"), "measure": ("{r}",), "observe": ("--examples",),
     "status": ("{r}",), "friction-test": ("{c}", "--output", "{r}", "--liggghts", "/nonexistent"), "convergence": ("{r}", "--liggghts", "/nonexistent"),
     "capacity": ("{c}", "--output", "{r}"), "compare": ("{r}", "--csv"), "archive": ("{r}", "--output", "{o}.zip"), "learn": ("{c}", "--half-width", "0.03", "--budget", "1 core-hours"),
     "predict": ("{r}", "--at", "throw_number=1.9"), "calibrate": ("{r}", "--measured", "{s}", "--free", "trough.friction"),

@@ -74,7 +74,7 @@ void add_tutorial(CLI::App& program, int& exit_code) {
     command->footer(
         R"(Each walk takes about two minutes on two cores:
 
-  depth    for researchers: does depth matter for my pellets? From a prediction to a figure and an archive
+  depth    for researchers: does depth matter for my pellets? From a prediction to a figure
   design   for engineers: from a mass flow to the sheet of a machine that was simulated
 
 Without --output the page is printed. An existing file is never overwritten.
