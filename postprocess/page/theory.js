@@ -31,9 +31,12 @@ class Theory {
   named(numbers, offset = 0) {
     const answer = {};
     this.names.answer.forEach((name, i) => { answer[name] = numbers[offset + i]; });
-    for (const of of ["mass", "layer", "best"]) answer[`${of}_mode`] = this.mode(answer[`${of}_mode`]);
+    for (const of of ["mass", "layer", "atlas", "best"]) answer[`${of}_mode`] = this.mode(answer[`${of}_mode`]);
     return answer;
   }
+
+  /// Gets a part of the atlas ready. @return whether all of it is
+  prepareAtlas() { return this.module._page_prepare_atlas() === 1; }
 
   answer(settings) {
     this.give(settings);
