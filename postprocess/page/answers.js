@@ -6,7 +6,7 @@ function withUnit(value, unit) { return Number.isFinite(value) ? `${showNumber(v
 
 function speedText(metresPerSecond) { return withUnit(metresPerSecond * speedFactor(), page.speedUnit); }
 
-const modelWords = ["by_layer", "by_mass", "by_between"];
+const modelWords = ["by_layer", "by_mass", "by_between", "by_atlas"], ofAtlas = 3;
 
 /// The answer of a machine with its words. @throws Error where the theory has none
 function answerOf(one) {
@@ -21,6 +21,8 @@ function showAnswer(answer) {
   put("flow-band", showRange(answer.best_flow_low, answer.best_flow_high, "t/h"));
   put("throw-number", showNumber(answer.throw_number));
   put("machine-number", `${showNumber(answer.machine_number)} g`);
+  put("atlas-speed", speedText(answer.atlas_speed));
+  put("atlas-band", Number.isFinite(answer.atlas_low) ? showRange(answer.atlas_low * speedFactor(), answer.atlas_high * speedFactor(), page.speedUnit) : "");
   put("layer-speed", speedText(answer.layer_speed));
   put("mass-speed", speedText(answer.mass_speed));
   put("efficiency", showNumber(answer.best_efficiency));
@@ -46,16 +48,18 @@ function speakLater() {
 /// Grey, amber or red, with the reason in words.
 function showTrust(answer) {
   const reasons = [...(answer.words.untested ? [answer.words.untested] : []), ...answer.words.unusual].map(sayTheory);
+  if (reasons.length === 0) reasons.push(say(answer.model === ofAtlas ? "atlas_note" : "tested_note"));
+  reasons.push(...answer.words.outside_atlas.map(sayTheory));
   const level = page.wrong.size > 0 ? "wrong" : answer.words.unusual.length > 0 ? 2 : answer.trust;
   document.getElementById("summary").dataset.trust = level;
   put("trust-word", say(`trust_${level}`));
   if (level === "wrong") reasons.unshift(say("wrong_note"));
-  put("reason", reasons.length > 0 ? reasons.join(" ") : say("tested_note"));
+  put("reason", reasons.join(" "));
   document.getElementById("reason").dataset.trust = level;
 }
 
 function showNoAnswer(message) {
-  for (const id of ["speed", "speed-band", "flow", "flow-band", "throw-number", "machine-number", "layer-speed", "mass-speed", "efficiency", "model",
+  for (const id of ["speed", "speed-band", "flow", "flow-band", "throw-number", "machine-number", "atlas-speed", "atlas-band", "layer-speed", "mass-speed", "efficiency", "model",
     "depth-in-grains", "landing-speed", "power", "sentence", "mode"]) put(id, "\u2013");
   document.getElementById("summary").dataset.trust = 2;
   put("trust-word", say("trust_2"));

@@ -1,5 +1,7 @@
 #include "page/machine.hpp"
 
+#include "atlas/tables.hpp"
+#include "atlas/unknown.hpp"
 #include "learn/model_errors.hpp"
 #include "theory/plastic_quantities.hpp"
 #include "theory/quantities.hpp"
@@ -21,13 +23,37 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double normal_quantile = 1.959964;  // of 97.5 %: a band of 95 %
 
 // validation/rolling_layer: layers of spheres with rolling friction up to 0.03 roll as free ones do; at 0.2
-// they are conveyed as if they could not roll. Nothing was simulated between.
+// they are conveyed as if they could not roll. Between, only the atlas has layers.
 constexpr double rolls_freely = 0.03;
 constexpr double hardly_rolls = 0.2;
 
 Model model_of(double rolling_friction) {
     if (rolling_friction <= rolls_freely) return Model::rolling_layer;
     return rolling_friction >= hardly_rolls ? Model::point_mass : Model::between;
+}
+
+/// What the page does not ask of the grains. The atlas has it in the middle of its ranges.
+constexpr std::array<atlas::Input, 2> not_asked{atlas::grain_friction_input, atlas::restitution_input};
+
+/// The place of a layer in the atlas, in the order of atlas::inputs().
+atlas::Place place_of(Settings const& settings, double friction) {
+    theory::PointMass const point = settings.inputs(friction).point();
+    return {point.throw_number,
+            point.tan_vibration_angle,
+            point.tan_inclination,
+            point.friction,
+            settings[Setting::stroke_mm] / 2 / settings[Setting::grain_mm],
+            settings.depth_in_grains(),
+            atlas::middle_of(atlas::grain_friction_input),
+            settings[Setting::rolling_friction],
+            atlas::middle_of(atlas::restitution_input)};
+}
+
+/// The ends of the friction's band; none when it is known exactly.
+std::vector<double> ends_of_friction(Settings const& settings) {
+    double const middle = settings[Setting::friction], band = settings[Setting::friction_band];
+    if (!(band > 0)) return {};
+    return {std::max(middle - band, 0.0), middle + band};
 }
 
 std::optional<double> known_depth(Settings const& settings) {
@@ -119,15 +145,13 @@ theory::Efficiency Machines::efficiency(theory::PointMass const& point, bool rol
 
 /// Ends and middle of the friction's band; the speed hardly bends between them.
 Speed Machines::speed(Settings const& settings, bool rolling) {
-    double const middle = settings[Setting::friction], band = settings[Setting::friction_band];
     double const scale = settings.inputs().velocity_scale().value();
     Speed speed{};
     theory::Efficiency const at_middle = efficiency(settings.inputs().point(), rolling);
     speed.efficiency = at_middle.velocity_efficiency;
     speed.mode = at_middle.mode;
     double low = speed.efficiency, high = speed.efficiency;
-    for (double const friction : {std::max(middle - band, 0.0), middle + band}) {
-        if (!(band > 0)) break;
+    for (double const friction : ends_of_friction(settings)) {
         double const eta = efficiency(settings.inputs(friction).point(), rolling).velocity_efficiency;
         low = std::min(low, eta);
         high = std::max(high, eta);
@@ -141,7 +165,44 @@ Speed Machines::speed(Settings const& settings, bool rolling) {
     return speed;
 }
 
+Speed Machines::atlas_speed(Settings const& settings) {
+    Speed speed{unknown, unknown, unknown, unknown, unknown, unknown, unknown, 0};
+    if (!of_not_asked_ || !outside_atlas(settings).empty()) return speed;
+    auto const value = atlas::value_at(place_of(settings, settings[Setting::friction]));
+    if (!value) return speed;
+    double low = value->efficiency, high = low;
+    for (double const friction : ends_of_friction(settings)) {
+        auto const eta = atlas::efficiency_at(place_of(settings, friction));
+        if (!eta) return speed;
+        low = std::min(low, *eta);
+        high = std::max(high, *eta);
+    }
+    double const error = std::hypot(value->half_width, atlas::deviations_in_half_width * *of_not_asked_);
+    double const scale = settings.inputs().velocity_scale().value();
+    speed.efficiency = value->efficiency;
+    speed.speed = scale * speed.efficiency;
+    speed.low = scale * (low - error);
+    speed.high = scale * (high + error);
+    add_flow(speed, settings);
+    return speed;
+}
+
+bool Machines::prepare_atlas() {
+    last_.reset();
+    if (!layers_) {
+        layers_ = atlas::simulated_layers();
+    } else if (!of_not_asked_) {
+        of_not_asked_ = atlas::sd_of_unknown(not_asked);
+    }
+    return of_not_asked_.has_value();
+}
+
 Answer Machines::operator()(Settings const& settings) {
+    if (!last_ || last_->first != settings) last_.emplace(settings, answered(settings));
+    return last_->second;
+}
+
+Answer Machines::answered(Settings const& settings) {
     theory::Inputs const inputs = settings.inputs();
     theory::PointMass const point = inputs.point();
     Answer answer{};
@@ -151,10 +212,13 @@ Answer Machines::operator()(Settings const& settings) {
     answer.depth_in_grains = settings.depth_in_grains();
     answer.mass = speed(settings, false);
     answer.layer = speed(settings, true);
-    answer.model = model_of(settings[Setting::rolling_friction]);
-    answer.best = answer.model == Model::rolling_layer ? answer.layer
-                  : answer.model == Model::point_mass  ? answer.mass
-                                                       : spanning(answer.mass, answer.layer, settings);
+    answer.atlas = atlas_speed(settings);
+    answer.model =
+        std::isnan(answer.atlas.speed) ? model_of(settings[Setting::rolling_friction]) : Model::atlas;
+    answer.best = answer.model == Model::atlas           ? answer.atlas
+                  : answer.model == Model::rolling_layer ? answer.layer
+                  : answer.model == Model::point_mass    ? answer.mass
+                                                         : spanning(answer.mass, answer.layer, settings);
     answer.trust = trust_in(answer, point, known_depth(settings));
     return answer;
 }
@@ -212,7 +276,18 @@ std::optional<std::string> untested(Settings const& settings, Answer const& answ
         if (auto why = theory::outside_tested_range(point, depth)) return why;
     }
     if (answer.trust == Trust::unknown) return "no simulated layer tells what the model misses here";
-    return "no layer was simulated with a rolling friction between 0.03 and 0.2";
+    return "outside of the atlas no layer was simulated with a rolling friction between 0.03 and 0.2";
+}
+
+std::vector<atlas::Outside> outside_atlas(Settings const& settings) {
+    auto outside = atlas::outside_ranges(place_of(settings, settings[Setting::friction]));
+    if (!outside.empty()) return outside;
+    // Of the ends of the friction's band it is enough that they are near: the interval is that of the middle.
+    for (double const friction : ends_of_friction(settings)) {
+        atlas::Place const end = place_of(settings, friction);
+        if (atlas::is_far_outside(end)) return atlas::outside_ranges(end);
+    }
+    return {};
 }
 
 std::vector<std::string> unusual(Settings const& settings, Answer const& answer) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atlas/value.hpp"
 #include "theory/efficiency.hpp"
 #include "theory/inputs.hpp"
 #include "theory/rolling_layer.hpp"
@@ -8,11 +9,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// @file
-/// What the page shows of a machine. All physics is that of src/theory; what the models miss is that of
-/// src/learn.
+/// What the page shows of a machine. All physics is that of src/theory, the atlas of simulated layers that of
+/// src/atlas; what the models miss is that of src/learn.
 
 namespace vibrotrough::page {
 
@@ -40,6 +42,8 @@ struct Settings {
     std::array<double, setting_count> value;  ///< in the order of Setting
     /// The value of one.
     double operator[](Setting setting) const { return value[static_cast<std::size_t>(setting)]; }
+    /// Whether all values are the same.
+    bool operator==(Settings const&) const = default;
     /// The same with another value of one setting.
     Settings with(Setting setting, double other) const;
 
@@ -58,6 +62,7 @@ enum class Model {
     rolling_layer,  ///< grains that roll freely
     point_mass,     ///< grains that hardly roll
     between,        ///< no simulated layer tells which: the answer spans both
+    atlas,          ///< the atlas of simulated layers, wherever it has the layer
 };
 
 /// How far an answer has been tested.
@@ -85,6 +90,7 @@ struct Answer {
     double trough_speed;     ///< omega r cos(beta), m/s
     double depth_in_grains;  ///< of the layer
     Speed mass, layer;       ///< of the point mass and of the rolling-layer law
+    Speed atlas;             ///< of the atlas; NaN outside of it
     Speed best;              ///< of the model that fits these grains
     Model model;             ///< that model
     Trust trust;             ///< how far it has been tested
@@ -96,12 +102,22 @@ class Machines {
     /// @throws std::invalid_argument when a setting has no sense
     Answer operator()(Settings const& settings);
 
+    /// Gets a part of the atlas ready, which takes longer than a first answer may: answers before that are
+    /// those outside of it. @return whether all of it is ready
+    bool prepare_atlas();
+
     /// Efficiency and mode of a point mass or a rolling layer.
     theory::Efficiency efficiency(theory::PointMass const& point, bool rolling);
 
   private:
     Speed speed(Settings const& settings, bool rolling);
+    Speed atlas_speed(Settings const& settings);
 
+    Answer answered(Settings const& settings);
+
+    std::optional<std::pair<Settings, Answer>> last_;
+    std::optional<int> layers_;           ///< of the atlas, when its surface is ready
+    std::optional<double> of_not_asked_;  ///< standard deviation, in velocity efficiency, when it is known
     theory::EfficiencySolver mass_;
     theory::RollingLayerSolver layer_{theory::RollingLaw{}};
 };
@@ -131,6 +147,9 @@ std::vector<Frame> frames(Settings const& settings, bool rolling, int count);
 
 /// Why the answer is not one that has been tested; nothing for Trust::tested.
 std::optional<std::string> untested(Settings const& settings, Answer const& answer);
+
+/// What of the layer the atlas does not cover; empty inside of it.
+std::vector<atlas::Outside> outside_atlas(Settings const& settings);
 
 /// What is unusual about a machine, a sentence each.
 std::vector<std::string> unusual(Settings const& settings, Answer const& answer);

@@ -151,6 +151,15 @@ async function start() {
   motion.playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   showMotionLegend();
   changed();
+  requestAnimationFrame(() => setTimeout(prepareAtlas));
+}
+
+/// The first answer does not wait for the atlas, which gets ready in parts between the frames after it.
+function prepareAtlas() {
+  if (!page.theory.prepareAtlas()) { setTimeout(prepareAtlas); return; }
+  document.documentElement.dataset.atlas = performance.now();
+  curves.fill(null);
+  changed();
 }
 
 start();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -64,7 +65,7 @@ void append(std::vector<double>& numbers, page::Speed const& s) {
 std::vector<std::string> answer_names() {
     std::vector<std::string> names{"throw_number",    "machine_number", "trough_speed",
                                    "depth_in_grains", "model",          "trust"};
-    for (char const* const of : {"mass", "layer", "best"}) {
+    for (char const* const of : {"mass", "layer", "atlas", "best"}) {
         auto const more = speed_names(of);
         names.insert(names.end(), more.begin(), more.end());
     }
@@ -78,7 +79,7 @@ std::vector<double> numbers_of(page::Answer const& a) {
                                 a.depth_in_grains,
                                 static_cast<double>(a.model),
                                 static_cast<double>(a.trust)};
-    for (page::Speed const* const speed : {&a.mass, &a.layer, &a.best}) append(numbers, *speed);
+    for (page::Speed const* const speed : {&a.mass, &a.layer, &a.atlas, &a.best}) append(numbers, *speed);
     return numbers;
 }
 
@@ -111,10 +112,13 @@ Json words(page::Settings const& settings) {
                          layer = theory::solve(theory::RollingLayer{point, {}}).motion;
     page::Answer const answer = machines()(settings);
     auto const why = page::untested(settings, answer);
+    Json outside = Json::array();
+    for (atlas::Outside const& one : page::outside_atlas(settings)) outside.push_back(one.why);
     return {{"mass", described(mass)},
             {"layer", described(layer)},
             {"landing", described_landing(settings, mass)},
             {"untested", why ? Json(*why) : Json()},
+            {"outside_atlas", std::move(outside)},
             {"unusual", page::unusual(settings, answer)}};
 }
 
@@ -158,6 +162,13 @@ char const* page_mode(int number) {
     bool const known = number >= 0 && static_cast<std::size_t>(number) < modes().size();
     text = known ? theory::to_string(modes()[static_cast<std::size_t>(number)]) : "";
     return text.c_str();
+}
+
+/// Gets a part of the atlas ready. @return whether all of it is
+int page_prepare_atlas() {
+    bool ready = true;
+    guarded([&] { ready = machines().prepare_atlas(); });
+    return ready ? 1 : 0;
 }
 
 /// @param numbers  in the order of answer_names()

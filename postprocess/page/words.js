@@ -33,6 +33,7 @@ const englishWords = {
   by_mass: "point mass",
   by_layer: "rolling-layer law",
   by_between: "between both",
+  by_atlas: "atlas of layers",
   model: "Answer of",
   letters: "Γ (gamma), the throw number, is the largest acceleration of the trough normal to itself over gravity\u2019s part normal to it: above 1 the material is thrown. Some shops call it K or K\u1d65. K here is the machine number, the largest acceleration in the direction of vibration in units of g: what the structure has to bear.",
   in_g: "g",
@@ -45,7 +46,8 @@ const englishWords = {
   trust_wrong: "check the inputs",
   wrong_note: "The answer is that of the last inputs that were complete.",
   tested_note: "Within the range in which the model was compared with simulated layers.",
-  band_note: "Bands: the friction\u2019s uncertainty, widened by what the model missed in simulated layers (95 %).",
+  atlas_note: "Within the atlas: between layers of spheres that were simulated.",
+  band_note: "Bands: the friction\u2019s uncertainty, widened by the interval of the atlas, or by what the model missed in simulated layers (95 %).",
   what_it_does: "What the layer does",
   is_thrown: "thrown for {0} degrees of the cycle",
   lands: "lands {0}",
@@ -120,8 +122,8 @@ const englishWords = {
   campaign_title: "Simulated cases of {0}",
   campaign_case: "case",
   use_case: "Take its inputs",
-  rolling_note: "Up to 0.03 the grains count as rolling, from 0.2 on as hardly rolling.",
-  about: "Computed in this page by the theory of Vibrotrough {0}: the point mass of Sloot and Kruyt (1996) and the law for rolling layers. Nothing is sent anywhere.",
+  rolling_note: "Outside of the atlas, grains count as rolling up to 0.03, and as hardly rolling from 0.2 on.",
+  about: "Computed in this page by the theory of Vibrotrough {0}: the point mass of Sloot and Kruyt (1996), the law for rolling layers and the atlas of simulated layers. Nothing is sent anywhere.",
   skip: "To the answer",
   over_trough: "relative to the trough",
   loading_failed: "This browser cannot run WebAssembly: {0}",
@@ -131,7 +133,8 @@ const englishWords = {
   theory_nowhere: "The rolling-layer law was not tested at {0} {1}{2}.",
   theory_runs_away: "The material runs away downhill.",
   theory_no_layer: "No simulated layer tells how wrong the model is here.",
-  theory_between: "No layer was simulated with a rolling friction between 0.03 and 0.2: the band holds both models.",
+  theory_atlas: "{0} {1} is outside of the atlas of simulated layers, which has {2} to {3}.",
+  theory_between: "Outside of the atlas no layer was simulated with a rolling friction between 0.03 and 0.2: the band holds both models.",
   theory_fast: "{0} Hz is unusual: troughs run at 1 to 120 Hz. Were {1} turns per minute meant?",
   theory_slow: "{0} Hz is unusual: troughs run at 1 to 120 Hz. Were {1} Hz meant, not rpm?",
   theory_wide: "An amplitude of {0} mm is unusual: strokes, which are twice as long, are mostly below 30 mm.",
@@ -142,6 +145,8 @@ const englishWords = {
   name_friction: "friction",
   name_tan_inclination: "tan of the inclination",
   name_depth: "depth in grains",
+  name_amplitude: "amplitude in grains",
+  name_rolling_friction: "rolling friction",
 };
 
 /// The word of a key in the page's language, with {0}, {1} ... replaced.
@@ -150,15 +155,16 @@ function say(key, ...values) {
   return text === undefined ? key : text.replace(/\{(\d)\}/g, (_, i) => values[Number(i)]);
 }
 
-/// The sentences of the theory (tested_range.cpp, unusual.cpp, machine.cpp): what they match, which words say the same, and with what.
+/// The sentences of the theory (tested_range.cpp, unusual.cpp, machine.cpp) and of the atlas (value.cpp): what they match, which words say the same, and with what.
 const theorySentences = [
   [/^the rolling-layer law has not been tested at (.+?) = ([^ ,]+)(.*), outside (\[[^\]]*\])(?: \(.*\))?$/, "theory_outside", (m) => [nameOf(m[1]), short(m[2]), placeOf(m[3]), rangeOf(m[4])]],
   [/^the rolling-layer law has not been tested at throw_number = ([^ ,]+)(.*), where it has been for throw numbers in (\[.*\])$/, "theory_there",
     (m) => [nameOf("throw_number"), short(m[1]), placeOf(m[2]), rangeOf(m[3])]],
   [/^the rolling-layer law has not been tested at throw_number = ([^ ,]+)(.*)$/, "theory_nowhere", (m) => [nameOf("throw_number"), short(m[1]), placeOf(m[2])]],
+  [/^(\w+) (\S+) \(the atlas has (\S+) to (\S+)\)$/, "theory_atlas", (m) => [nameOf(m[1]), short(m[2]), ...m.slice(3).map((end) => fieldNumber(Number(end)))]],
   [/^the material runs away$/, "theory_runs_away", () => []],
   [/^no simulated layer tells what the model misses here$/, "theory_no_layer", () => []],
-  [/^no layer was simulated with a rolling friction between/, "theory_between", () => []],
+  [/^outside of the atlas no layer was simulated with a rolling friction between/, "theory_between", () => []],
   [/^a frequency of (\S+) Hz is unusual.*were (\S+) turns/, "theory_fast", (m) => [short(m[1]), short(m[2])]],
   [/^a frequency of (\S+) Hz is unusual.*were (\S+) Hz/, "theory_slow", (m) => [short(m[1]), short(m[2])]],
   [/^an amplitude of (\S+) mm is unusual/, "theory_wide", (m) => [short(m[1])]],

@@ -1,10 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
-#include "theory/point_mass.hpp"
-#include "theory/rolling_layer.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,26 +15,6 @@ constexpr double least_width = 20;
 constexpr double least_spread = 0.05, most_spread = 0.2;
 /// Grain and trough have the same restitution in the atlas; others may be so far apart.
 constexpr double most_restitution_difference = 0.2;
-/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
-constexpr double farthest = 0.25;
-
-Surface const& surface() {
-    static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
-                                read_draws(draws_table, "draws.csv"));
-    return fitted;
-}
-
-/// Half-width of what the layers scatter about the surface beyond their own intervals.
-double scatter_half_width() {
-    static double const width = [] {
-        auto const draws = surface().draws();
-        double variance = 0;
-        for (inference::Hyperparameters const& draw : draws)
-            variance += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
-        return deviations_in_half_width * std::sqrt(variance);
-    }();
-    return width;
-}
 
 /// Why a layer is of another kind than those of the atlas.
 std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
@@ -84,34 +61,8 @@ Place place_of(prepare::PreparedCase const& p) {
             (s.grains.restitution + t.restitution) / 2};
 }
 
-/// The trend of the atlas at a place; nothing when a rolling layer or a point mass has no mean speed there.
-std::optional<double> trend_at(Place const& place) {
-    theory::PointMass const point{place[throw_number_input], place[tan_vibration_input],
-                                  place[tan_inclination_input], place[friction_input]};
-    // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
-    thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
-    theory::RollingLaw law;
-    law.dry_torque += place[rolling_friction_input];
-    if (!last || last->first != law.dry_torque) last.emplace(law.dry_torque, theory::RollingLayerSolver(law));
-    auto const motion = last->second(point).motion, sliding = theory::solve(point);
-    for (theory::Motion const& one : {motion, sliding})
-        if (!one.converged && one.outcome != theory::Outcome::unsettled) return {};
-    return trend_of(motion.velocity_efficiency, sliding.velocity_efficiency);
-}
-
-std::string range_text(std::string_view name, double value, double low, double high) {
-    return fmt::format("{} {:.3g} (the atlas has {:g} to {:g})", name, value, low, high);
-}
-
 std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& place) {
-    constexpr double rounding = 1e-9;  // of the width of a range
-    std::vector<Outside> all;
-    for (std::size_t k = 0; k < place.size(); ++k) {
-        auto const& [name, low, high] = inputs()[k];
-        double const room = rounding * (high - low);
-        if (place[k] < low - room || place[k] > high + room)
-            all.push_back({name, range_text(name, place[k], low, high)});
-    }
+    std::vector<Outside> all = outside_ranges(place);
     scenario::Grains const& grains = p.scenario.grains;
     double const spread = grains.size_law == scenario::SizeLaw::listed ? -1 : grains.diameter_spread;
     if (spread < least_spread || spread > most_spread) {
@@ -130,45 +81,12 @@ std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& p
 
 }  // namespace
 
-int simulated_layers() {
-    return static_cast<int>(surface().points().size());
-}
-
-double numerical_error() {
-    static double const mean = read_numerical_error(layers_table, "layers.csv");
-    return mean;
-}
-
-Place error_lengths() {
-    auto const draws = surface().draws();
-    Place lengths;
-    for (std::size_t k = 0; k < inputs().size(); ++k) {
-        std::vector<double> all;
-        for (inference::Hyperparameters const& draw : draws)
-            all.push_back(draw.lengths(static_cast<Eigen::Index>(k)));
-        std::ranges::sort(all);
-        lengths.push_back(all[all.size() / 2] * (inputs()[k].high - inputs()[k].low));
-    }
-    return lengths;
-}
-
-std::optional<SurfaceValue> value_at(Place const& place) {
-    auto const trend = trend_at(place);
-    if (!trend) return {};
-    SurfaceValue const value = surface().at(place, *trend);
-    return SurfaceValue{value.efficiency,
-                        std::hypot(value.half_width, scatter_half_width(), numerical_error())};
-}
-
 Answer predict(prepare::PreparedCase const& prepared) {
     Answer answer{{}, {}, of_another_kind(prepared)};
     if (!answer.is_inside()) return answer;
     Place const place = place_of(prepared);
     answer.outside = out_of_range(prepared, place);
-    for (std::size_t k = 0; k < place.size(); ++k) {
-        auto const& [name, low, high] = inputs()[k];
-        if (std::max(low - place[k], place[k] - high) > farthest * (high - low)) return answer;
-    }
+    if (is_far_outside(place)) return answer;
     auto const value = value_at(place);
     if (!value) {
         answer.outside.push_back({"theory", "a point mass or rolling layer without a mean speed"});

@@ -82,16 +82,19 @@ class Surface {
     /// The velocity efficiency at a place. @param theory  velocity efficiency of the theory there
     SurfaceValue at(Place const& place, double theory) const;
 
+    /// The efficiency alone of at(), which takes a fraction of the time.
+    double efficiency_at(Place const& place, double theory) const;
+
     /// By how much a further value at `where`, with so wide a 95 % interval, would lower the variance of the
     /// efficiency at `place`, by the process of the largest likelihood.
     double variance_reduction(Place const& place, double theory, Place const& where, double theory_there,
                               double half_width) const;
 
-    /// Takes a point as known, without judging the surface or finding its hyperparameters again.
+    /// Takes a point as known, without finding the hyperparameters of the surface again.
     void believe(SurfacePoint const& point);
 
-    /// How well the surface predicts its own points.
-    SurfaceQuality const& quality() const { return quality_; }
+    /// How well the surface predicts its own points, which takes as long as a few hundred predictions.
+    SurfaceQuality quality() const;
     /// Why the surface should not be used, in whole sentences; empty when nothing speaks against it.
     std::vector<std::string> doubts() const;
 
@@ -113,7 +116,7 @@ class Surface {
     std::vector<SurfaceInput> inputs_;
     std::vector<SurfacePoint> points_;
     Trend trend_;
-    SurfaceQuality quality_{};
+    double extra_noise_p_ = 0;  ///< probability of such a sign of extra noise by chance
     inference::GaussianProcess process_;
     std::vector<inference::GaussianProcess> others_;  ///< with hyperparameters drawn from their posterior
 };

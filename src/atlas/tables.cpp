@@ -15,10 +15,11 @@ class Columns {
     explicit Columns(core::CsvReader& reader) : reader_(reader) {}
 
     std::size_t index(std::string_view name) const {
-        auto const found = std::ranges::find(reader_.columns(), name);
-        if (found == reader_.columns().end())
+        auto const& all = reader_.columns();
+        auto const found = std::find(all.begin(), all.end(), name);
+        if (found == all.end())
             reader_.fail(fmt::format("there is no column {}", name), "write the columns of the atlas' table");
-        return static_cast<std::size_t>(found - reader_.columns().begin());
+        return static_cast<std::size_t>(found - all.begin());
     }
     double number(std::string_view name) const { return reader_.number(index(name)); }
     std::string text(std::string_view name) const { return std::string(reader_.cells()[index(name)]); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,18 @@ bool is_space(char c) {
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
+}
+
+/// std::from_chars, which the C++ library of emscripten does not have for doubles.
+std::from_chars_result number_from(char const* begin, char const* end, double& value) {
+#ifdef __cpp_lib_to_chars
+    return std::from_chars(begin, end, value);
+#else
+    std::string const text(begin, end);
+    char* stop = nullptr;
+    value = std::strtod(text.c_str(), &stop);
+    return {begin + (stop - text.c_str()), stop == text.c_str() ? std::errc::invalid_argument : std::errc()};
+#endif
 }
 
 std::string position(std::string const& file, int line) {
@@ -114,7 +127,7 @@ void CsvReader::check_columns() const {
 }
 
 bool CsvReader::has_columns(std::span<std::string_view const> names) const {
-    return std::ranges::equal(columns_, names);
+    return std::equal(columns_.begin(), columns_.end(), names.begin(), names.end());
 }
 
 /// Finds the next line that is neither a comment nor blank.
@@ -131,7 +144,7 @@ bool CsvReader::find_row() {
         if (quoted_) return true;  // the row may continue on the next line
         at_ = whole ? end + 1 : text_.size();
         ++line_;
-        if (comment || (format_.blanks && std::ranges::all_of(line, is_space))) continue;
+        if (comment || (format_.blanks && std::all_of(line.begin(), line.end(), is_space))) continue;
         row_ = line;
         return true;
     }
@@ -163,7 +176,7 @@ bool CsvReader::read_quoted_cell(std::string_view& cell) {
         ++at_;
     }
     cell = text_.substr(begin, at_ - 1 - begin);
-    line_ += static_cast<int>(std::ranges::count(cell, '\n'));
+    line_ += static_cast<int>(std::count(cell.begin(), cell.end(), '\n'));
     if (!doubled) return true;
     std::string& plain = unescaped_.emplace_back();
     for (std::size_t i = 0; i < cell.size(); ++i) {
@@ -244,7 +257,7 @@ bool CsvReader::parse_numbers(std::span<double> row) const {
     char const* at = row_.data();
     char const* const end = at + row_.size();
     for (std::size_t column = 0; column < row.size(); ++column) {
-        auto const [stop, failure] = std::from_chars(at, end, row[column]);
+        auto const [stop, failure] = number_from(at, end, row[column]);
         if (failure != std::errc()) return false;
         if (format_.numbers == CsvNumbers::finite && !std::isfinite(row[column])) return false;
         bool const last = column + 1 == row.size();
@@ -302,7 +315,7 @@ std::optional<double> csv_number(std::string_view cell, char separator, CsvNumbe
     if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') cell.remove_prefix(1);
     double value = 0;
     char const* const end = cell.data() + cell.size();
-    auto const [stop, failure] = std::from_chars(cell.data(), end, value);
+    auto const [stop, failure] = number_from(cell.data(), end, value);
     if (failure != std::errc() || stop != end) return {};
     if (numbers == CsvNumbers::finite && !std::isfinite(value)) return {};
     return value;
@@ -337,8 +350,7 @@ std::vector<NumberRow> read_number_table(std::string_view text,
     try {
         // A blank text has no rows, like a text that holds only the header.
         CsvFormat const format{.comments = true, .blanks = true};
-        if (std::ranges::all_of(text, [](char c) { return is_space(c) || c == '\r' || c == '\n'; }))
-            return rows;
+        if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return rows;
         CsvReader table(text, "", format);
         if (!table.has_columns(columns))
             throw std::invalid_argument(fmt::format("line {}: this is not the header {}", table.header_line(),

@@ -17,8 +17,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::string printable(std::string_view text, std::size_t longest) {
     std::string line(text.substr(0, longest));
-    std::ranges::replace_if(
-        line, [](unsigned char c) { return c < ' ' || c > 126; }, '?');
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < ' ' || c > 126; }, '?');
     return text.size() > longest ? line + "..." : line;
 }
 

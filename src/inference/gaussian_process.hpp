@@ -43,6 +43,9 @@ struct ProcessValue {
     double sd;    ///< standard deviation of the truth about it
 };
 
+/// A mixture of normal distributions that are equally likely. @return its mean and standard deviation
+ProcessValue mixture(std::vector<ProcessValue> const& parts);
+
 /// A Gaussian process: normal distributions of a function's values at all inputs, conditioned on data.
 ///
 ///     f(x) = h(x) beta + z(x),   beta_k ~ N(mean_k, sd_k^2),
@@ -68,6 +71,9 @@ class GaussianProcess {
     /// @param trend  the functions of the trend there
     ProcessValue predict(Eigen::VectorXd const& inputs, Eigen::VectorXd const& trend) const;
 
+    /// The mean alone of predict(), which takes a fraction of the time.
+    double mean(Eigen::VectorXd const& inputs, Eigen::VectorXd const& trend) const;
+
     /// Covariance of the function at two places, given the data.
     double covariance(Eigen::VectorXd const& inputs_a, Eigen::VectorXd const& trend_a,
                       Eigen::VectorXd const& inputs_b, Eigen::VectorXd const& trend_b) const;
@@ -85,6 +91,7 @@ class GaussianProcess {
     Eigen::VectorXd log_likelihood_gradient() const;
 
   private:
+    static void check(ProcessData const& data, TrendPrior const& prior);
     double prior_covariance(Eigen::VectorXd const& inputs_a, Eigen::VectorXd const& trend_a,
                             Eigen::VectorXd const& inputs_b, Eigen::VectorXd const& trend_b) const;
     Eigen::VectorXd covariances_with_data(Eigen::VectorXd const& inputs, Eigen::VectorXd const& trend) const;

@@ -1,13 +1,14 @@
 #include "learn/atlas_design_model.hpp"
 
-#include "atlas/atlas.hpp"
 #include "atlas/tables.hpp"
+#include "atlas/unknown.hpp"
+#include "atlas/value.hpp"
 #include "core/error.hpp"
-#include "scenario/reader/design.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,10 +23,6 @@ theory::Range range_of(atlas::Input input) {
     return {atlas::inputs()[input].low, atlas::inputs()[input].high};
 }
 
-double middle_of(atlas::Input input) {
-    return (range_of(input).low + range_of(input).high) / 2;
-}
-
 /// The place of a drive, with what is not known in the middle of the atlas.
 atlas::Place place_of(theory::Drive const& d, double mu, KnownGrains const& grains) {
     return {d.throw_number(),
@@ -33,10 +30,10 @@ atlas::Place place_of(theory::Drive const& d, double mu, KnownGrains const& grai
             std::tan(d.inclination),
             mu,
             d.amplitude / grains.diameter,
-            middle_of(atlas::depth_input),
-            middle_of(atlas::grain_friction_input),
-            grains.rolling_friction.value_or(middle_of(atlas::rolling_friction_input)),
-            middle_of(atlas::restitution_input)};
+            atlas::middle_of(atlas::depth_input),
+            atlas::middle_of(atlas::grain_friction_input),
+            grains.rolling_friction.value_or(atlas::middle_of(atlas::rolling_friction_input)),
+            atlas::middle_of(atlas::restitution_input)};
 }
 
 /// By how much a place is beyond a range, relative to its width; at most zero inside.
@@ -45,35 +42,10 @@ double beyond(atlas::Input input, double value) {
     return std::max(low - value, value - high) / (high - low);
 }
 
-/// Standard deviation, in velocity efficiency, that the unknown inputs may cause: the root mean square over
-/// drives and frictions of the whole atlas.
-double sd_of_unknown(KnownGrains const& grains) {
-    constexpr int drives = 48, grains_each = 6;
-    double squares = 0;
-    int count = 0;
-    auto const points = scenario::sample_cube(scenario::SampleMethod::sobol, drives * grains_each,
-                                              static_cast<int>(atlas::inputs().size()), 1);
-    for (int i = 0; i < drives; ++i) {
-        std::vector<double> found;
-        for (int k = 0; k < grains_each; ++k) {
-            auto const first = static_cast<std::size_t>(i) * std::size_t{grains_each};
-            auto const &drive = points[first], &other = points[first + static_cast<std::size_t>(k)];
-            atlas::Place place;
-            for (std::size_t input = 0; input < drive.size(); ++input) {
-                bool const is_unknown =
-                    std::ranges::find(unknown, static_cast<atlas::Input>(input)) != unknown.end();
-                auto const [low, high] = range_of(static_cast<atlas::Input>(input));
-                place.push_back(low + (high - low) * (is_unknown ? other : drive)[input]);
-            }
-            if (grains.rolling_friction) place[atlas::rolling_friction_input] = *grains.rolling_friction;
-            if (auto const value = atlas::value_at(place)) found.push_back(value->efficiency);
-        }
-        double mean = 0;
-        for (double const one : found) mean += one / static_cast<double>(found.size());
-        for (double const one : found) squares += (one - mean) * (one - mean);
-        count += std::max(0, static_cast<int>(found.size()) - 1);
-    }
-    return std::sqrt(squares / std::max(1, count));
+/// Standard deviation, in velocity efficiency, of what is not known.
+double spread_of(KnownGrains const& grains) {
+    if (!grains.rolling_friction) return atlas::sd_of_unknown(unknown);
+    return atlas::sd_of_unknown(unknown, std::pair{atlas::rolling_friction_input, *grains.rolling_friction});
 }
 
 theory::Range within(theory::Range const& space, theory::Range const& known, std::string_view what) {
@@ -94,8 +66,8 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
                         range_of(atlas::rolling_friction_input).high));
     }
     DesignModel model{.name = "the atlas", .discrepancy = discrepancy};
-    model.at = [grains, spread = sd_of_unknown(grains)](theory::Drive const& d,
-                                                        double mu) -> std::optional<ModelEfficiency> {
+    model.at = [grains, spread = spread_of(grains)](theory::Drive const& d,
+                                                    double mu) -> std::optional<ModelEfficiency> {
         auto const value = atlas::value_at(place_of(d, mu, grains));
         if (!value) return {};
         double const whole = value->half_width, numerics = atlas::numerical_error();
@@ -122,7 +94,7 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
         fmt::format("throw numbers of {:g} to {:g} and strokes of {:.3g} to {:.3g} mm", gentle, vigorous,
                     2e3 * small * grains.diameter, 2e3 * large * grains.diameter);
     model.excess = [grains](theory::Drive const& d) {
-        atlas::Place const place = place_of(d, middle_of(atlas::friction_input), grains);
+        atlas::Place const place = place_of(d, atlas::middle_of(atlas::friction_input), grains);
         double most = -1;
         for (std::size_t input = 0; input < place.size(); ++input)
             most = std::max(most, beyond(static_cast<atlas::Input>(input), place[input]));

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "learn/notes.hpp"
 #include "scenario/reader/design.hpp"
+#include "scenario/reader/sample_cube.hpp"
 
 #include <algorithm>
 #include <cmath>

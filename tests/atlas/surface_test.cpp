@@ -1,7 +1,7 @@
 #include "atlas/surface.hpp"
 
 #include "core/error.hpp"
-#include "scenario/reader/design.hpp"
+#include "scenario/reader/sample_cube.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "learn/synthetic_campaign.hpp"
-#include "scenario/reader/design.hpp"
+#include "scenario/reader/sample_cube.hpp"
 #include "scenario/reader/swept_keys.hpp"
 #include "scenario/reader/written_campaign.hpp"
 

@@ -1,5 +1,5 @@
 #include "learn/synthetic_campaign.hpp"
-#include "scenario/reader/design.hpp"
+#include "scenario/reader/sample_cube.hpp"
 #include "theory/point_mass.hpp"
 
 #include <algorithm>

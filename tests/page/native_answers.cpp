@@ -12,6 +12,7 @@
 
 extern "C" {
 char const* page_error();
+int page_prepare_atlas();
 char const* page_names();
 char const* page_mode(int number);
 int page_answer(double const* settings, double* numbers);
@@ -27,7 +28,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 // As in compare_native.js.
-constexpr std::size_t answer_width = 30, frame_width = 8, frame_count = 9, row_count = 20, curve_count = 10,
+constexpr std::size_t answer_width = 38, frame_width = 8, frame_count = 9, row_count = 20, curve_count = 10,
                       every = 100;
 
 Numbers read(char const* file) {
@@ -57,6 +58,8 @@ Numbers found(std::size_t size, Function const& function) {
 
 int main(int, char** files) {
     Numbers const settings = read(files[1]);
+    while (page_prepare_atlas() == 0) {
+    }
     std::ofstream words(files[6]), letters(files[7]);
     for (std::size_t i = 0; i * vibrotrough::page::setting_count < settings.size(); ++i) {
         double const* const one = settings.data() + i * vibrotrough::page::setting_count;

@@ -4,6 +4,7 @@
 #include "core/temporary_folder.hpp"
 #include "example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
+#include "scenario/reader/sample_cube.hpp"
 
 #include <algorithm>
 #include <cmath>

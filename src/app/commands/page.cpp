@@ -117,8 +117,9 @@ void add_page(CLI::App& program, int& exit_code) {
         ->capture_default_str();
     command->footer(
         R"(The page is one file that needs neither a network nor a server: open it in a browser, send it to colleagues. It computes
-with the theory of this program, compiled for browsers: the point mass and the rolling-layer law, with what both missed in
-simulated layers. A link holds all inputs, and 'Copy as campaign file' gives what 'vibrotrough run' simulates.
+with the theory and the atlas of this program, compiled for browsers: the point mass and the rolling-layer law, with what both
+missed in simulated layers, and within the atlas what 'vibrotrough predict' says. A link holds all inputs, and 'Copy as campaign
+file' gives what 'vibrotrough run' simulates.
 
 Exit codes:
     0  the file is written

@@ -4,6 +4,7 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "scenario/reader/sample_cube.hpp"
 #include "scenario/reader/value_reader.hpp"
 
 #include <algorithm>

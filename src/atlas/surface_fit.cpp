@@ -1,0 +1,86 @@
+#include "atlas/surface.hpp"
+#include "core/error.hpp"
+#include "inference/sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// Below this probability extra noise is taken to be real.
+constexpr double significant = 0.01;
+/// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
+constexpr inference::Bounds deviation_prior{0.005, 1}, length_prior{0.05, 5}, extra_noise_prior{1e-3, 1};
+/// Every 25th draw of the posterior is used: 24 of four chains.
+constexpr int thinning = 25;
+
+inference::Bounds logs_of(inference::Bounds const& b) {
+    return {std::log(b.low), std::log(b.high)};
+}
+
+}  // namespace
+
+Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend)
+    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit()) {
+    draw_others();
+}
+
+inference::GaussianProcess Surface::fit() {
+    auto const n = static_cast<Eigen::Index>(points_.size());
+    auto const d = static_cast<Eigen::Index>(inputs_.size());
+    if (n < std::max<Eigen::Index>(4, 2 * d)) {
+        throw core::InputError(
+            fmt::format("a surface over {} input{} needs at least {} steady cases with an interval, and "
+                        "there {} {}; simulate more",
+                        d, d == 1 ? "" : "s", std::max<Eigen::Index>(4, 2 * d), n == 1 ? "is" : "are", n));
+    }
+    inference::ProcessData const known = data();
+    inference::ProcessSettings settings;
+    auto process = inference::GaussianProcess::fitted(known, prior(), settings);
+    settings.has_extra_noise = true;
+    auto const noisy = inference::GaussianProcess::fitted(known, prior(), settings);
+    // Extra noise cannot be negative, so that half of the likelihood ratio's distribution lies at zero (H.
+    // Chernoff, Ann. Math. Stat. 25 (1954) 573-578).
+    double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
+    double const p = 0.5 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(1), ratio));
+    if (p < significant) process = noisy;
+    extra_noise_p_ = p;
+    return process;
+}
+
+void Surface::draw_others() {
+    Eigen::Index const d = process_.data().inputs.cols();
+    bool const is_noisy = process_.hyperparameters().extra_noise > 0;
+    auto const from_logs = [&](std::span<double const> logs) {
+        inference::Hyperparameters h{std::exp(logs[0]), Eigen::VectorXd(d),
+                                     is_noisy ? std::exp(logs.back()) : 0};
+        for (Eigen::Index j = 0; j < d; ++j) h.lengths(j) = std::exp(logs[static_cast<std::size_t>(1 + j)]);
+        return h;
+    };
+    auto const density = [&](std::span<double const> logs) {
+        try {
+            return inference::GaussianProcess(process_.data(), prior(), from_logs(logs)).log_likelihood();
+        } catch (std::invalid_argument const&) {
+            return -std::numeric_limits<double>::infinity();  // numerically singular
+        }
+    };
+    std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
+    for (Eigen::Index j = 0; j < d; ++j) bounds.push_back(logs_of(length_prior));
+    if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));
+    inference::SamplerSettings const settings{
+        .chains = 4, .warm_up = 200, .draws = 150, .most_draws = 150, .points_per_start = 150};
+    inference::Sample const sample = inference::sample(density, bounds, settings);
+    for (int chain = 0; chain < sample.chains; ++chain) {
+        for (int draw = thinning - 1; draw < sample.draws; draw += thinning)
+            others_.emplace_back(process_.data(), prior(), from_logs(sample.draw(chain, draw)));
+    }
+}
+
+}  // namespace vibrotrough::atlas

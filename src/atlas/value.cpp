@@ -1,0 +1,124 @@
+#include "atlas/value.hpp"
+
+#include "atlas/tables.hpp"
+#include "theory/point_mass.hpp"
+#include "theory/rolling_layer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::atlas {
+namespace {
+
+/// Further beyond a range than this, in widths of it, the atlas says nothing at all.
+constexpr double farthest = 0.25;
+
+Surface const& surface() {
+    static Surface const fitted(inputs(), read_layers(layers_table, "layers.csv"),
+                                read_draws(draws_table, "draws.csv"));
+    return fitted;
+}
+
+/// Half-width of what the layers scatter about the surface beyond their own intervals.
+double scatter_half_width() {
+    static double const width = [] {
+        auto const draws = surface().draws();
+        double variance = 0;
+        for (inference::Hyperparameters const& draw : draws)
+            variance += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
+        return deviations_in_half_width * std::sqrt(variance);
+    }();
+    return width;
+}
+
+/// The trend of the atlas, as trend_at() gives it.
+std::optional<double> solved_trend(theory::PointMass const& point, double rolling_friction) {
+    // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
+    thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
+    theory::RollingLaw law;
+    law.dry_torque += rolling_friction;
+    if (!last || last->first != law.dry_torque) last.emplace(law.dry_torque, theory::RollingLayerSolver(law));
+    auto const motion = last->second(point).motion, sliding = theory::solve(point);
+    for (theory::Motion const& one : {motion, sliding})
+        if (!one.converged && one.outcome != theory::Outcome::unsettled) return {};
+    return trend_of(motion.velocity_efficiency, sliding.velocity_efficiency);
+}
+
+/// The trend of the atlas at a place; nothing when a rolling layer or a point mass has no mean speed there.
+/// Places that differ in other inputs alone often follow each other, and have the same.
+std::optional<double> trend_at(Place const& place) {
+    theory::PointMass const point{place[throw_number_input], place[tan_vibration_input],
+                                  place[tan_inclination_input], place[friction_input]};
+    std::array const key{point.throw_number, point.tan_vibration_angle, point.tan_inclination, point.friction,
+                         place[rolling_friction_input]};
+    thread_local std::optional<std::pair<std::array<double, 5>, std::optional<double>>> last;
+    if (!last || last->first != key) last.emplace(key, solved_trend(point, key.back()));
+    return last->second;
+}
+
+}  // namespace
+
+std::string range_text(std::string_view name, double value, double low, double high) {
+    return fmt::format("{} {:.3g} (the atlas has {:g} to {:g})", name, value, low, high);
+}
+
+std::vector<Outside> outside_ranges(Place const& place) {
+    constexpr double rounding = 1e-9;  // of the width of a range
+    std::vector<Outside> all;
+    for (std::size_t k = 0; k < place.size(); ++k) {
+        auto const& [name, low, high] = inputs()[k];
+        double const room = rounding * (high - low);
+        if (place[k] < low - room || place[k] > high + room)
+            all.push_back({name, range_text(name, place[k], low, high)});
+    }
+    return all;
+}
+
+bool is_far_outside(Place const& place) {
+    for (std::size_t k = 0; k < place.size(); ++k) {
+        auto const& [name, low, high] = inputs()[k];
+        if (std::max(low - place[k], place[k] - high) > farthest * (high - low)) return true;
+    }
+    return false;
+}
+
+int simulated_layers() {
+    return static_cast<int>(surface().points().size());
+}
+
+double numerical_error() {
+    static double const mean = read_numerical_error(layers_table, "layers.csv");
+    return mean;
+}
+
+Place error_lengths() {
+    auto const draws = surface().draws();
+    Place lengths;
+    for (std::size_t k = 0; k < inputs().size(); ++k) {
+        std::vector<double> all;
+        for (inference::Hyperparameters const& draw : draws)
+            all.push_back(draw.lengths(static_cast<Eigen::Index>(k)));
+        std::sort(all.begin(), all.end());
+        lengths.push_back(all[all.size() / 2] * (inputs()[k].high - inputs()[k].low));
+    }
+    return lengths;
+}
+
+std::optional<double> efficiency_at(Place const& place) {
+    auto const trend = trend_at(place);
+    if (!trend) return {};
+    return surface().efficiency_at(place, *trend);
+}
+
+std::optional<SurfaceValue> value_at(Place const& place) {
+    auto const trend = trend_at(place);
+    if (!trend) return {};
+    SurfaceValue const value = surface().at(place, *trend);
+    return SurfaceValue{value.efficiency,
+                        std::hypot(value.half_width, scatter_half_width(), numerical_error())};
+}
+
+}  // namespace vibrotrough::atlas

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "atlas/surface.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// @file
+/// The atlas for a layer that is given as numbers without a dimension. It needs no campaign file, so that a
+/// page in a browser has it as well.
+
+namespace vibrotrough::atlas {
+
+/// Something of a case that the atlas does not cover.
+struct Outside {
+    std::string name;  ///< of an input of the atlas, or the key of the campaign file
+    std::string why;   ///< such as "depth 14 (the atlas has 3 to 6)"
+};
+
+/// How many layers were simulated for the atlas.
+int simulated_layers();
+
+/// The part of every half-width that stands for numerical errors of the simulated layers: the mean of their
+/// bounds, in velocity efficiency.
+double numerical_error();
+
+/// The lengths over which the error of the rolling-layer law changes, as the layers of the atlas tell:
+/// medians of the draws of its process, one for each of inputs() (tables.hpp) and in its unit.
+Place error_lengths();
+
+/// What the atlas says of a place: the numbers without a dimension of inputs() (tables.hpp), in their order.
+/// Nothing when theory or law have no mean speed there. The half-width contains what the layers scatter
+/// beyond their own intervals, and their numerical errors.
+std::optional<SurfaceValue> value_at(Place const& place);
+
+/// The efficiency alone of value_at(), which takes a fraction of the time.
+std::optional<double> efficiency_at(Place const& place);
+
+/// The numbers of a place that lie outside of the ranges of the atlas.
+std::vector<Outside> outside_ranges(Place const& place);
+
+/// Whether a place lies so far outside of a range, more than a quarter of it, that the atlas says nothing.
+bool is_far_outside(Place const& place);
+
+/// What is said of a number outside of its range: "depth 14 (the atlas has 3 to 6)".
+std::string range_text(std::string_view name, double value, double low, double high);
+
+}  // namespace vibrotrough::atlas
