@@ -319,6 +319,19 @@ class PageTest(unittest.TestCase):
         self.go("inclination_deg=25&friction=0.2")
         self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
 
+    def test_the_makers_rule_is_drawn_for_level_troughs(self):
+        """v = 3.81 N S (validation/daesung): proportional to the stroke, so that it is a straight line through the origin."""
+        self.browser.wait("document.documentElement.dataset.complete === 'true'")
+        path = "document.querySelector('#curve .line.rule').getAttribute('d')"
+        points = [[float(part) for part in point.split()] for point in re.split("[ML]", self.browser.run(path))[1:]]
+        self.assertGreater(len(points), 100)
+        (x0, y0), (x1, y1) = points[0], points[-1]
+        for x, y in points:
+            self.assertAlmostEqual(y, y0 + (y1 - y0) * (x - x0) / (x1 - x0), delta=0.2)
+        self.go("inclination_deg=1")
+        self.browser.wait("document.documentElement.dataset.complete === 'true'")
+        self.assertEqual(self.browser.run(path), "")
+
     def test_printed_on_one_sheet(self):
         for part in ("rpm=960", "b.stroke_mm=6&b.friction=0.35"):
             self.go(part)
