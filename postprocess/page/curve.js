@@ -64,7 +64,7 @@ function drawCurves() {
   const picture = document.getElementById("curve"), width = Math.max(280, picture.parentNode.clientWidth - 2 * 14), height = Math.min(420, Math.max(260, width * 0.5));
   const quantity = quantityOf(), [from, to] = axisRange(page.curveAxis), marks = pointsOnCurve();
   const values = curves.slice(0, page.machines.length).flatMap((curve) => (curve ? curve.points : [])).filter(Boolean)
-    .flatMap(({ answer }) => [answer[quantity.of("mass")], answer[quantity.of("layer")], answer[quantity.of("atlas")], answer[quantity.high]]).concat(marks.flatMap((one) => [one.y + one.bar, one.y - one.bar].map((y) => y / quantity.factor)))
+    .flatMap(({ answer }) => [answer[quantity.of("rule")], answer[quantity.of("mass")], answer[quantity.of("layer")], answer[quantity.of("atlas")], answer[quantity.high]]).concat(marks.flatMap((one) => [one.y + one.bar, one.y - one.bar].map((y) => y / quantity.factor)))
     .filter(Number.isFinite).map((value) => value * quantity.factor);
   const top = Math.max(1e-6, ...values) * 1.05, bottom = Math.min(0, ...values) * 1.05;
   const left = 52, right = 12, above = 10, below = 42;
@@ -97,7 +97,7 @@ function frameParts({ x, y, from, to, bottom, top, width, height, left, right, a
   return parts;
 }
 
-/// Band, point mass, law and atlas of one machine.
+/// Band, maker's rule, point mass, law and atlas of one machine.
 function curveParts(curve, i, quantity, x, y) {
   const points = curve.points.filter(Boolean);
   const at = (point, name) => point.answer[name] * quantity.factor;
@@ -109,7 +109,7 @@ function curveParts(curve, i, quantity, x, y) {
     return `M${lower.join("L")}L${upper.reverse().join("L")}Z`;
   }).join("");
   return [svg("path", { d: band, class: `band band-${i}` }),
-    ...["mass", "layer", "atlas"].map((of) => svg("path", { d: path(points, quantity.of(of)), class: `line ${of} line-${i}` }))];
+    ...["rule", "mass", "layer", "atlas"].map((of) => svg("path", { d: path(points, quantity.of(of)), class: `line ${of} line-${i}` }))];
 }
 
 /// Stretches of a list in which all are good.
@@ -129,7 +129,7 @@ function markPart(one, x, y) {
 function pointsOnCurve() { return [...casePoints(), ...measuredPoints()]; }
 
 function showCurveLegend() {
-  const entries = [["atlas", "by_atlas"], ["layer", "by_layer"], ["mass", "by_mass"], ["band", "band"], ["own", "your_point"]];
+  const entries = [["atlas", "by_atlas"], ["layer", "by_layer"], ["mass", "by_mass"], ["rule", "by_rule"], ["band", "band"], ["own", "your_point"]];
   if (page.cases.length > 0) entries.push(["simulated", "simulated_same"], ["simulated other", "simulated_other"]);
   if (page.measured && page.measured.points.length > 0) entries.push(["measured", "measured"]);
   document.getElementById("curve-legend").replaceChildren(...entries.map(([key, word]) => make("li", {}, make("span", { class: `key ${key}`, "aria-hidden": "true" }), say(word))));

@@ -33,6 +33,7 @@ const germanWords = {
   by_mass: "Massenpunkt",
   by_layer: "Gesetz der rollenden Schicht",
   by_between: "zwischen beiden",
+  by_rule: "Faustregel eines Herstellers für waagerechte Rinnen, von der 70 bis 80 % genutzt werden",
   by_atlas: "Atlas der Schichten",
   model: "Antwort von",
   letters: "Γ (Gamma), die Wurfkennziffer, ist die größte Beschleunigung der Rinne senkrecht zu sich selbst, geteilt durch den Anteil der Schwere in dieser Richtung: über 1 wird das Gut geworfen. Manche Betriebe nennen sie K oder K\u1d65. K ist hier die Maschinenkennziffer, die größte Beschleunigung in Schwingrichtung in Einheiten von g: was der Rahmen aushalten muss.",

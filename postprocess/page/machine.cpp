@@ -2,6 +2,7 @@
 
 #include "atlas/tables.hpp"
 #include "atlas/unknown.hpp"
+#include "learn/makers_rule.hpp"
 #include "learn/model_errors.hpp"
 #include "theory/plastic_quantities.hpp"
 #include "theory/quantities.hpp"
@@ -67,9 +68,14 @@ double missed(theory::PointMass const& point, std::optional<double> depth, bool 
     return learn::known_error(errors, point.throw_number, point.tan_inclination, depth).value_or(unknown);
 }
 
+/// t/h of the whole trough for each m/s.
+double flow_of_speed(Settings const& settings) {
+    return 3.6 * settings.mass_per_length();
+}
+
 /// From a speed to the mass that the whole trough conveys in an hour.
 void add_flow(Speed& speed, Settings const& settings) {
-    double const factor = 3.6 * settings.mass_per_length();
+    double const factor = flow_of_speed(settings);
     speed.flow = factor * speed.speed;
     speed.flow_low = factor * speed.low;
     speed.flow_high = factor * speed.high;
@@ -93,6 +99,16 @@ Trust trust_in(Answer const& answer, theory::PointMass const& point, std::option
     bool const outside =
         answer.model == Model::rolling_layer && theory::outside_tested_range(point, depth).has_value();
     return outside ? Trust::reaching : Trust::tested;
+}
+
+/// The maker gives the rule for level conveyors.
+double rule_speed(Settings const& settings) {
+    theory::Inputs const inputs = settings.inputs();
+    if (settings[Setting::inclination_deg] != 0) return unknown;
+    return learn::rule_of_daesung({.frequency = settings[Setting::rpm] / 60,
+                                   .amplitude = inputs.amplitude().value(),
+                                   .vibration_angle = std::atan(inputs.point().tan_vibration_angle),
+                                   .inclination = 0});
 }
 
 theory::Machine machine_of(Settings const& settings) {
@@ -210,6 +226,8 @@ Answer Machines::answered(Settings const& settings) {
     answer.machine_number = theory::machine_number(point);
     answer.trough_speed = inputs.velocity_scale().value();
     answer.depth_in_grains = settings.depth_in_grains();
+    answer.rule_speed = rule_speed(settings);
+    answer.rule_flow = flow_of_speed(settings) * answer.rule_speed;
     answer.mass = speed(settings, false);
     answer.layer = speed(settings, true);
     answer.atlas = atlas_speed(settings);

@@ -89,6 +89,8 @@ struct Answer {
     double machine_number;   ///< K = omega^2 r / g
     double trough_speed;     ///< omega r cos(beta), m/s
     double depth_in_grains;  ///< of the layer
+    double rule_speed;       ///< m/s by a maker's rule of thumb; NaN when the trough is not level
+    double rule_flow;        ///< t/h that follow from it
     Speed mass, layer;       ///< of the point mass and of the rolling-layer law
     Speed atlas;             ///< of the atlas; NaN outside of it
     Speed best;              ///< of the model that fits these grains

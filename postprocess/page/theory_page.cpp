@@ -63,8 +63,8 @@ void append(std::vector<double>& numbers, page::Speed const& s) {
 }
 
 std::vector<std::string> answer_names() {
-    std::vector<std::string> names{"throw_number",    "machine_number", "trough_speed",
-                                   "depth_in_grains", "model",          "trust"};
+    std::vector<std::string> names{"throw_number", "machine_number", "trough_speed", "depth_in_grains",
+                                   "rule_speed",   "rule_flow",      "model",        "trust"};
     for (char const* const of : {"mass", "layer", "atlas", "best"}) {
         auto const more = speed_names(of);
         names.insert(names.end(), more.begin(), more.end());
@@ -77,6 +77,8 @@ std::vector<double> numbers_of(page::Answer const& a) {
                                 a.machine_number,
                                 a.trough_speed,
                                 a.depth_in_grains,
+                                a.rule_speed,
+                                a.rule_flow,
                                 static_cast<double>(a.model),
                                 static_cast<double>(a.trust)};
     for (page::Speed const* const speed : {&a.mass, &a.layer, &a.atlas, &a.best}) append(numbers, *speed);

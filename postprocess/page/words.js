@@ -33,6 +33,7 @@ const englishWords = {
   by_mass: "point mass",
   by_layer: "rolling-layer law",
   by_between: "between both",
+  by_rule: "a maker\u2019s rule for level troughs, of which 70 to 80 % are used",
   by_atlas: "atlas of layers",
   model: "Answer of",
   letters: "Γ (gamma), the throw number, is the largest acceleration of the trough normal to itself over gravity\u2019s part normal to it: above 1 the material is thrown. Some shops call it K or K\u1d65. K here is the machine number, the largest acceleration in the direction of vibration in units of g: what the structure has to bear.",

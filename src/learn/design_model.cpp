@@ -101,10 +101,6 @@ double speed_without_slip(theory::Drive const& drive) {
     return 9.81 * low * low / (2 * drive.frequency) * slope;
 }
 
-double rule_of_daesung(theory::Drive const& drive) {
-    return 3.81 * (60 * drive.frequency) * drive.amplitude / 60;
-}
-
 std::optional<double> factor_of_rolling_layers(double throw_number) {
     // "4 deep, free" of validation/why_theory_fails and "throw number" of validation/rolling_layer.
     constexpr std::array<double, 9> at{1.15, 1.35, 1.5, 1.6, 1.7, 1.9, 2.0, 2.15, 2.25};

@@ -71,11 +71,6 @@ DesignModel rolling_layer_design_model(theory::RollingLaw const& law = {},
 /// assumptions are made.)
 double speed_without_slip(theory::Drive const& drive);
 
-/// m/s: the rule of Daesung Machinery for horizontal vibrating conveyors, v = 3.81 N S in m/min with N in
-/// cycles per minute and S, the amplitude, in m; 70 to 80 % of it are used in practice
-/// (dsv.co.kr/vibrating_machinery_vc_06.html; validation/daesung).
-double rule_of_daesung(theory::Drive const& drive);
-
 /// How many times as fast as the theory layers of spheres that roll were simulated at a throw number:
 /// validation/why_theory_fails and rolling_layer, level, tan(beta) = 0.5, friction 0.23. Nothing outside the
 /// throw numbers 1.2 to 2.3.

@@ -1,6 +1,7 @@
 #include "learn/design_report.hpp"
 
 #include "learn/machine_keys.hpp"
+#include "learn/makers_rule.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -139,5 +139,13 @@ TEST(GaussianProcess, SenselessInputsAreRefused) {
     EXPECT_THROW(GaussianProcess(data, constant, {1, at(1)}), std::invalid_argument);
 }
 
+// Two normal distributions with means 1 and 3: the variance is the mean of theirs, 0.25 and 4, and 1 of the
+// means.
+TEST(GaussianProcess, MixtureHasTheMomentsOfItsParts) {
+    ProcessValue const both = mixture({{1, 0.5}, {3, 2}});
+    EXPECT_DOUBLE_EQ(both.mean, 2);
+    EXPECT_DOUBLE_EQ(both.sd, std::sqrt((0.25 + 4) / 2 + 1));
+}
+
 }  // namespace
 }  // namespace vibrotrough::inference

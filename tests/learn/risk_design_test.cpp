@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "learn/design_report.hpp"
+#include "learn/makers_rule.hpp"
 #include "learn/pellets.hpp"
 #include "theory/design.hpp"
 #include "theory/point_mass.hpp"

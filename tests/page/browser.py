@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import time
 import urllib.request
+import zlib
 from collections.abc import Callable
 from typing import Any
 
@@ -169,3 +170,14 @@ class Browser:
         self.process.terminate()
         self.process.wait(timeout=SECONDS)
         self.log.close()
+
+
+def pages_in(pdf: bytes) -> int:
+    """How many pages a PDF file has; Firefox packs their list."""
+    def unpacked(stream: bytes) -> bytes:
+        try:
+            return zlib.decompressobj().decompress(stream)
+        except zlib.error:
+            return b""
+    whole = pdf + b"".join(unpacked(found[1]) for found in re.finditer(rb"stream\r?\n(.*?)endstream", pdf, re.DOTALL))
+    return len(re.findall(rb"/Type\s*/Page\b", whole))

@@ -28,7 +28,7 @@ namespace {
 using Numbers = std::vector<double>;
 
 // As in compare_native.js.
-constexpr std::size_t answer_width = 38, frame_width = 8, frame_count = 9, row_count = 20, curve_count = 10,
+constexpr std::size_t answer_width = 40, frame_width = 8, frame_count = 9, row_count = 20, curve_count = 10,
                       every = 100;
 
 Numbers read(char const* file) {

@@ -12,10 +12,9 @@ import shutil
 import subprocess
 import sys
 import unittest
-import zlib
 
 try:
-    from browser import Browser
+    from browser import Browser, pages_in
 except ImportError:
     print("SKIPPED: python3-websocket is not installed")
     sys.exit(77)
@@ -39,17 +38,6 @@ def number(text):
     found = re.match(r"[−-]?\d+(?:[.,](\d+))?", text)
     assert found, text
     return float(found[0].replace("−", "-").replace(",", ".")), 0.5 * 10 ** -len(found[1] or "") * (1 + 1e-9)
-
-
-def pages_in(pdf):
-    """How many pages a PDF file has; Firefox packs their list."""
-    def unpacked(stream):
-        try:
-            return zlib.decompressobj().decompress(stream)
-        except zlib.error:
-            return b""
-    whole = pdf + b"".join(unpacked(found[1]) for found in re.finditer(rb"stream\r?\n(.*?)endstream", pdf, re.DOTALL))
-    return len(re.findall(rb"/Type\s*/Page\b", whole))
 
 
 class PageTest(unittest.TestCase):
@@ -318,6 +306,19 @@ class PageTest(unittest.TestCase):
         b.click("#play")
         self.go("inclination_deg=25&friction=0.2")
         self.assertEqual(b.text("motion-text"), "There is no periodic motion to show.")
+
+    def test_the_makers_rule_is_drawn_for_level_troughs(self):
+        """v = 3.81 N S (validation/daesung): proportional to the stroke, so that it is a straight line through the origin."""
+        self.browser.wait("document.documentElement.dataset.complete === 'true'")
+        path = "document.querySelector('#curve .line.rule').getAttribute('d')"
+        points = [[float(part) for part in point.split()] for point in re.split("[ML]", self.browser.run(path))[1:]]
+        self.assertGreater(len(points), 100)
+        (x0, y0), (x1, y1) = points[0], points[-1]
+        for x, y in points:
+            self.assertAlmostEqual(y, y0 + (y1 - y0) * (x - x0) / (x1 - x0), delta=0.2)
+        self.go("inclination_deg=1")
+        self.browser.wait("document.documentElement.dataset.complete === 'true'")
+        self.assertEqual(self.browser.run(path), "")
 
     def test_printed_on_one_sheet(self):
         for part in ("rpm=960", "b.stroke_mm=6&b.friction=0.35"):
