@@ -8,7 +8,7 @@ WORK      a folder for a copy of the sources, its build and the answers so far; 
 --rooms   runs the tests of the mutant's room alone; by default the tests of `then` follow where these find nothing
 --then    runs the tests of `then` alone: what they are worth by themselves
 --table   writes the answers as a page of Markdown, such as last_run.md
---check   only compares last_run.md with mutants.toml: each row is a mutant that still exists, in the same order
+--check   only compares mutants.toml with the sources, and last_run.md with it: each row is a mutant that still exists, in the same order
 
 All mutants are compiled into one program; the environment variable VIBROTROUGH_MUTANT chooses the one that is alive. So sixty mutants cost
 one build. The work tree stays as it is.
@@ -82,6 +82,18 @@ def copy_sources(target: pathlib.Path, mutants: list[dict[str, Any]]) -> None:
             content = "\n".join(lines).encode()
         bring(target / name, content)
         shutil.copymode(ROOT / name, target / name)
+
+
+def check_lines(mutants: list[dict[str, Any]]) -> int:
+    """Names the mutants whose line their file does not have once; their number."""
+    wrong = []
+    for mutant in mutants:
+        path = ROOT / "src" / mutant["file"]
+        lines = path.read_text(encoding="utf-8").split("\n") if path.is_file() else []
+        if sum(line.strip() == mutant["line"] for line in lines) != 1:
+            wrong.append(f"{mutant['file']}: {mutant['line']}")
+    print(f"{len(wrong)} of {len(mutants)} mutants have no line of their own; write them again:", *wrong, sep="\n")
+    return len(wrong)
 
 
 def build(work: pathlib.Path, jobs: int, targets: list[str]) -> pathlib.Path:
@@ -165,7 +177,7 @@ def main() -> int:
     chosen = parser.parse_args()
     mutants = tomllib.loads((HERE / "mutants.toml").read_text())["mutant"]
     if chosen.check:
-        return 1 if check_table(HERE / "last_run.md", mutants) else 0
+        return 1 if check_lines(mutants) + check_table(HERE / "last_run.md", mutants) else 0
     if not chosen.work:
         parser.error("WORK is missing")
     stages = {"rooms"} if chosen.rooms else {"then"} if chosen.then else {"rooms", "then"}
