@@ -77,6 +77,7 @@ restitution = 0.5        # assumed
 
 [grains]
 diameter = "${plain(one.grain_mm)} mm"
+diameter_spread = 0.1    # assumed: grains of one size pack like a crystal
 bulk_density = "${plain(one.bulk_density)} kg/m3"
 ${rolling}poisson_ratio = 0.35     # assumed
 friction = 0.5           # assumed: of grain on grain

@@ -113,7 +113,7 @@ class PageTest(unittest.TestCase):
         self.browser.click("#copied-close")
         text = text.replace("restitution = 0.5 ", "restitution = 0.55 ").replace("friction = 0.5 ", "friction = 0.55 ")
         file = WORK / "predicted.toml"
-        file.write_text(text.replace("[grains]", "[grains]\ndiameter_spread = 0.1"), encoding="utf-8")
+        file.write_text(text, encoding="utf-8")
         done = program("predict", file, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)[0]
