@@ -3,6 +3,7 @@
 #include "atlas/atlas.hpp"
 #include "atlas/tables.hpp"
 #include "core/error.hpp"
+#include "learn/corrected_model.hpp"
 #include "learn/given_quantities.hpp"
 #include "learn/machine_keys.hpp"
 #include "scenario/model/scenario.hpp"
@@ -39,17 +40,6 @@ inference::Bounds degrees_of(atlas::Input tangent) {
     return {std::atan(low) / degree, std::atan(high) / degree};
 }
 
-/// The first input of a place that the atlas does not have, or none.
-std::optional<std::size_t> first_outside(atlas::Place const& place) {
-    constexpr double rounding = 1e-9;
-    for (std::size_t input = 0; input < place.size(); ++input) {
-        auto const [low, high] = bounds_of(static_cast<atlas::Input>(input));
-        double const slack = rounding * (high - low);
-        if (place[input] < low - slack || place[input] > high + slack) return input;
-    }
-    return {};
-}
-
 class AtlasSpeedModel {
   public:
     AtlasSpeedModel(double diameter, std::vector<std::string> const& free,
@@ -64,16 +54,18 @@ class AtlasSpeedModel {
         Given all = given_;
         for (std::size_t i = 0; i < free_.size(); ++i) all[free_[i]] = values[i];
         atlas::Place const place = place_of(all, measured);
-        if (first_outside(place)) return {};
+        if (!atlas::outside_ranges(place).empty()) return {};
         auto const answer = atlas::value_at(place);
         if (!answer) return {};
         double const trough_speed = 2 * std::numbers::pi * measured.frequency * measured.amplitude /
                                     std::hypot(1, place[atlas::tan_vibration_input]);
         double const numerics = atlas::numerical_error() / atlas::deviations_in_half_width;
         double const whole = answer->half_width / atlas::deviations_in_half_width;
-        double const half = (whole * whole - numerics * numerics) / 2;
-        return ModelSpeed{answer->efficiency * trough_speed, std::sqrt(half) * trough_speed, trough_speed,
-                          std::sqrt(half + numerics * numerics) * trough_speed};
+        double const statistics = whole * whole - numerics * numerics;
+        double const common = common_share * statistics + numerics * numerics;
+        return ModelSpeed{answer->efficiency * trough_speed,
+                          std::sqrt((1 - common_share) * statistics) * trough_speed, trough_speed,
+                          std::sqrt(common) * trough_speed};
     }
 
     /// @throws core::InputError when the atlas lacks a measurement, whatever the free quantities are
@@ -82,16 +74,15 @@ class AtlasSpeedModel {
         for (std::size_t const q : free_)
             all[q] = (atlas_parameters()[q].prior.low + atlas_parameters()[q].prior.high) / 2;
         atlas::Place const place = place_of(all, measured);
-        auto const outside = first_outside(place);
-        // A free angle moves these.
+        // A free angle moves the throw number.
         bool const may_move = std::ranges::find(free_, vibration_angle) != free_.end() ||
                               std::ranges::find(free_, inclination) != free_.end();
-        if (!outside || (may_move && *outside == atlas::throw_number_input)) return;
-        auto const [low, high] = bounds_of(static_cast<atlas::Input>(*outside));
-        throw core::InputError(
-            fmt::format("line {}: the atlas has a {} of {:g} to {:g}, and not {:.4g}; leave the line out, or "
-                        "use the point mass",
-                        measured.line, atlas::inputs()[*outside].key, low, high, place[*outside]));
+        for (atlas::Outside const& one : atlas::outside_ranges(place)) {
+            if (may_move && one.name == atlas::inputs()[atlas::throw_number_input].key) continue;
+            throw core::InputError(
+                fmt::format("line {}: outside of the atlas: {}; leave the line out, or use the point mass",
+                            measured.line, one.why));
+        }
     }
 
     static std::size_t index_of(std::string const& name) {

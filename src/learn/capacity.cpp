@@ -7,7 +7,7 @@
 namespace vibrotrough::learn {
 namespace {
 
-/// Twelve doublings are a factor of 4096: the first feed was no guess of this trough's.
+/// Twelve doublings are a factor of 4096. A first feed that is further off was not meant for this trough.
 constexpr std::size_t most_steps_without_bracket = 12;
 
 double to_three_digits(double value) {

@@ -14,8 +14,6 @@
 namespace vibrotrough::learn {
 namespace {
 
-/// Of the variance of a model's error, the share that is common to all machines.
-constexpr double common_share = 0.5;
 /// In velocity efficiency: no model is more exact, even if it says so.
 constexpr double least_error = 0.01;
 /// The error of a model counts as known where its standard deviation is at most this share of what it was.

@@ -6,6 +6,9 @@
 
 namespace vibrotrough::learn {
 
+/// Of the variance of a model's error, the share that is common to all machines and measurements.
+inline constexpr double common_share = 0.5;
+
 /// A layer that was simulated on a machine.
 struct SimulatedLayer {
     theory::Drive drive;           ///< of the machine

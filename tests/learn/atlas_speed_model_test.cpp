@@ -102,7 +102,8 @@ TEST(AtlasSpeedModel, RefusesWhatTheAtlasDoesNotHave) {
         testing::ThrowsMessage<core::InputError>(testing::HasSubstr("depth=12: the atlas has 3 to 6")));
     speeds[1].amplitude = 10 * diameter;
     EXPECT_THAT([&] { atlas_speed_model(diameter, {"friction"}, known_layer(), speeds); },
-                testing::ThrowsMessage<core::InputError>(testing::HasSubstr("line 3: the atlas has a")));
+                testing::ThrowsMessage<core::InputError>(
+                    testing::HasSubstr("line 3: outside of the atlas: throw_number")));
 }
 
 /// In how many of 100 data sets the 95 % interval holds the friction that made them, which is drawn from the

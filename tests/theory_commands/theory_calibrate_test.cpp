@@ -83,7 +83,7 @@ TEST_F(TheoryCalibrate, WrongInputsAreRefusedInOneLine) {
           Case{file + "friction --grain-diameter '3 mm'", "belongs to --model atlas"},
           Case{file + "friction --model atlas --grain-diameter '3 mm' --fix depth=12",
                "the atlas has 3 to 6"},
-          Case{file + "friction --model atlas --grain-diameter '0.1 mm'", "the atlas has a"},
+          Case{file + "friction --model atlas --grain-diameter '0.1 mm'", "outside of the atlas"},
           Case{"theory calibrate /nowhere.csv --free friction", "/nowhere.csv"},
           Case{"theory calibrate '" + write("rpm,speed_m_per_s\n1,2\n", "other.csv") + "' --free friction",
                "neither a column stroke_mm nor amplitude_mm"}}) {

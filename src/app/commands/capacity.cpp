@@ -8,6 +8,7 @@
 #include "app/progress_log.hpp"
 #include "campaign/state/added_cases.hpp"
 #include "campaign/state/overview.hpp"
+#include "campaign/state/result_summary.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "scenario/reader/case_maker.hpp"
@@ -63,6 +64,16 @@ void check_campaign(std::string const& file, scenario::CaseMaker const& maker) {
     }
 }
 
+/// Whether less left the trough than was fed, so that it filled ever more, in the mean over the packings.
+bool is_filling(campaign::PlannedCase const& planned) {
+    auto const summary = campaign::find_summary(planned);
+    if (!summary) return false;
+    double difference = 0;
+    for (store::PackingRecord const& packing : summary->record.packings)
+        difference += packing.open.outflow.value_or(0) - packing.open.inflow.value_or(0);
+    return difference < 0;
+}
+
 /// The search over the feeds of one campaign.
 class CapacitySearch {
   public:
@@ -92,7 +103,8 @@ class CapacitySearch {
         for (campaign::CaseOverview const& one : cases) {
             double const feed = *one.planned->scenario().feed.mass_flow;
             using core::Outcome;
-            bool const is_overfed = one.outcome == Outcome::overfull || one.outcome == Outcome::not_steady;
+            bool const is_overfed = one.outcome == Outcome::overfull ||
+                                    (one.outcome == Outcome::not_steady && is_filling(*one.planned));
             if (!is_overfed && one.status != campaign::CaseStatus::ended)
                 throw core::MissingError(fmt::format("the feed of {:.4g} t/h has no result ({}): {}",
                                                      feed * kg_per_s_in_t_per_h, one.label(), one.message));
@@ -124,7 +136,7 @@ class CapacitySearch {
             return campaign::add_case(ready_.plan, maker_.make({{feed_key, feed}})) != nullptr;
         } catch (core::InputError const& error) {
             limit_ =
-                fmt::format("; {:.4g} t/h cannot be simulated: {}", feed * kg_per_s_in_t_per_h, error.what());
+                fmt::format("{:.4g} t/h cannot be simulated: {}", feed * kg_per_s_in_t_per_h, error.what());
             return false;
         }
     }
@@ -138,14 +150,14 @@ class CapacitySearch {
             text = fmt::format("the trough carries {:.4g} t/h and not {:.4g} t/h",
                                in_t_per_h(*bounds.carried), in_t_per_h(*bounds.refused));
         else if (bounds.carried)
-            text = fmt::format("the trough carries {:.4g} t/h and would carry more",
+            text = fmt::format("the trough carries {:.4g} t/h; no larger feed was simulated",
                                in_t_per_h(*bounds.carried));
         else
             text = fmt::format("the trough does not even carry {:.4g} t/h", in_t_per_h(*bounds.refused));
         if (bounds.contradiction)
             text += fmt::format("; it carried {:.4g} t/h, too: near the capacity it depends on chance",
                                 in_t_per_h(*bounds.contradiction));
-        text += limit_;
+        if (!limit_.empty()) text += "; " + limit_;
         CampaignLog(ready_.plan.folder).info("capacity: " + text);
         if (options_.as_json)
             print_json(bounds);
@@ -159,6 +171,7 @@ class CapacitySearch {
         nlohmann::ordered_json answer;
         answer["carried_kg_per_s"] = number_or_null(bounds.carried);
         answer["not_carried_kg_per_s"] = number_or_null(bounds.refused);
+        answer["limit"] = limit_;
         answer["feeds"] = nlohmann::ordered_json::array();
         for (TriedFeed const& one : tried_)
             answer["feeds"].push_back({{"mass_flow_kg_per_s", one.trial.mass_flow},
