@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from trough_program import EndToEndTest
+from trough_program import WHOLE, EndToEndTest, sample
 
 QUICK = {"measure.packings": 1, "measure.max_cycles": 24, "measure.half_width": 0.5}
 
@@ -32,14 +32,15 @@ class Grains(EndToEndTest):
     def test_shapes(self):
         (self.folder / "two.csv").write_text("x,y,z,radius\n0,0,0,1\n1,0,0,0.8\n")
         changes = {"grains.diameter_spread": None, "layer.grains": 30}
-        rows = self.run_cases(changes, {"grains.shape": ["cube", "rod", "two.csv"], "grains.rotation": ["free", "blocked"]})
-        self.assertEqual(len(rows), 6)
+        rotations = ["free", "blocked"] if WHOLE else ["free"]
+        rows = self.run_cases(changes, {"grains.shape": ["cube", "rod", "two.csv"], "grains.rotation": rotations})
+        self.assertEqual(len(rows), 3 * len(rotations))
         # The frozen campaign and each frozen case stand alone: the shape is beside them.
         self.assertTrue((self.output / "two.csv").is_file())
-        for row in rows[4:]:
+        for row in rows[2 * len(rotations) :]:
             self.assertTrue((self.output / "cases" / row["case"] / "two.csv").is_file())
         (self.folder / "two.csv").unlink()
-        self.assertEqual(len(self.table()), 6)
+        self.assertEqual(len(self.table()), len(rows))
 
     def test_clumps_pass_checkpoints(self):
         changes = {"grains.diameter_spread": None, "grains.shape": "cube", "layer.grains": 30, "output.checkpoint_cycles": 2}
@@ -74,11 +75,11 @@ class Block(EndToEndTest):
     def test_a_point_moves_as_the_theory_says(self):
         # Throw number 2 is where a contact that bounces or springs along the trough is up to 0.1 too fast; 0.0064 is the
         # worst of the whole grid with this contact (validation/rigid_block).
-        for row in self.run_blocks("point", [0.8, 2.0, 2.5]):
+        for row in self.run_blocks("point", sample([2.0, 0.8, 2.5], 3)):
             self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.01, msg=str(row))
 
     def test_a_plate_moves_as_the_theory_says(self):
-        for row in self.run_blocks("plate", [0.8, 3.0]):
+        for row in self.run_blocks("plate", sample([3.0, 0.8], 2)):
             self.assertAlmostEqual(row["efficiency"], row["efficiency_theory"], delta=0.02, msg=str(row))
 
 

@@ -82,7 +82,7 @@ class Learn(EndToEndTest):
         self.assertIn("interrupted; the same command continues it", errors)
 
     def test_calibration_on_a_campaign(self):
-        campaign = self.write_campaign({**PLAN, "measure.half_width": 0.15},
+        campaign = self.write_campaign({**PLAN, "measure.packings": 2, "measure.max_packings": 2},
                                        {"trough.throw_number": [1.8, 2.4], "trough.friction": [0.15, 0.25, 0.4]})
         self.run_campaign(campaign, wanted=None)
         omega = math.sqrt(2 * 9.81 / (0.003 * math.sin(math.atan(0.5))))
@@ -99,7 +99,7 @@ class Learn(EndToEndTest):
     def test_calibration_refines_the_surface_where_the_posterior_lies(self):
         domain = '[domain]\nstart = 4\n"trough.friction" = { from = 0.1, to = 0.6 }\n'
         campaign = self.folder / "domain.toml"
-        campaign.write_text(campaign_text({**PLAN, "measure.half_width": 0.02, "measure.packings": 2, "measure.max_packings": 2,
+        campaign.write_text(campaign_text({**PLAN, "measure.half_width": 0.02, "measure.max_cycles": 24, "measure.packings": 2, "measure.max_packings": 2,
                                            "trough.throw_number": 1.5}) + domain)
         omega = math.sqrt(1.5 * 9.81 / (0.003 * math.sin(math.atan(0.5))))
         speeds = self.folder / "speeds.csv"
@@ -107,7 +107,7 @@ class Learn(EndToEndTest):
                           f"3,{omega / (2 * math.pi)},{math.degrees(math.atan(0.5))},0.12,0.004\n")
         words = ["calibrate", campaign, "--output", self.output, "--measured", speeds, "--free", "friction", "--json"]
         # The start takes about a third of this budget; a machine that is busy counts more processor time.
-        answer = self.call(*words, "--budget", "20 core-seconds", "--liggghts", self.engine, "--accept-findings", "--jobs", "2")
+        answer = self.call(*words, "--budget", "10 core-seconds", "--liggghts", self.engine, "--accept-findings", "--jobs", "2")
         self.assertIn(answer.returncode, (0, 1), answer.stderr)
         self.assertIn("where the posterior lies", answer.stderr)
         self.assertGreater(len(self.results()), 4)  # the start, and cases where the posterior lies

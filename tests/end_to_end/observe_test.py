@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from mixture_test import LAYER, MATERIALS
-from trough_program import EndToEndTest, campaign_text
+from trough_program import EndToEndTest, campaign_text, sample
 
 FRAMES = {"output.frames_per_cycle": 4, "output.frame_packings": "all", "output.contacts": True, "measure.packings": 2,
           "measure.max_cycles": 30}  # fmt: skip
@@ -164,7 +164,7 @@ def energy(packing):
         self.assertIn("in helper\n    return 1 / (cycle.number - 4)", said)
         self.assertNotIn("observe.py", said, "only the person's own lines are shown")
         self.refused(function.format("", "raise SystemExit(0)"), "packing 1, cycle 1 failed: SystemExit: 0", lines=None)
-        for options, returned, part in (
+        for options, returned, part in sample((
             ("", "return 'high'", "cycle 1 returned str; return one number"),
             ("", "return [1, 2]", "cycle 1 returned an array of shape (2,); return one number"),
             ("", "pass", "cycle 1 returned NoneType; return one number"),
@@ -176,10 +176,10 @@ def energy(packing):
             (", over=('height', 'm')", "return [1, cycle.number], [1, 2]", "other places than in the cycle before"),
             (", of='packing'", "return [1.0, 2.0]", "returned values for 2 cycles; return an array with a number for each of the"),
             (", of='layer'", "return 1.0", 'write of="cycle" or of="packing"'),
-        ):  # fmt: skip
+        ), 2):  # fmt: skip
             with self.subTest(returned=returned):
                 self.refused(function.format(options, returned), part)
-        for text, part in (
+        for text, part in sample((
             (function.format("", "return 1.0").replace("Mine.", ""), "mine has no docstring"),
             (function.format("", "return 1.0").replace('"m"', '"parsnip"'), "'parsnip' is not a unit"),
             (function.format("", "return 1.0").replace("def mine", "def efficiency").replace('"m"', '"1"'), "efficiency is already a quantity of the program"),
@@ -188,7 +188,7 @@ def energy(packing):
             (function.format(", needs='contacts'", "return 1.0"), "no packing keeps contacts: write contacts = true and frames_per_cycle = 20 under [output]"),
             (function.format(", needs='rotor.csv'", "return 1.0"), "no packing has the file rotor.csv"),
             ("x = 1\n", "defines no observable"),
-        ):  # fmt: skip
+        ), 2):  # fmt: skip
             with self.subTest(text=text):
                 self.refused(text, part)
         said = self.refused("x = 1 +\n", "cannot be run: SyntaxError: invalid syntax", lines=None)

@@ -1,6 +1,7 @@
 """What the program promises about what a person, or chance, puts into a campaign's folder: each docstring is a sentence of
 .github/PROMISES.md (promises.py)."""
 
+import itertools
 import os
 import resource
 import shutil
@@ -10,7 +11,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from trough_program import PROGRAM, EndToEndTest, count_cycles, pause, processes_in, wait_until
+from trough_program import PROGRAM, WHOLE, EndToEndTest, count_cycles, pause, processes_in, sample, wait_until
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "postprocess"))
 import vibrotrough  # noqa: E402
@@ -108,20 +109,21 @@ class PersonsFiles(EndToEndTest):
         pipe, kept = self.folder / "pipe", self.folder / "kept"
         os.mkfifo(pipe)
         frame = sorted((packing / "dump").glob("frames.*.dump"))[0]
-        for path in (frame, packing / "dump" / "frames.csv", packing / "trough.stl", packing / "engine.out", packing / "cycles.csv", case / "result.h5", case / "summary",
-                     self.output / "campaign.h5", self.output / "campaign.toml", self.output / "engine.json", self.output / "certificate.json"):  # fmt: skip
+        paths = (frame, packing / "dump" / "frames.csv", packing / "trough.stl", packing / "engine.out", packing / "cycles.csv", case / "result.h5", case / "summary",
+                 self.output / "campaign.h5", self.output / "campaign.toml", self.output / "engine.json", self.output / "certificate.json")  # fmt: skip
+        makers = (os.mkfifo, lambda link: link.symlink_to(pipe))
+        commands = (("status",), ("compare",), ("export",), ("plot", "--only", "cycles"), ("report",), ("archive", "--partial", "--output", self.folder / "b.zip"))
+        for path, make, command in sample(itertools.product(paths, makers, commands), 5):
             path.rename(kept)
-            for make in (os.mkfifo, lambda link: link.symlink_to(pipe)):
-                make(path)
-                for command in (("status",), ("compare",), ("export",), ("plot", "--only", "cycles"), ("report",), ("archive", "--partial", "--output", self.folder / "b.zip")):
-                    with self.subTest(path=path.name, command=command[0], link=path.is_symlink()):
-                        done = self.quickly(command[0], self.output, *command[1:])
-                        self.assertIn(done.returncode, (0, 2, 3), done.stderr)
-                        self.assertNotIn("Traceback", done.stderr)
-                if path.suffix == ".h5":
+            make(path)
+            with self.subTest(path=path.name, command=command[0], link=path.is_symlink()):
+                done = self.quickly(command[0], self.output, *command[1:])
+                self.assertIn(done.returncode, (0, 2, 3), done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+                if path.suffix == ".h5" and not path.is_file():  # campaign.h5 is written again
                     with self.assertRaises((OSError, ValueError)):
                         vibrotrough.File(path, "vibrotrough result")
-                path.unlink(missing_ok=True)  # campaign.h5 is written again
+            path.unlink(missing_ok=True)
             kept.rename(path)
         # The engine's output is read when it has ended: a pipe has taken its place by then.
         (settled / "settled.restart").write_text("damaged")
@@ -253,7 +255,7 @@ class PersonsFiles(EndToEndTest):
         self.run_campaign(self.write_campaign(ONE), wanted=None)
         page, certificate = self.output / "report" / "report.html", self.output / "certificate.json"
         whole = certificate.read_bytes()
-        for damaged in (b"", b"{", b"[]", b"[" * 100_000, b'{"a": ' * 5000, b'{"probes": [{"a": 1}, 2, [3]]}', b"\xff\xfe", whole[: len(whole) // 2]):
+        for damaged in sample((b"[]", b'{"probes": [{"a": 1}, 2, [3]]}', b"[" * 100_000, b'{"a": ' * 5000, b"", b"{", b"\xff\xfe", whole[: len(whole) // 2]), 3):
             certificate.write_bytes(damaged)
             page.unlink(missing_ok=True)
             done = self.call("report", self.output)
@@ -270,7 +272,7 @@ class PersonsFiles(EndToEndTest):
         that is shown for copying still means the file.
         """
         self.run_campaign(self.write_campaign(ONE), wanted=None)
-        for name in ("gnp\u202eexe.", "red\x1b[31m", "title\x1b]0;x\x07 100%\\n'", "two\nlines", os.fsdecode(b"byte\xff")):
+        for number, name in enumerate(("gnp\u202eexe.", "red\x1b[31m", "title\x1b]0;x\x07 100%\\n'", "two\nlines", os.fsdecode(b"byte\xff"))):
             place = self.folder / name
             shutil.copytree(self.output, place)
             campaign = place / "campaign.toml"
@@ -280,6 +282,8 @@ class PersonsFiles(EndToEndTest):
                         ("init", "pellets", "--output", place / f"{name}.toml"), ("status", place / "none" / name)]  # fmt: skip
             copied = []
             for command in commands:
+                if number > 0 and command[0] in ("plot", "report") and not WHOLE:
+                    continue
                 done = subprocess.run([PROGRAM, *map(os.fsencode, map(str, command))], capture_output=True, timeout=SOON)
                 said = (done.stdout + done.stderr).decode()  # UTF-8
                 with self.subTest(name=name, command=command[0]):

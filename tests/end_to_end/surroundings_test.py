@@ -1,5 +1,6 @@
 """The program starts and works in whatever surroundings its parent leaves: locales, signals, limits, closed streams, home folders."""
 
+import itertools
 import json
 import os
 import re
@@ -10,7 +11,7 @@ import stat
 import subprocess
 import unittest
 
-from trough_program import PROGRAM, EndToEndTest
+from trough_program import PROGRAM, EndToEndTest, sample
 
 ONE = {"measure.max_cycles": 24}
 # Compiled here without root's rights, from Debian's package "locales": (definition, character map, name).
@@ -87,11 +88,12 @@ class Surroundings(EndToEndTest):
             # Times, and what was done before, may differ.
             return done.returncode, re.sub(rb"[0-9.]+ (s|microseconds|core-hours)", b"", done.stdout), done.stderr.splitlines()[-1:]
 
-        for name in ["--version", *ARGUMENTS]:
+        answers("run", plain)  # which probes the engine
+        places = list(zip(LOCALES, itertools.cycle(VARIABLES)))
+        for name, some in itertools.groupby(sample(itertools.product(["--version", *ARGUMENTS], places), 5), key=lambda pair: pair[0]):
             ARGUMENTS.setdefault(name, ())
             wanted = answers(name, plain)
-            for index, place in enumerate(LOCALES):
-                variable = VARIABLES[index % len(VARIABLES)]
+            for _, (place, variable) in some:
                 with self.subTest(command=name, locale=place, variable=variable):
                     found = answers(name, dict(plain, LOCPATH=str(folder), **{variable: place}))
                     self.assertEqual(found, wanted if name not in TIMED else (wanted[0], *found[1:]))
@@ -108,9 +110,8 @@ class Surroundings(EndToEndTest):
             done = self.start(*self.run_arguments(campaign, folder), env=environment)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn('LC_NUMERIC="C"', noted.read_text())
-            for command in ("plot", "report"):
-                drawn = self.start(command, folder, env=environment)
-                self.assertEqual(drawn.returncode, 0, drawn.stderr)
+            drawn = self.start("report", folder, env=environment)
+            self.assertEqual(drawn.returncode, 0, drawn.stderr)
             tables.append([path.read_bytes() for path in sorted(folder.glob("cases/*/packing-*/cycles.csv"))])
         self.assertEqual(tables[0], tables[1])
         self.assertEqual(len(tables[0]), 2)
@@ -119,23 +120,24 @@ class Surroundings(EndToEndTest):
         campaign = self.write_campaign(ONE)
         for number, prepare in enumerate((lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN), lambda: signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGCHLD]))):
             folder = self.folder / f"runs-{number}"
-            for command in (self.run_arguments(campaign, folder), ("plot", folder)):
+            for command in (self.run_arguments(campaign, folder), ("plot", folder, "--only", "cycles")):
                 done = self.start(*command, preexec_fn=prepare)
                 self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_closed_streams(self):
         campaign = self.write_campaign(ONE)
         self.run_campaign(campaign)
-        for closed, wanted in (([0], 0), ([1], 3), ([0, 1], 3)):
-            for command in (["plot", self.output], ["report", self.output], ["status", self.output], ["validate", "--list"]):
-                with self.subTest(closed=closed, command=command[0]):
-                    shutil.rmtree(self.output / "report", ignore_errors=True)
-                    done = self.start(*command, preexec_fn=lambda: [os.close(stream) for stream in closed])
-                    self.assertEqual(done.returncode, wanted, done.stderr)
-                    if wanted:
-                        self.assertRegex(done.stderr.decode(), r"\Avibrotrough: cannot write the output [^\n]*\n\Z")
-                    if command[0] in ("plot", "report"):
-                        self.assertTrue(list((self.output / "report").glob("profiles-*.png")), "all figures are drawn")
+        drawing, quick = (["report", self.output], ["plot", self.output]), (["status", self.output], ["validate", "--list"])
+        streams = (([1], 3), ([0], 0), ([0, 1], 3))
+        for (closed, wanted), command in sample(itertools.product(streams, drawing), 5) + list(itertools.product(streams, quick)):
+            with self.subTest(closed=closed, command=command[0]):
+                shutil.rmtree(self.output / "report", ignore_errors=True)
+                done = self.start(*command, preexec_fn=lambda: [os.close(stream) for stream in closed])
+                self.assertEqual(done.returncode, wanted, done.stderr)
+                if wanted:
+                    self.assertRegex(done.stderr.decode(), r"\Avibrotrough: cannot write the output [^\n]*\n\Z")
+                if command in drawing:
+                    self.assertTrue(list((self.output / "report").glob("profiles-*.png")), "all figures are drawn")
 
     def test_homes_and_umasks(self):
         campaign = self.write_campaign(ONE)
@@ -143,7 +145,7 @@ class Surroundings(EndToEndTest):
         for number, (home, umask) in enumerate(((None, 0o022), ("/proc", 0o077), ("/proc", 0))):  # nobody can write in /proc
             folder = self.folder / f"runs-{number}"
             environment = plain if home is None else dict(plain, HOME=home)
-            for command in (self.run_arguments(campaign, folder), ("plot", folder)):
+            for command in (self.run_arguments(campaign, folder), ("plot", folder, "--only", "cycles")):
                 done = self.start(*command, env=environment, umask=umask)
                 self.assertEqual(done.returncode, 0, done.stderr)
             modes = {path: stat.S_IMODE(path.stat().st_mode) for path in folder.rglob("*")}
@@ -208,16 +210,16 @@ class Surroundings(EndToEndTest):
         environment = dict(os.environ, HOME=str(self.folder), XDG_CACHE_HOME=str(self.folder / "cache"))
         ids = ("setpriv", f"--reuid={user}", f"--regid={user}", "--clear-groups")
         map_words = [*ARGUMENTS["theory map"][:-1], self.folder / "map.h5"]
-        for count in (1, 2, 3, 5, 7):
-            for command in (["plot", self.output], self.run_arguments(campaign, self.folder / "new"), ["probe-engine"], ["compare", self.output], ["theory", "map", *map_words]):
-                with self.subTest(count=count, command=command[0]):
-                    done = subprocess.run(["prlimit", f"--nproc={count}", *ids, PROGRAM, *map(str, command)], capture_output=True, timeout=60, env=environment)
-                    if done.returncode != 0:
-                        self.assert_limit(done, "Resource temporarily unavailable", f"{count} processes", "ulimit -u")
-                    if command[0] in ("run", "probe-engine"):
-                        self.assertEqual(done.returncode, 3, "an engine needs more")
-                    if command[0] == "compare" or (command[0] == "plot" and count >= 5):
-                        self.assertEqual(done.returncode, 0, done.stderr)
+        commands = (["plot", self.output, "--only", "cycles"], self.run_arguments(campaign, self.folder / "new"), ["probe-engine"], ["compare", self.output], ["theory", "map", *map_words])
+        for count, command in sample(itertools.product((1, 2, 3, 5, 7), commands), 3):
+            with self.subTest(count=count, command=command[0]):
+                done = subprocess.run(["prlimit", f"--nproc={count}", *ids, PROGRAM, *map(str, command)], capture_output=True, timeout=60, env=environment)
+                if done.returncode != 0:
+                    self.assert_limit(done, "Resource temporarily unavailable", f"{count} processes", "ulimit -u")
+                if command[0] in ("run", "probe-engine"):
+                    self.assertEqual(done.returncode, 3, "an engine needs more")
+                if command[0] == "compare" or (command[0] == "plot" and count >= 5):
+                    self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,18 @@ PROGRAM = os.environ["VIBROTROUGH_PROGRAM"]
 # A machine may be slow and busy: this is how long one step of a test may take before it counts as hanging, s.
 PATIENCE = int(os.environ.get("VIBROTROUGH_PATIENCE", "600"))
 
+# The nightly tests NAME.whole try all combinations of what a test names; with every commit it is a sample of them.
+WHOLE = os.environ.get("VIBROTROUGH_TEST_WHOLE") == "1"
+
+
+def sample(combinations, one_of):
+    """One of so many combinations; all of them at night. Let `one_of` have no factor in common with the lengths of the lists that
+    are combined: then each of their entries appears."""
+    return list(combinations)[:: 1 if WHOLE else one_of]
+
+
+at_night = unittest.skipUnless(WHOLE, "only at night")
+
 # 60 soft grains in the smallest box that the program allows (four of the largest diameters, rounded up): about a
 # second per packing.
 SMALL = {
