@@ -1,8 +1,8 @@
-"""Builds the theory for Python with CMake; everything else stands in pyproject.toml.
+"""Builds theory and atlas for Python with CMake; everything else stands in pyproject.toml.
 
     pip install --no-build-isolation ./postprocess
 
-A compiler, CMake, pybind11 and the libraries of the theory (Boost, TBB, NLopt) must be installed; src/BUILDING.md names their packages.
+A compiler, CMake, pybind11 and their libraries (Boost, TBB, NLopt, Eigen, fmt) must be installed; src/BUILDING.md names their packages.
 """
 
 import subprocess

@@ -1,5 +1,7 @@
-// The theory as a module for Python, without words of its own: vibrotrough_theory.py is what people import.
+// The theory, and the atlas of atlas_module.cpp, as a module for Python, without words of its own:
+// vibrotrough_theory.py is what people import.
 
+#include "atlas_module.hpp"
 #include "theory/batch.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
@@ -170,6 +172,7 @@ PYBIND11_MODULE(_vibrotrough_theory, module) {
     module.def("mode", py::overload_cast<ModeCode>(&to_string));
     module.def("trace", &trace_columns_of);
     module.def("quantities", &quantities_of);
+    atlas::add_to(module);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""The theory of Sloot & Kruyt (1996) and its extensions, for numpy arrays: the same library that the program uses.
+"""The theory of Sloot & Kruyt (1996), its extensions, and the atlas of simulated layers, for numpy arrays: the same library that the program uses.
 
     import vibrotrough
 
@@ -13,6 +13,12 @@
 
 Inputs are those of `vibrotrough theory batch`, by name, in the unit that ends the name; numbers or arrays, which numpy spreads over each other. NaN says that a motion does not have that input. Needed are
 one of throw_number, machine_number, frequency_hz and rpm (the last two with an amplitude), one of vibration_angle_deg and tan_vibration_angle, and friction.
+
+What layers of spheres do, from those that were simulated once for all:
+
+    layer = vibrotrough.theory.atlas(rpm=800, stroke_mm=[8, 9, 10], vibration_angle_deg=30, friction=0.3, grain_diameter_mm=3, layer_height_mm=12)
+    print(layer.conveying_speed, layer.conveying_speed_half_width)      # m/s, and half the 95 % interval
+    print(layer.inside, layer.outside)                                  # what lies outside of the atlas, by name
 """
 
 from __future__ import annotations
@@ -69,7 +75,7 @@ def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, a
     accept_untested: also answers where that law has not been tested.
     Raises ValueError for a value out of range (with the number of the motion, in the order of the flattened arrays), TypeError for an unknown name.
     """
-    columns = _in_base_units(inputs)
+    columns = _in_base_units(inputs, _library.columns())
     shape = np.broadcast_shapes(*(column.shape for column in columns.values()))
     flat = {name: np.broadcast_to(column, shape).ravel() for name, column in columns.items()}
     law = dict(rolling_layer) if isinstance(rolling_layer, Mapping) else {} if rolling_layer else None
@@ -77,6 +83,52 @@ def solve(*, jobs: int = 0, rolling_layer: bool | Mapping[str, float] = False, a
     arrays = {name: found[name].reshape(shape) for name in ("velocity_efficiency", "half_width", "period_cycles", "converged")}
     scale = found["velocity_scale"].reshape(shape)
     return Solution(**arrays, conveying_speed=np.asarray(arrays["velocity_efficiency"] * scale), mode_code=found["mode"].reshape(shape), motions=_motions(found["motions"], shape) if starts else None, cpu_seconds=found["cpu_seconds"])
+
+
+@dataclass(frozen=True)
+class AtlasAnswer:
+    """What the atlas says of many layers, in arrays of one shape."""
+
+    velocity_efficiency: NDArray[np.float64]  #: of the layer; NaN more than a quarter of a range outside, or where theory or rolling-layer law have no mean speed
+    half_width: NDArray[np.float64]  #: of its 95 % interval
+    conveying_speed: NDArray[np.float64]  #: m/s
+    conveying_speed_half_width: NDArray[np.float64]  #: m/s
+    inside: NDArray[np.bool_]  #: whether the layer lies inside of the atlas; outside, numbers are an extrapolation
+    outside: NDArray[np.object_]  #: a tuple of names for each layer, those of `atlas_ranges()`, or "theory" without a mean speed
+    cpu_seconds: float  #: processor time of all threads within the library
+
+
+def atlas(*, grain_diameter_mm: ArrayLike, layer_height_mm: ArrayLike | None = None, depth: ArrayLike | None = None, grain_friction: ArrayLike | None = None,
+          rolling_friction: ArrayLike | None = None, restitution: ArrayLike | None = None, jobs: int = 0, **inputs: ArrayLike) -> AtlasAnswer:  # fmt: skip
+    """What simulated layers say of layers of spheres, as 'vibrotrough predict' does, on `jobs` threads (0: all cores).
+
+    Of `inputs` it takes those of a point mass, as solve() names them, and always an amplitude or a stroke. The spheres have diameters that spread by 0.1.
+    layer_height_mm, or depth in diameters of the grains: either; grain_friction: of grain on grain; rolling_friction: coefficient; restitution: of grains and trough.
+    What of these four is left out, or NaN, is not known: it is in the middle of its range, and what it may change widens the interval, by its root mean square over the whole atlas.
+    Raises ValueError for an impossible value (with the number of the layer, in the order of the flattened arrays), TypeError for an unknown name.
+    """
+    if depth is not None and layer_height_mm is not None:
+        raise TypeError("depth and layer_height_mm are both given; leave one out")
+    has = set(_library.atlas_motion_inputs())
+    motion = _in_base_units(inputs, {name: column for name, column in _library.columns().items() if column[0] in has})
+    diameter = np.asarray(grain_diameter_mm, dtype=np.float64)
+    layer = {"grain_diameter": diameter * 1e-3}
+    if layer_height_mm is not None:
+        with np.errstate(divide="ignore", invalid="ignore"):  # an impossible diameter is named by the library
+            layer["depth"] = np.asarray(layer_height_mm, dtype=np.float64) / diameter
+    given = {"depth": depth, "grain_friction": grain_friction, "rolling_friction": rolling_friction, "restitution": restitution}
+    layer |= {name: np.asarray(values, dtype=np.float64) for name, values in given.items() if values is not None}
+    shape = np.broadcast_shapes(*(column.shape for column in (*motion.values(), *layer.values())))
+    flat = [{name: np.broadcast_to(column, shape).ravel() for name, column in columns.items()} for columns in (motion, layer)]
+    found = _library.atlas(*flat, int(np.prod(shape)), jobs)
+    efficiency, half_width, scale = (found[name].reshape(shape) for name in ("velocity_efficiency", "half_width", "velocity_scale"))
+    outside = found["outside"].reshape(shape)
+    return AtlasAnswer(efficiency, half_width, np.asarray(efficiency * scale), np.asarray(half_width * scale), np.asarray(outside == 0), _names_outside(outside), found["cpu_seconds"])
+
+
+def atlas_ranges() -> dict[str, tuple[float, float]]:
+    """The inputs of the atlas, without a dimension, with the ends of their ranges. The amplitude is in diameters of the grains, as is the depth."""
+    return {name: (low, high) for name, low, high in _library.atlas_ranges()}
 
 
 def trace(*, samples: int = 721, **inputs: float) -> dict[str, NDArray[np.float64] | NDArray[np.str_]]:
@@ -98,8 +150,17 @@ def _motions(found: list[list[tuple[float, float, str, int, float]]], shape: tup
     return motions.reshape(shape)
 
 
-def _in_base_units(inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.float64]]:
-    known: dict[str, tuple[str, float]] = _library.columns()
+def _names_outside(bits: NDArray[np.uint32]) -> NDArray[np.object_]:
+    """Each distinct number of bits becomes one tuple of names."""
+    names = [*atlas_ranges(), "theory"]
+    numbers, where = np.unique(bits, return_inverse=True)
+    tuples = np.empty(len(numbers), dtype=object)
+    for i, number in enumerate(numbers):
+        tuples[i] = tuple(name for k, name in enumerate(names) if int(number) >> k & 1)
+    return tuples[where.ravel()].reshape(bits.shape)
+
+
+def _in_base_units(inputs: Mapping[str, ArrayLike], known: Mapping[str, tuple[str, float]]) -> dict[str, NDArray[np.float64]]:
     columns: dict[str, NDArray[np.float64]] = {}
     given_as: dict[str, str] = {}
     for name, values in inputs.items():
@@ -115,4 +176,4 @@ def _in_base_units(inputs: Mapping[str, ArrayLike]) -> dict[str, NDArray[np.floa
 
 
 def _numbers(inputs: Mapping[str, float]) -> dict[str, float]:
-    return {name: float(column) for name, column in _in_base_units(inputs).items()}
+    return {name: float(column) for name, column in _in_base_units(inputs, _library.columns()).items()}

@@ -1,13 +1,22 @@
 #include "atlas/unknown.hpp"
 
-#include "atlas/value.hpp"
 #include "scenario/reader/sample_cube.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <stdexcept>
 
 namespace vibrotrough::atlas {
+namespace {
+
+std::vector<Input> unknown_of(KnownNumbers const& numbers) {
+    std::vector<Input> all;
+    for (std::size_t input = 0; input < numbers.size(); ++input)
+        if (!numbers[input]) all.push_back(static_cast<Input>(input));
+    return all;
+}
+
+}  // namespace
 
 double middle_of(Input input) {
     return (inputs()[input].low + inputs()[input].high) / 2;
@@ -40,6 +49,26 @@ double sd_of_unknown(std::span<Input const> unknown, std::optional<std::pair<Inp
         count += std::max(0, static_cast<int>(found.size()) - 1);
     }
     return std::sqrt(squares / std::max(1, count));
+}
+
+void PartlyKnown::prepare(KnownNumbers const& numbers) {
+    auto const unknown = unknown_of(numbers);
+    if (!sd_.contains(unknown)) sd_[unknown] = unknown.empty() ? 0 : sd_of_unknown(unknown);
+}
+
+Place PartlyKnown::place_of(KnownNumbers const& numbers) {
+    Place place;
+    for (std::size_t input = 0; input < numbers.size(); ++input)
+        place.push_back(numbers[input].value_or(middle_of(static_cast<Input>(input))));
+    return place;
+}
+
+std::optional<SurfaceValue> PartlyKnown::operator()(KnownNumbers const& numbers) const {
+    auto const sd = sd_.find(unknown_of(numbers));
+    if (sd == sd_.end()) throw std::logic_error("these unknown inputs were not prepared");
+    auto value = value_at(place_of(numbers));
+    if (value) value->half_width = std::hypot(value->half_width, deviations_in_half_width * sd->second);
+    return value;
 }
 
 }  // namespace vibrotrough::atlas

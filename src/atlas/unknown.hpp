@@ -1,10 +1,13 @@
 #pragma once
 
 #include "atlas/tables.hpp"
+#include "atlas/value.hpp"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace vibrotrough::atlas {
 
@@ -17,5 +20,27 @@ double middle_of(Input input);
 /// @param fixed  an input that has this value at all places, instead of being unknown or varied
 double sd_of_unknown(std::span<Input const> unknown,
                      std::optional<std::pair<Input, double>> const& fixed = {});
+
+/// The numbers of a layer in the order of inputs(), as far as they are known. Those of the motion, which are
+/// the first five, must be there.
+using KnownNumbers = std::vector<std::optional<double>>;
+
+/// What the atlas says of layers of which not everything is known: what is not known is in the middle of its
+/// range, and what it may change widens the interval by the root of the sum of squares. It may be used by
+/// several threads at once after prepare().
+class PartlyKnown {
+  public:
+    /// Finds what the inputs that `numbers` lacks may change, which takes milliseconds for each set of them.
+    void prepare(KnownNumbers const& numbers);
+
+    /// The place of a layer, with what is not known in the middle of its range.
+    static Place place_of(KnownNumbers const& numbers);
+
+    /// As value_at(). @throws std::logic_error without prepare() for this set of unknown inputs
+    std::optional<SurfaceValue> operator()(KnownNumbers const& numbers) const;
+
+  private:
+    std::map<std::vector<Input>, double> sd_;  ///< of each set of unknown inputs that came up
+};
 
 }  // namespace vibrotrough::atlas

@@ -1,6 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
+#include "atlas/unknown.hpp"
 #include "core/csv.hpp"
 #include "prepare/prepared_case.hpp"
 #include "scenario/example_campaign.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -127,6 +129,25 @@ TEST(Atlas, TheLayersFillTheRanges) {
         EXPECT_LE(high, inputs()[k].high) << inputs()[k].key;
         EXPECT_GT(high - low, 0.8 * width) << inputs()[k].key;
     }
+}
+
+// What is not known is in the middle of its range and widens the interval: by the root of the sum of squares
+// of what sd_of_unknown() says, in 1.96 standard deviations.
+TEST(Atlas, WhatIsNotKnownWidensTheInterval) {
+    KnownNumbers numbers{2, 0.5, 0, 0.3, 2, 4, 0.55, 0.1, 0.55};
+    PartlyKnown atlas;
+    EXPECT_THROW(static_cast<void>(atlas(numbers)), std::logic_error);
+    atlas.prepare(numbers);
+    SurfaceValue const whole = value_at(PartlyKnown::place_of(numbers)).value();
+    EXPECT_EQ(atlas(numbers)->half_width, whole.half_width);
+    numbers[grain_friction_input].reset();
+    numbers[restitution_input].reset();
+    atlas.prepare(numbers);
+    SurfaceValue const partly = atlas(numbers).value();
+    EXPECT_NEAR(partly.efficiency, whole.efficiency, 1e-12);  // 0.55 is the middle of both ranges
+    double const added = 1.96 * sd_of_unknown(std::vector{grain_friction_input, restitution_input});
+    EXPECT_NEAR(partly.half_width, std::hypot(whole.half_width, added), 1e-4 * added);  // 1.95996 sd
+    EXPECT_GT(partly.half_width, whole.half_width);
 }
 
 // Every simulated layer lies within the interval that the surface has at its own place, but for the share

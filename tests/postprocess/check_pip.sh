@@ -4,9 +4,10 @@
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-mkdir "$folder/src"
+mkdir -p "$folder/src" "$folder/validation"
 cp -R "$2/postprocess" "$folder/postprocess"
-cp -R "$2/src/theory" "$folder/src/theory"
+for room in atlas core inference scenario theory; do cp -R "$2/src/$room" "$folder/src/$room"; done
+cp -R "$2/validation/atlas" "$folder/validation/atlas"
 "$1" -m venv --system-site-packages "$folder/env"
 CMAKE_BUILD_TYPE=Debug "$folder/env/bin/pip" install --quiet --no-index --no-build-isolation "$folder/postprocess"
 cd /

@@ -1,4 +1,4 @@
-"""Holds vibrotrough.theory to the program: the same numbers to the last bit, as fast, and its examples run.
+"""Holds vibrotrough.theory to the program: the same numbers to the last bit, as fast, and its examples run; and its atlas to `predict`.
 
 check_theory.py PROGRAM FOLDER [MODULES ...]: modules are found in the folders MODULES, else where Python finds them.
 """
@@ -116,6 +116,78 @@ def check_rolling_layers():
     expect_error(ValueError, "spring is not a constant", theory.solve, **inside, rolling_layer={"spring": 1.0})
 
 
+def predicted(changes, sweep):
+    """What `predict --json` says of the demo's campaign with other lines and another sweep."""
+    text = (Path(__file__).resolve().parents[2] / "validation/demo/campaign.toml").read_text().partition("[sweep]")[0]
+    for old, new in changes.items():
+        assert old in text, old
+        text = text.replace(old, new)
+    campaign = FOLDER / "layers.toml"
+    campaign.write_text(text + "[sweep]\n" + "".join(f'"{key}" = {values}\n' for key, values in sweep.items()))
+    done = subprocess.run([PROGRAM, "predict", campaign, "--json"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def check_atlas_against_predict():
+    """The layers of a campaign, also outside of the atlas and far away, as numpy spreads the inputs: to the last digit that `predict` prints."""
+    gammas, frictions, tangents = [0.9, 1.7, 2.4, 3.5, 6.0], [0.23, 0.45], [0.0, 0.05]
+    rows = predicted({'inclination = "0 deg" ': "tan_inclination = 0.0", "poisson_ratio": 'rotation = "rolling"\nrolling_friction = 0.1\npoisson_ratio'},
+                     {"trough.throw_number": gammas, "trough.friction": frictions, "trough.tan_inclination": tangents})  # fmt: skip
+    layer = {"tan_vibration_angle": 0.5, "amplitude_m": 0.006, "grain_diameter_mm": 3, "grain_friction": 0.5, "rolling_friction": 0.1, "restitution": 0.5}
+    found = theory.atlas(throw_number=np.array(gammas)[:, None, None], friction=np.array(frictions)[:, None], tan_inclination=tangents, layer_height_mm=12, **layer)
+    assert found.velocity_efficiency.shape == found.inside.shape == found.outside.shape == (5, 2, 2)
+    columns = zip(found.velocity_efficiency.flat, found.half_width.flat, found.conveying_speed.flat, found.inside.flat, found.outside.flat, strict=True)
+    for row, (efficiency, half_width, speed, inside, outside) in zip(rows, columns, strict=True):
+        assert (row["inside"], tuple(row["outside"])) == (inside, outside), (row, outside)
+        if row["efficiency"] is None:
+            assert np.isnan(efficiency) and np.isnan(half_width) and np.isnan(speed) and not inside, row
+        else:
+            assert (row["efficiency"], row["half_width"]) == (efficiency, half_width), (row, efficiency)
+            # Tolerance: rounding, because the campaign has the frequency that belongs to the throw number.
+            assert np.isclose(row["speed_m_per_s"], speed, rtol=1e-12), (row, speed)
+    assert {row["efficiency"] is None for row in rows} == {row["inside"] for row in rows} == {True, False}
+    # The same layer in other units, and as one number.
+    omega = float(np.sqrt(9.81 * 1.7 / (0.006 * 0.5 / np.sqrt(1.25))))
+    same = {**layer, "amplitude_m": np.nan, "stroke_mm": 12.0}
+    one = theory.atlas(rpm=60 * omega / (2 * np.pi), friction=0.45, depth=4, **same)
+    assert one.outside.shape == () and one.outside.item() == ()
+    assert np.isclose(one.conveying_speed, found.conveying_speed[1, 1, 0], rtol=1e-9), (one, found.conveying_speed[1, 1, 0])
+
+
+def check_atlas_of_unknown_layers():
+    motion = {"throw_number": 2, "tan_vibration_angle": 0.5, "friction": 0.3, "amplitude_mm": 6, "grain_diameter_mm": 3}
+    ranges = theory.atlas_ranges()
+    unknown = ["depth", "grain_friction", "rolling_friction", "restitution"]
+    middle = {name: sum(ranges[name]) / 2 for name in unknown}
+    known, nothing = theory.atlas(**motion, **middle), theory.atlas(**motion)
+    # What is not known is in the middle; each such number widens the interval.
+    assert known.velocity_efficiency == nothing.velocity_efficiency
+    one_by_one = theory.atlas(**motion, **{name: np.where(np.arange(4) == k, np.nan, middle[name]) for k, name in enumerate(unknown)})
+    assert (one_by_one.velocity_efficiency == known.velocity_efficiency).all()
+    assert (known.half_width < one_by_one.half_width).all() and (one_by_one.half_width < nothing.half_width).all()
+    # As the page has it: the root of the sum of the squares, which adds up over what is independent but for interactions.
+    added = np.sqrt(known.half_width**2 + ((one_by_one.half_width**2 - known.half_width**2).sum()))
+    assert 0.7 < added / nothing.half_width < 1.4, (added, nothing.half_width)
+    outside = theory.atlas(**motion, depth=[4, ranges["depth"][1] + 0.1, 1000])
+    assert outside.outside.tolist() == [(), ("depth",), ("depth",)] and np.isfinite(outside.velocity_efficiency).tolist() == [True, True, False]
+    without_speed = theory.atlas(**{**motion, "throw_number": 0.72, "friction": 0.14}, tan_inclination=-0.12)
+    assert np.isfinite(without_speed.velocity_efficiency) != ("theory" in without_speed.outside.item())
+    assert theory.atlas(**{**motion, "throw_number": np.empty(0)}).outside.shape == (0,)
+    expect_error(TypeError, "did you mean friction?", theory.atlas, **motion, frictoin=0.2)
+    expect_error(TypeError, "air_drag is not an input", theory.atlas, **motion, air_drag=0.1)
+    expect_error(TypeError, "depth and layer_height_mm are both given", theory.atlas, **motion, depth=4, layer_height_mm=12)
+    expect_error(TypeError, "grain_diameter_mm", theory.atlas, throw_number=2)
+    expect_error(ValueError, "point 3: the diameter of the grains is missing or not above 0", theory.atlas, **{**motion, "grain_diameter_mm": [1, 2, 0]}, layer_height_mm=10)
+    expect_error(ValueError, "point 2: an amplitude or a stroke is missing", theory.atlas, **{**motion, "amplitude_mm": [6, np.nan]})
+    expect_error(ValueError, "point 1: friction = -1 is outside its range", theory.atlas, **{**motion, "friction": -1})
+    expect_error(ValueError, "point 2: rolling_friction is below 0", theory.atlas, **motion, rolling_friction=[0.1, -0.1])
+    expect_error(ValueError, "give exactly one of vibration_angle_deg", theory.atlas, **{**motion, "tan_vibration_angle": np.nan})
+    generator = np.random.default_rng(2)
+    many = theory.atlas(**{**motion, "throw_number": generator.uniform(0.7, 3.2, 300)}, depth=4)
+    print(f"atlas: {1e6 * many.cpu_seconds / 300:.0f} microseconds a layer, with what {unknown[1:]} may change")
+
+
 def check_wrong_inputs():
     expect_error(ValueError, "give exactly one of vibration_angle_deg", theory.solve, throw_number=2, friction=0.3)
     late = np.where(np.arange(70000) == 69999, -1.0, 2.0)
@@ -151,6 +223,8 @@ def check_examples():
 check_against_batch()
 check_one_motion()
 check_rolling_layers()
+check_atlas_against_predict()
+check_atlas_of_unknown_layers()
 check_wrong_inputs()
 check_speed()
 check_examples()
