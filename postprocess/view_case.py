@@ -161,6 +161,13 @@ def show_trough(view: Any, trough: Any) -> None:
     shown.ColorArrayName = ["POINTS", ""]
     shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
     shown.EdgeColor = [0.55, 0.57, 0.6]
+    if not is_flat(trough):
+        shown.Opacity = 0.35  # its own wall in front would hide the layer
+
+
+def is_flat(trough: Any) -> bool:
+    left, right, _, _, floor, top = trough.GetDataInformation().GetBounds()
+    return bool(top - floor <= 1e-6 * (right - left))
 
 
 def show_text(view: Any, source: Any, where: str) -> Any:
@@ -172,8 +179,12 @@ def show_text(view: Any, source: Any, where: str) -> Any:
 
 
 def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, Any]:
-    """The theory's block on a lane that is the trough once more, narrower and in front of it."""
+    """The theory's block on a lane that is the trough once more, narrower and in front of it. The lane of a trough that is not flat
+    would stand before the layer and hide it: there the block has none."""
     block = open_collection("point_mass")
+    if not is_flat(trough):
+        show_block(view, block, quantity)
+        return block, None
     lane = Transform(registrationName="lane of the point mass", Input=trough)
     _, _, front, back, _, _ = trough.GetDataInformation().GetBounds()
     left_of_block, right_of_block = block.GetDataInformation().GetBounds()[2:4]
@@ -182,6 +193,11 @@ def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, An
     lane.Transform.Scale = [1.0, (high - low) / (back - front), 1.0]
     lane.Transform.Translate = [0.0, low - front * (high - low) / (back - front), 0.0]
     show_trough(view, lane)
+    show_block(view, block, quantity)
+    return block, lane
+
+
+def show_block(view: Any, block: Any, quantity: Quantity) -> None:
     shown = Show(block, view)
     shown.SetRepresentationType("Surface With Edges")
     shown.EdgeColor = INK
@@ -190,7 +206,6 @@ def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, An
     else:
         shown.ColorArrayName = ["POINTS", ""]
         shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
-    return block, lane
 
 
 def open_contacts(view: Any) -> None:
@@ -274,11 +289,11 @@ def show_profile(view: Any, height: float) -> None:
     SetActiveView(view)
 
 
-def look_along_the_width(view: Any, trough: Any, lane: Any, grains: Any) -> float:
+def look_along_the_width(view: Any, trough: Any, foremost: Any, grains: Any) -> float:
     """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
     left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
-    if lane:
-        front = lane.GetDataInformation().GetBounds()[2]
+    if foremost:
+        front = foremost.GetDataInformation().GetBounds()[2]
     length, width = right - left, back - front
     height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
     focus = [(left + right) / 2, (front + back) / 2, floor + 0.52 * height]
@@ -316,7 +331,7 @@ def main() -> None:
     if os.path.exists(os.path.join(FOLDER, "contacts.pvd")) and has_frames("contacts.pvd"):
         open_contacts(view)
     annotate(view, grains, block)
-    height = look_along_the_width(view, trough, lane, grains)
+    height = look_along_the_width(view, trough, lane or block, grains)
     show_profile(view, 1.8 * height)
     Render(view)
 
