@@ -56,7 +56,8 @@ def draw_flow(data: Data) -> Any:
     figure, axes = new_figure(size=(7.0, 3.3))
     plain_axes(axes)
     probability = 1 - np.array(data["quantile_shares"])
-    for number, model in enumerate(data["models"]):
+    known = [model for model in [*data["models"], *data["models_beside"]] if model["mass_flow_quantiles_t_per_h"]]
+    for number, model in enumerate(known):
         axes.plot(model["mass_flow_quantiles_t_per_h"], 100 * probability, DASHES[number % len(DASHES)],
                   color=COLOURS[number % len(COLOURS)], linewidth=2, label=model["model"])
     wanted = data["mass_flow_wanted_t_per_h"]
@@ -73,6 +74,13 @@ def draw_flow(data: Data) -> Any:
 
 def number(value: float | None) -> str:
     return NOT_KNOWN if value is None else f"{value:.3g}"
+
+
+def row_of_model(model: Data, name: str) -> list[str]:
+    is_known = model["probability"] is not None
+    return [name, f"{model['median_speed_m_per_s']:.3g}", number(model["sure_speed_m_per_s"]), f"{model['mass_flow_t_per_h']:.3g}",
+            f"{model['mass_flow_low_t_per_h']:.3g} to {model['mass_flow_high_t_per_h']:.3g}" if is_known else NOT_KNOWN,
+            f"{100 * model['probability']:.1f} %" if is_known else NOT_KNOWN]
 
 
 def design_page(data: Data) -> Page:
@@ -100,10 +108,8 @@ def design_page(data: Data) -> Page:
              f" ({data['friction_low']:.3g} to {data['friction_high']:.3g})" if data["friction_low"] < data["friction_high"] else ", taken as exact")),
     ]
     sure = f"{100 * data['confidence']:.4g} %"
-    models = [[model["model"], f"{model['median_speed_m_per_s']:.3g}", number(model["sure_speed_m_per_s"]), f"{model['mass_flow_t_per_h']:.3g}",
-               NOT_KNOWN if data["untested"] is not None else f"{model['mass_flow_low_t_per_h']:.3g} to {model['mass_flow_high_t_per_h']:.3g}",
-               NOT_KNOWN if data["untested"] is not None else f"{100 * model['probability']:.1f} %"]
-              for model in data["models"]]
+    models = [row_of_model(model, model["model"]) for model in data["models"]]
+    models += [row_of_model(model, f"{model['model']} (for comparison)") for model in data["models_beside"]]
     rules = [[f"{RULES.get(rule['rule'], rule['rule'])} ({rule['source']})", f"{rule['speed_m_per_s']:.3g}" if rule["speed_m_per_s"] else "no throw",
               f"{rule['low_m_per_s']:.3g} to {rule['high_m_per_s']:.3g}" if rule["low_m_per_s"] else ""]
              for rule in data["rules_of_thumb"]]

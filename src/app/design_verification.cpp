@@ -112,6 +112,16 @@ std::vector<learn::ComparedLayer> compared(learn::DesignTask const& task,
     return all;
 }
 
+/// What a search for a machine finds.
+template <class Search>
+auto fitting(Search const& search) {
+    try {
+        return search();
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
+    }
+}
+
 /// One machine after the other.
 class Verifier {
   public:
@@ -234,11 +244,11 @@ class Verifier {
 }  // namespace
 
 learn::RiskDesign propose_machine(learn::DesignTask const& task) {
-    try {
-        return learn::design_with_risk(task);
-    } catch (std::invalid_argument const& error) {
-        throw core::InputError(fmt::format("no machine fits: {}; widen the limits", error.what()));
-    }
+    return fitting([&] { return learn::design_with_risk(task); });
+}
+
+learn::ChosenDesign choose_machine(learn::DesignTask const& task, learn::ModelsToChoose const& models) {
+    return fitting([&] { return learn::design_by_known_model(task, models); });
 }
 
 VerifiedDesign verify_design(learn::DesignTask const& task, VerificationOptions const& options) {

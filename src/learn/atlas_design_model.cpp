@@ -65,7 +65,7 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
                         *grains.rolling_friction, range_of(atlas::rolling_friction_input).low,
                         range_of(atlas::rolling_friction_input).high));
     }
-    DesignModel model{.name = "the atlas", .discrepancy = discrepancy};
+    DesignModel model{.name = "the atlas", .discrepancy = discrepancy, .is_slow = true};
     model.at = [grains, spread = spread_of(grains)](theory::Drive const& d,
                                                     double mu) -> std::optional<ModelEfficiency> {
         auto const value = atlas::value_at(place_of(d, mu, grains));

@@ -31,17 +31,18 @@ Json if_known(RiskDesign const& d, double value) {
     return d.untested ? Json(nullptr) : Json(value);
 }
 
-Json as_json(RiskDesign const& d, ModelForecast const& f) {
+Json as_json(ModelForecast const& f, bool is_known) {
     auto const half_width = [&](double ModelEfficiency::*sd) {
         return f.efficiency ? Json(atlas::deviations_in_half_width * ((*f.efficiency).*sd)) : Json(nullptr);
     };
+    auto const known = [&](double value) { return is_known ? Json(value) : Json(nullptr); };
     return {{"model", f.model},
             {"median_speed_m_per_s", f.median_speed},
-            {"sure_speed_m_per_s", if_known(d, f.sure_speed)},
+            {"sure_speed_m_per_s", known(f.sure_speed)},
             {"mass_flow_t_per_h", tonnes_per_hour * f.median_flow},
-            {"mass_flow_low_t_per_h", if_known(d, tonnes_per_hour * f.low_flow)},
-            {"mass_flow_high_t_per_h", if_known(d, tonnes_per_hour * f.high_flow)},
-            {"probability", if_known(d, f.probability)},
+            {"mass_flow_low_t_per_h", known(tonnes_per_hour * f.low_flow)},
+            {"mass_flow_high_t_per_h", known(tonnes_per_hour * f.high_flow)},
+            {"probability", known(f.probability)},
             {"efficiency", f.efficiency ? Json(f.efficiency->efficiency) : Json(nullptr)},
             {"efficiency_half_width", half_width(&ModelEfficiency::statistics_sd)},
             {"numerical_error", half_width(&ModelEfficiency::numerics_sd)},
@@ -115,6 +116,16 @@ std::string most_that_is_carried(DesignTask const& t, RiskDesign const& d) {
     double const flow = t.bulk_density * t.width * t.depth.high * d.sure_speed;
     return fmt::format("The fastest one carries {:.3g} t/h so surely, in a layer of {:.4g} mm.",
                        tonnes_per_hour * flow, 1e3 * t.depth.high);
+}
+
+/// A row of the table of models.
+std::string row_of(ModelForecast const& f, bool is_known) {
+    auto const known = [&](std::string const& words) { return is_known ? words : "not known"; };
+    return fmt::format(
+        "{:<24} {:>9.3g} {:>9} {:>10.3g} {:>17} {:>12}\n", f.model, f.median_speed,
+        known(fmt::format("{:.3g}", f.sure_speed)), tonnes_per_hour * f.median_flow,
+        known(fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow, tonnes_per_hour * f.high_flow)),
+        known(fmt::format("{:.1f} %", 100 * f.probability)));
 }
 
 /// The machines for the speeds of the drive that can be had; empty when any can.
@@ -206,14 +217,9 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
                         "95 % interval", "probability");
     text += fmt::format("{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "", "m/s", "m/s", "t/h", "t/h",
                         fmt::format("of {:.4g} t/h", tonnes_per_hour * t.mass_flow));
-    for (ModelForecast const& f : d.forecasts) {
-        auto const known = [&](std::string const& words) { return d.untested ? "not known" : words; };
-        text += fmt::format("{:<24} {:>9.3g} {:>9} {:>10.3g} {:>17} {:>12}\n", f.model, f.median_speed,
-                            known(fmt::format("{:.3g}", f.sure_speed)), tonnes_per_hour * f.median_flow,
-                            known(fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow,
-                                              tonnes_per_hour * f.high_flow)),
-                            known(fmt::format("{:.1f} %", 100 * f.probability)));
-    }
+    for (ModelForecast const& f : d.forecasts) text += row_of(f, !d.untested);
+    if (!d.beside.empty()) text += "beside it, for comparison:\n";
+    for (ModelForecast const& f : d.beside) text += row_of(f, !f.untested);
     for (ModelForecast const& f : d.forecasts) text += own_uncertainty(f);
     text += speeds_text(d);
     double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
@@ -257,11 +263,13 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"width_needed_m", d.width_needed ? Json(*d.width_needed) : Json(nullptr)},
               {"troughs_needed", d.width_needed ? Json(troughs_needed(t, d)) : Json(nullptr)},
               {"models", Json::array()},
+              {"models_beside", Json::array()},
               {"speeds_compared", Json::array()},
               {"active_limits", d.active_limits},
               {"rules_of_thumb", rules_of_thumb(d)},
               {"warnings", d.warnings}};
-    for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(d, f));
+    for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(f, !d.untested));
+    for (ModelForecast const& f : d.beside) json["models_beside"].push_back(as_json(f, !f.untested));
     for (SpeedTried const& one : d.speeds_tried) json["speeds_compared"].push_back(as_json(one));
     return json;
 }
@@ -282,11 +290,15 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
         {"max_throw_number", t.space.max_throw_number},
         {"max_landing_speed_m_per_s", t.landing_speed ? Json(*t.landing_speed) : Json()}};
     json["quantile_shares"] = quantile_shares();
-    for (std::size_t i = 0; i < d.forecasts.size(); ++i) {
-        Json& list = json["models"][i]["mass_flow_quantiles_t_per_h"] = Json::array();
-        if (d.untested) continue;
-        for (double const flow : d.forecasts[i].flow_quantiles) list.push_back(tonnes_per_hour * flow);
-    }
+    auto const add_quantiles = [](Json& model, ModelForecast const& f, bool is_known) {
+        Json& list = model["mass_flow_quantiles_t_per_h"] = Json::array();
+        if (!is_known) return;
+        for (double const flow : f.flow_quantiles) list.push_back(tonnes_per_hour * flow);
+    };
+    for (std::size_t i = 0; i < d.forecasts.size(); ++i)
+        add_quantiles(json["models"][i], d.forecasts[i], !d.untested);
+    for (std::size_t i = 0; i < d.beside.size(); ++i)
+        add_quantiles(json["models_beside"][i], d.beside[i], !d.beside[i].untested);
     return json;
 }
 

@@ -185,6 +185,29 @@ std::optional<theory::Drive> best_that_reaches(RiskSearch& search, theory::Drive
     return {};
 }
 
+/// What a model says of a machine with a layer of a depth, in m.
+ModelForecast forecast(RiskSearch const& search, DesignModel const& model, theory::Drive const& drive,
+                       double depth) {
+    DesignTask const& task = search.task();
+    std::optional<double> in_grains;
+    if (task.grain_diameter) in_grains = depth / *task.grain_diameter;
+    SpeedDistribution const speeds = search.speeds(drive, model, in_grains);
+    double const flow = task.bulk_density * task.width * depth, median = speeds.exceeded_with(0.5);
+    ModelForecast f{model.name,
+                    median,
+                    speeds.exceeded_with(task.confidence),
+                    flow * speeds.exceeded_with(0.975),
+                    flow * speeds.exceeded_with(0.025),
+                    flow * median,
+                    speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
+                    {},
+                    model.at(drive, task.friction.median),
+                    model.untested(drive, task.friction.median, in_grains)};
+    for (double const share : quantile_shares())
+        f.flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
+    return f;
+}
+
 /// @param given_depth  m, of a layer that is there; nothing: as deep as the mass flow needs
 RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive const& drive,
                      std::optional<double> given_depth = {}) {
@@ -199,31 +222,18 @@ RiskDesign described(DesignTask const& task, RiskSearch& search, theory::Drive c
     d.depth = given_depth.value_or(
         std::clamp(std::ceil(depth / depth_step - 1e-9) * depth_step, task.depth.low, task.depth.high));
     if (given_depth) d.feasible = depth <= *given_depth * (1 + 1e-9);
-    std::optional<double> in_grains;
-    if (task.grain_diameter) in_grains = d.depth / *task.grain_diameter;
-    for (DesignModel const& model : task.models)
-        if (!d.untested) d.untested = model.untested(drive, task.friction.median, in_grains);
+    for (DesignModel const& model : task.models) {
+        d.forecasts.push_back(forecast(search, model, drive, d.depth));
+        if (!d.untested) d.untested = d.forecasts.back().untested;
+    }
+    for (DesignModel const& model : task.beside)
+        if (model.is_point_mass || model.excess(drive) <= 0)
+            d.beside.push_back(forecast(search, model, drive, d.depth));
     d.feasible = d.feasible && !d.untested;
     if (!d.feasible && !d.untested && d.sure_speed > 0)
         d.width_needed = task.mass_flow / (task.bulk_density * task.depth.high * d.sure_speed);
-    double const flow = per_depth * d.depth;
     d.probability = 1;
-    for (std::size_t i = 0; i < task.models.size(); ++i) {
-        SpeedDistribution const speeds = search.speeds(drive, i, in_grains);
-        double const median = speeds.exceeded_with(0.5);
-        d.forecasts.push_back({task.models[i].name,
-                               median,
-                               speeds.exceeded_with(task.confidence),
-                               flow * speeds.exceeded_with(0.975),
-                               flow * speeds.exceeded_with(0.025),
-                               flow * median,
-                               speeds.probability_above(task.mass_flow / flow * (1 - 1e-9)),
-                               {},
-                               task.models[i].at(drive, task.friction.median)});
-        for (double const share : quantile_shares())
-            d.forecasts.back().flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
-        d.probability = std::min(d.probability, d.forecasts.back().probability);
-    }
+    for (ModelForecast const& f : d.forecasts) d.probability = std::min(d.probability, f.probability);
     d.landing_speed = search.worst_landing(drive).speed;
     describe_motion(task, d);
     d.active_limits = limits_at(task, search.space(), d);

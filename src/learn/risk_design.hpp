@@ -18,14 +18,15 @@ enum class Objective {
 
 /// What is known and wanted of a trough. The friction is not known exactly, and no model is exact.
 struct DesignTask {
-    theory::DriveSpace space;         ///< stroke, frequency, angles and the largest K and Gamma
-    std::vector<DesignModel> models;  ///< at least one; all of them must reach the mass flow
-    KnownFriction friction;           ///< of the material on the trough
-    double bulk_density;              ///< kg/m^3, > 0
-    double width;                     ///< m, of the trough, > 0
-    double length = 0;                ///< m, of the trough, for power and time; 0 when it is not known
-    double mass_flow;                 ///< kg/s, that is to be reached, > 0
-    theory::Range depth{0.002, 0.1};  ///< m, of the layer
+    theory::DriveSpace space;              ///< stroke, frequency, angles and the largest K and Gamma
+    std::vector<DesignModel> models;       ///< at least one; all of them must reach the mass flow
+    std::vector<DesignModel> beside = {};  ///< what these say of the machine is told; they decide nothing
+    KnownFriction friction;                ///< of the material on the trough
+    double bulk_density;                   ///< kg/m^3, > 0
+    double width;                          ///< m, of the trough, > 0
+    double length = 0;                     ///< m, of the trough, for power and time; 0 when it is not known
+    double mass_flow;                      ///< kg/s, that is to be reached, > 0
+    theory::Range depth{0.002, 0.1};       ///< m, of the layer
     std::optional<double> grain_diameter = {};    ///< m, if it is known
     std::optional<double> rolling_friction = {};  ///< coefficient of the grains, if it is known
     std::optional<double> landing_speed;          ///< m/s, largest speed of an impact on the trough
@@ -61,6 +62,8 @@ struct ModelForecast {
     /// What the model says of the velocity efficiency at the median of the friction, with its own
     /// uncertainty; nothing when the material has no steady speed.
     std::optional<ModelEfficiency> efficiency;
+    /// Why its probability and intervals may not be relied on, without a full stop: see RiskDesign.
+    std::optional<std::string> untested = {};
 };
 
 /// 2.5 %, 5 %, ..., 97.5 %: the shares of a distribution below the quantiles of a forecast.
@@ -72,6 +75,7 @@ struct RiskDesign {
     double throw_number, machine_number;   ///< Gamma and K
     double depth;                          ///< m, of the layer that carries the mass flow at the confidence
     std::vector<ModelForecast> forecasts;  ///< one per model, in their order
+    std::vector<ModelForecast> beside;     ///< of the models that decide nothing, where they know the drive
     double sure_speed;                     ///< m/s, reached with the stated confidence by all models
     double probability;                    ///< that the mass flow is reached; the least of the models'
     /// Why none of these probabilities and intervals may be relied on, without a full stop: a model's error

@@ -109,9 +109,9 @@ double RiskSearch::needed() const {
     return task_.mass_flow / (task_.bulk_density * task_.width * task_.depth.high);
 }
 
-SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, std::size_t number,
+SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, DesignModel const& model,
                                      std::optional<double> depth) const {
-    return speeds_by(task_.models[number], drive, depth, many_);
+    return speeds_by(model, drive, depth, many_);
 }
 
 double RiskSearch::sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const {

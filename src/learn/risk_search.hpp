@@ -27,9 +27,9 @@ class RiskSearch {
 
     /// m/s, needed for the mass flow at the largest depth.
     double needed() const;
-    /// By the many parts of the friction, of one of the task's models by its place in their list.
+    /// By the many parts of the friction.
     /// @param depth  of the layer, in diameters of its grains, if it is known
-    SpeedDistribution speeds(theory::Drive const& drive, std::size_t model,
+    SpeedDistribution speeds(theory::Drive const& drive, DesignModel const& model,
                              std::optional<double> depth = {}) const;
     /// m/s, reached with the task's confidence by all models; below zero when the material runs away. By the
     /// many parts of the friction.

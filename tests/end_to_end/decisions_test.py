@@ -101,7 +101,7 @@ class Engineer(EndToEndTest):
     def test_every_campaign_that_it_writes_passes_the_check(self):
         campaign = self.folder / "check.toml"
         for words, untested in ((["--objective", "gentlest-landing"], False),
-                                (["--objective", "least-power", "--grain-diameter", "6 mm"], True),  # deeper than any layer that was simulated
+                                (["--objective", "least-power", "--grain-diameter", "6 mm", "--model", "point-mass"], True),  # deeper than any that was simulated
                                 (["--friction-uncertainty", "0.05", "--inclination", "-3 deg to 2 deg"], False),
                                 (["--friction-uncertainty", "0.1", "--machine-number", "4"], False)):  # a deep layer
             design = self.design("--friction", "0.35", *words, "--campaign", campaign, wanted=1 if untested else 0)
@@ -183,7 +183,7 @@ class Engineer(EndToEndTest):
             (["--friction", "0.3", "--verify"], "write --grain-diameter"),
             (["--friction", "0.3", "--verify", "--grain-diameter", "3 mm"], "write --rolling-friction 0.1, or 0"),
             (["--friction", "0.3", "--budget", "1 core-hours"], "--budget requires --verify"),
-            (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1"], "neither the point mass"),
+            (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1", "--model", "point-mass"], "neither the point mass"),
         ):
             answer = self.call(*task, *words)
             self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)

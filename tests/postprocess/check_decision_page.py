@@ -34,6 +34,7 @@ def design():
         "landing_speed_m_per_s": 0.291, "friction_low": 0.21, "friction_median": 0.3, "friction_high": 0.39, "power_w": 41.2,
         "mass_flow_wanted_t_per_h": 12.0, "confidence": 0.95, "probability": 0.962, "sure_speed_m_per_s": 0.19,
         "untested": None, "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
+        "models_beside": [forecast("the atlas", 0.3) | {"probability": None, "sure_speed_m_per_s": None, "mass_flow_quantiles_t_per_h": []}],
         "active_limits": ["layer depth <= 40 mm", "landing speed <= 0.3 m/s"],
         "rules_of_thumb": [
             {"rule": "v = 3.81 N S, of which 70 to 80 % are used in practice", "source": "Daesung Machinery", "speed_m_per_s": 0.292,
@@ -126,7 +127,8 @@ def main(scripts, work):
     work = pathlib.Path(work).resolve() / "decision_page"
     work.mkdir(parents=True, exist_ok=True)
     pages = {}
-    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung"]),
+    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung",
+                                    "the atlas (for comparison)0.3not known18not knownnot known"]),
                            (deep_design(), ["Not tested: no probability is known.", "the point mass0.24not known14.4not knownnot known"]),
                            (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):
         path = work / f"{data['kind']}{'_untested' if data.get('untested') else ''}.html"

@@ -32,7 +32,8 @@ struct DesignArguments {
 learn::DesignTask read_task(DesignArguments const& options) {
     learn::DesignTask task = options.task.task();
     bool const is_simulated = options.verify || !options.campaign.empty();
-    bool const asks_atlas = std::ranges::find(options.task.models, "atlas") != options.task.models.end();
+    bool const asks_atlas = std::ranges::find(options.task.models, "atlas") != options.task.models.end() ||
+                            options.task.models_to_choose(task);
     if (task.rolling_friction && !is_simulated && !asks_atlas)
         throw core::InputError(
             "--rolling-friction: neither the point mass nor the rolling-layer law knows it; write --model "
@@ -62,7 +63,12 @@ learn::DesignTask read_task(DesignArguments const& options) {
 }
 
 /// Verifies the design unless it was not asked for; tells how.
-VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask const& task) {
+VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask task) {
+    if (auto const models = options.task.models_to_choose(task)) {
+        learn::ChosenDesign chosen = choose_machine(task, *models);
+        if (!options.verify) return {std::move(chosen.task), std::move(chosen.design), {}};
+        task = std::move(chosen.task);
+    }
     if (!options.verify) return {task, propose_machine(task), {}};
     VerificationOptions how = options.verification;
     if (options.budget) how.budget = read_core_time(*options.budget);
@@ -143,6 +149,8 @@ every friction in the central 99.7 % of its distribution (three standard deviati
 these. The atlas is what simulated layers of spheres say, with an interval (see 'vibrotrough predict'); what
 it does not know of the grains (rolling friction, friction, restitution) is part of its uncertainty. A surface
 is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
+With --grain-diameter and without --model the atlas decides where it knows the layer, otherwise the law or the
+point mass, and the others stand beside it.
 
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains; its grains are assumed, so put in what you know of yours.

@@ -141,8 +141,9 @@ void DesignOptions::add_to(CLI::App& command) {
     command
         .add_option(
             "--model", models,
-            "By which model: point-mass (default), rolling-layer, atlas, surface, or several, separated by "
-            "commas, which must then all reach the mass flow")
+            "By which model: point-mass, rolling-layer, atlas, surface, or several, separated by "
+            "commas, which must then all reach the mass flow; default: with --grain-diameter the atlas where "
+            "it knows the layer, otherwise the point mass")
         ->delimiter(',')
         ->expected(1)
         ->type_name("MODEL[,MODEL...]")
@@ -239,9 +240,27 @@ learn::KnownGrains DesignOptions::read_grains() const {
     return grains;
 }
 
+std::optional<double> DesignOptions::read_discrepancy() const {
+    if (!discrepancy) return {};
+    return read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
+}
+
+std::optional<learn::ModelsToChoose> DesignOptions::models_to_choose(learn::DesignTask const& task) const {
+    bool const is_named = !models.empty() || !surface.empty() || posterior;
+    if (is_named || !task.grain_diameter) return {};
+    auto const missed = read_discrepancy();
+    learn::ModelsToChoose choice{
+        {}, "", learn::rolling_layer_design_model({}, missed), learn::point_mass_design_model(missed)};
+    try {
+        choice.atlas = learn::atlas_design_model(read_grains(), missed.value_or(0));
+    } catch (core::InputError const& error) {
+        choice.why_no_atlas = error.what();
+    }
+    return choice;
+}
+
 std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction const& known) const {
-    std::optional<double> missed;
-    if (discrepancy) missed = read_number_within("--model-discrepancy", *discrepancy, "0.05", 0, 1);
+    std::optional<double> const missed = read_discrepancy();
     auto names = models;
     if (names.empty()) names.emplace_back(surface.empty() ? "point-mass" : "surface");
     bool const has_surface = std::ranges::find(names, "surface") != names.end();

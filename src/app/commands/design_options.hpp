@@ -2,6 +2,7 @@
 
 #include "app/commands/theory/options.hpp"
 #include "learn/atlas_design_model.hpp"
+#include "learn/model_choice.hpp"
 #include "learn/risk_design.hpp"
 
 #include <string>
@@ -31,11 +32,15 @@ struct DesignOptions {
     /// The task with its models. @throws core::InputError when an option is missing, wrong or contradicts
     /// another
     learn::DesignTask task() const;
+    /// The models among which the design chooses; nothing where the user or the posterior names one, or the
+    /// diameter of the grains is not known.
+    std::optional<learn::ModelsToChoose> models_to_choose(learn::DesignTask const& task) const;
 
   private:
     void add_material(CLI::App& command);
     void add_limits(CLI::App& command);
     learn::KnownGrains read_grains() const;
+    std::optional<double> read_discrepancy() const;
     learn::KnownFriction read_friction(std::string& calibrated_model) const;
     std::vector<learn::DesignModel> read_models(learn::KnownFriction const& known) const;
 };

@@ -1,0 +1,91 @@
+#include "learn/model_choice.hpp"
+
+#include "learn/atlas_design_model.hpp"
+#include "learn/design_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double pellet = 0.0035;
+
+/// Pellets of 3.5 mm on a trough 400 mm wide, whose drive turns 960 times a minute, with at most 4 g.
+DesignTask trough_of_pellets(double tonnes_per_hour) {
+    DesignTask task{};
+    task.space.frequency = {16, 16};
+    task.space.max_machine_number = 4;
+    task.friction = normal_friction(0.3, 0);
+    task.bulk_density = 600;
+    task.width = 0.4;
+    task.mass_flow = tonnes_per_hour / 3.6;
+    task.grain_diameter = pellet;
+    return task;
+}
+
+ModelsToChoose all_models() {
+    return {atlas_design_model({pellet, 0.1}), "", rolling_layer_design_model(), point_mass_design_model()};
+}
+
+std::vector<std::string> names(std::vector<ModelForecast> const& forecasts) {
+    std::vector<std::string> all;
+    for (ModelForecast const& one : forecasts) all.push_back(one.model);
+    return all;
+}
+
+// Its layers are as deep as those of the atlas, and what the others say is told beside it.
+TEST(ModelChoice, TheAtlasDecidesWhereItKnowsTheLayer) {
+    auto const [task, design] = design_by_known_model(trough_of_pellets(4), all_models());
+    EXPECT_TRUE(design.feasible);
+    EXPECT_THAT(names(design.forecasts), ElementsAre("the atlas"));
+    EXPECT_THAT(names(design.beside), ElementsAre("the rolling-layer law", "the point mass"));
+    EXPECT_GE(design.depth, 3 * pellet);
+    EXPECT_LE(design.depth, 6 * pellet);
+    EXPECT_THAT(design_text(task, design), HasSubstr("beside it, for comparison:\nthe rolling-layer law"));
+    EXPECT_EQ(design_json(task, design).at("models_beside").at(1).at("model"), "the point mass");
+}
+
+// The layer that carries 12 t/h is three times as deep as those of the atlas. The law was tested there at
+// throw numbers up to 1.9 alone.
+TEST(ModelChoice, ADeepLayerIsTheLaws) {
+    auto const [task, design] = design_by_known_model(trough_of_pellets(12), all_models());
+    EXPECT_TRUE(design.feasible);
+    EXPECT_THAT(names(design.forecasts), ElementsAre("the rolling-layer law"));
+    EXPECT_LE(design.throw_number, 1.9 + 1e-9);
+    EXPECT_GT(design.depth, 12 * pellet);
+    EXPECT_THAT(design.warnings,
+                ElementsAre("The atlas does not decide: its layers are up to 21 mm deep, and none carries so "
+                            "much so surely."));
+}
+
+// Where none does it, the deepest layers that are known say how wide a trough would.
+TEST(ModelChoice, AnAnswerThatIsKnownIsBetterThanNone) {
+    auto const [task, design] = design_by_known_model(trough_of_pellets(120), all_models());
+    EXPECT_FALSE(design.feasible);
+    EXPECT_FALSE(design.untested);
+    EXPECT_NEAR(task.depth.high, 16 * pellet, 1e-12);
+    EXPECT_GT(*design.width_needed, 2.5);
+}
+
+// A layer of one or two diameters is known by none of them: the point mass answers, without a probability.
+TEST(ModelChoice, WithoutAKnownModelThePointMassAnswers) {
+    DesignTask task = trough_of_pellets(0.5);
+    task.depth = {pellet, 1.9 * pellet};
+    ModelsToChoose models = all_models();
+    models.atlas.reset();
+    models.why_no_atlas = "it was not asked";
+    auto const design = design_by_known_model(task, models).design;
+    EXPECT_THAT(names(design.forecasts), ElementsAre("the point mass"));
+    EXPECT_TRUE(design.untested);
+    EXPECT_THAT(design.warnings, testing::Contains("The atlas does not decide: it was not asked."));
+    EXPECT_THAT(design.warnings,
+                testing::Contains(testing::StartsWith("The rolling-layer law does not decide: ")));
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn
