@@ -266,7 +266,9 @@ EngineerQuantities engineer_quantities(ConveyorMotion const& motion, Machine con
     q.mean_power = q.trough_work * q.frequency;
     if (mass_per_area > 0) q.power_per_area = q.mean_power * mass_per_area;
     auto const [push, drag] = largest_forces(motion);
-    q.largest_normal_force = push * q.angular_frequency * vy;
+    // The smallest vibration angles have the largest of these numbers, and the product with the frequency
+    // would be too large.
+    q.largest_normal_force = push * vy * q.angular_frequency;
     q.largest_tangential_force = drag * q.angular_frequency * vx;
     return q;
 }
