@@ -28,16 +28,18 @@ struct FixedPoint {
 /// @param tolerance  stops when the estimated error of v is below tolerance (1 + |v|)
 template <class Map>
 FixedPoint fixed_point(Map const& map, double v, double tolerance) {
+    constexpr double rounding = 1e-14;  // of f'
     double lo = -HUGE_VAL, hi = HUGE_VAL, stride = 1;
     for (int i = 0; i < 2000; ++i) {
         Tangent const after = map(v);
         double const drift = after.v - v, scale = 1 + std::abs(v);
         if (std::abs(drift) <= 1e-15 * scale) return {v, 0};
         (drift > 0 ? lo : hi) = v;
-        double const step = after.slope < 1 ? drift / (1 - after.slope) : drift * (stride *= 2);
+        bool const drifts = 1 - after.slope < rounding;
+        double const step = drifts ? drift * (stride *= 2) : drift / (1 - after.slope);
         double next = v + step;
         bool const inside = next > lo && next < hi;
-        if (inside && after.slope < 1 && std::abs(step) <= tolerance * scale) return {v, step};
+        if (inside && !drifts && std::abs(step) <= tolerance * scale) return {v, step};
         if (hi - lo <= 1e-15 * scale || next == v) return {v, 0};
         if (!inside) {
             bool const bracketed = std::isfinite(lo) && std::isfinite(hi);
