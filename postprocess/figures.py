@@ -26,6 +26,7 @@ import figure_portraits
 import figure_residuals
 import figure_rolling
 import figure_spin
+import figure_tables
 import vibrotrough
 from drawn_figures import DrawnFigures, digest_of_data, read_note
 from figure_inputs import swept_inputs
@@ -33,7 +34,7 @@ from figure_style import FORMATS, Problem, TooNarrow, one_line, shown, take_styl
 from matplotlib import pyplot as plt
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles")
+KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles", "impacts", "partition", "segregation")
 
 
 class Source:
@@ -140,7 +141,8 @@ def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib
 def draw_case(source: Source, only: Collection[str], case: str) -> Iterator[list[pathlib.Path]]:
     """The figures of one case, when its result.h5 is there and whole."""
     drawers = {"cycles": figure_cycles.plot_cycles, "portraits": figure_portraits.plot_portraits,
-               "spin": figure_spin.plot_spin, "rolling": figure_rolling.plot_rolling, "profiles": figure_portraits.plot_profiles}
+               "spin": figure_spin.plot_spin, "rolling": figure_rolling.plot_rolling, "profiles": figure_portraits.plot_profiles,
+               "impacts": figure_tables.plot_impacts, "partition": figure_tables.plot_partition, "segregation": figure_tables.plot_segregation}
     wanted = [kind for kind in drawers if kind in only]
     if not wanted:
         return

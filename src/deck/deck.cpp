@@ -3,6 +3,7 @@
 #include "core/atomic_file.hpp"
 #include "deck/deck_data.hpp"
 #include "deck/deck_folder.hpp"
+#include "deck/impacts.hpp"
 #include "deck/open_trough.hpp"
 #include "deck/phases.hpp"
 #include "deck/render.hpp"
@@ -127,6 +128,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     data.set("characteristic_speed", fmt::format("{}", prepared.settle_speed));
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data, replaced));
     describe_rolling(data, prepared);
+    describe_impacts(data, prepared);
     deck.files = deck.settle_files;
     data.set("characteristic_speed", fmt::format("{}", prepared.time.impact_speed));
     describe_moving_floor(data, prepared);

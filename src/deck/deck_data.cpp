@@ -1,6 +1,7 @@
 #include "deck/deck_data.hpp"
 
 #include "deck/atom_types.hpp"
+#include "deck/contact_columns.hpp"
 #include "deck/drive_formula.hpp"
 #include "deck/estimates.hpp"
 #include "deck/stage_data.hpp"
@@ -245,35 +246,12 @@ void describe_drive(core::TemplateData& data, prepare::PreparedCase const& n) {
     data.set("impact_speed", fmt::format("{:.3g}", time.impact_speed));
 }
 
-/// "c_NAME[1] ... c_NAME[15] c_NAME[last]": the columns of a compute with the contacts, of which the last is
-/// the overlap.
-std::string columns_of(std::string_view name, int last) {
-    std::vector<std::string> columns;
-    for (int column = 1; column <= 15; ++column) columns.push_back(fmt::format("c_{}[{}]", name, column));
-    columns.push_back(fmt::format("c_{}[{}]", name, last));
-    return fmt::format("{}", fmt::join(columns, " "));
-}
-
-/// The engine allows one compute for the contacts of grains and one for those with walls, so that the largest
-/// overlap of phases.csv and the torque of rolling.csv are columns of the same computes. Columns are in the
-/// engine's order: two places, three numbers, normal and tangential force, torque if asked for, overlap.
-void describe_contacts(core::TemplateData& data, bool contacts, bool rolling) {
-    data.set("contacts", contacts);
-    data.set("overlap_column", std::string(contacts ? "16" : "1"));
-    data.set("floor_torque_column", std::string(contacts ? "17" : "2"));
-    static std::string const of_grains = columns_of("overlaps", 16),
-                             of_floor = columns_of("floor_contacts", 16),
-                             of_rolling = columns_of("floor_contacts", 19);
-    data.set("contact_columns", of_grains);
-    data.set("trough_contact_columns", rolling ? of_rolling : of_floor);
-}
-
 void describe_output(core::TemplateData& data, scenario::Scenario const& s, prepare::TimeGrid const& time,
                      int packing) {
     bool const frames = writes_frames(s.output, packing);
     data.set("frames", frames);
     if (frames) data.set("frame_steps", std::to_string(time.steps_per_cycle / s.output.frames_per_cycle));
-    describe_contacts(data, frames && s.output.contacts, s.measure.rolling);
+    describe_contact_columns(data, frames && s.output.contacts, s.measure);
     data.set("max_cycles", std::to_string(s.measure.max_cycles));
     data.set("checkpoints", s.output.checkpoint_cycles > 0);
     data.set("checkpoint_cycles", std::to_string(s.output.checkpoint_cycles));

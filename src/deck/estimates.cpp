@@ -1,5 +1,6 @@
 #include "deck/estimates.hpp"
 
+#include "deck/impacts.hpp"
 #include "deck/phases.hpp"
 #include "prepare/contact.hpp"
 
@@ -175,7 +176,8 @@ double bytes_of(prepare::PreparedCase const& c, double packings, double cycles) 
     double const per_frame = 300 + 102 * spheres + (s.output.contacts ? contact_bytes(spheres) : 0);
     // The engine's output, the deck and the marker of the run and of its settling; settled.restart and one
     // checkpoint.
-    double const per_packing = 175e3 + (350 + 310) * spheres;
+    double const per_packing =
+        175e3 + (350 + 310) * spheres + (s.measure.impacts ? watched_bytes(c, spheres) : 0);
     double const result = 100e3 + packings * (15e3 + 72 * cycles);
     return packings * (per_packing + cycles * per_cycle) + frames * per_frame + result;
 }

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "deck/phases.hpp"
+#include "measure/granular_temperature.hpp"
 #include "measure/landing.hpp"
 
 #include <algorithm>
@@ -100,6 +101,12 @@ void measure_layer(store::PackingRecord& record, prepare::PreparedCase const& pr
     if (is_clump(s.grains) || s.layer.block != scenario::Block::none || prepared.domain.is_closed)
         scale_solid_fraction(record.profiles, s, record.mass);
     record.surface = measure::layer_surface(surface, profile);
+    // The engine's energies of clumps are wrong, and those of several materials are not of one mass.
+    if (is_clump(s.grains) || s.layer.block != scenario::Block::none || !s.materials.empty()) return;
+    constexpr int bins_per_slab = 2;  // the bins are half a diameter high, see deck/phases.cpp
+    record.granular_temperature = measure::granular_temperature(
+        profiles, series,
+        {record.mass, prepared.time.steps_per_cycle, facts.discarded, facts.used, bins_per_slab});
 }
 
 std::string common_mode(std::vector<store::PackingRecord> const& packings) {

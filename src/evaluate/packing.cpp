@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "deck/deck.hpp"
+#include "evaluate/impacts.hpp"
 #include "evaluate/layer.hpp"
 #include "evaluate/open_trough.hpp"
 #include "evaluate/rolling.hpp"
@@ -91,6 +92,7 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
         measure_rolling(record, prepared, files, phases);
     }
     read_wear(record, prepared, files);
+    measure_impacts(record, prepared, files);
     return record;
 }
 

@@ -1,5 +1,7 @@
 #include "learn/capacity.hpp"
 
+#include "evaluate/open_trough.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +18,16 @@ double to_three_digits(double value) {
 }
 
 }  // namespace
+
+bool is_overfed(core::Outcome outcome, store::CaseRecord const* record) {
+    if (outcome == core::Outcome::overfull) return true;
+    if (outcome != core::Outcome::not_steady || record == nullptr || evaluate::unsteady_flow(*record).empty())
+        return false;
+    double difference = 0;
+    for (store::PackingRecord const& packing : record->packings)
+        difference += packing.open.outflow.value_or(0) - packing.open.inflow.value_or(0);
+    return difference < 0;
+}
 
 CapacityBounds capacity_bounds(std::vector<FeedTrial> const& trials) {
     CapacityBounds bounds;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "core/outcome.hpp"
+#include "store/case_record.hpp"
+
 #include <optional>
 #include <vector>
 
@@ -13,6 +16,12 @@ struct FeedTrial {
     double mass_flow;  ///< kg/s, > 0
     bool is_carried;   ///< whether what is fed also leaves; else the trough fills ever more
 };
+
+/// Whether a case shows that its feed is not carried away: the layer reached the feed, or the case is not
+/// steady and less left the trough than was fed, by more than chance explains (evaluate::unsteady_flow). A
+/// case that is not steady for another reason, such as a speed that drifts, does not show it.
+/// @param record  of the case; nullptr when it has none
+bool is_overfed(core::Outcome outcome, store::CaseRecord const* record);
 
 /// What the trials say of the capacity: it lies between the two. Either is missing while no trial shows it.
 struct CapacityBounds {

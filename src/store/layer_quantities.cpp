@@ -23,6 +23,10 @@ auto coordination_number() {
     return packing_field([](auto& packing) -> auto& { return packing.rolling.coordination_number; });
 }
 
+auto granular_temperature() {
+    return packing_field([](auto& packing) -> auto& { return packing.granular_temperature; });
+}
+
 std::optional<double> scaled(double factor, std::optional<double> const& value) {
     if (!value) return {};
     return factor * *value;
@@ -53,16 +57,6 @@ std::optional<double> dissipation_fraction(Case record) {
     }
     if (count == 0) return {};
     return sum / count;
-}
-
-/// Half-width of Student's interval of the mean over the packings that have this number; none with fewer than
-/// two.
-std::optional<double> coordination_half_width(Case record) {
-    std::vector<double> values;
-    for (Packing packing : record.packings) {
-        if (auto const& value = packing.rolling.coordination_number) values.push_back(*value);
-    }
-    return measure::student_half_width(values, record.scenario.measure.confidence);
 }
 
 /// None when no mean is known.
@@ -143,15 +137,30 @@ std::vector<Quantity> motion_quantities() {
          "Bulk restitution: largest rising speed of the centre of mass relative to the trough between "
          "landing and next take-off over its falling speed before landing; NaN without landings",
          motion<&Motion::restitution>(), mean},
+        added_later({"granular_temperature",
+                     "m2/s2",
+                     "Granular temperature: a third of the mean square of the grains' velocities relative to "
+                     "the mean in their slab of one diameter, over the cycle; NaN with clumps and several "
+                     "materials",
+                     granular_temperature(),
+                     mean,
+                     {{.place = 1230, .format = "{:.3g}", .position = 320}}}),
+        {"granular_temperature_half_width",
+         "m2/s2",
+         "Half-width of the interval of granular_temperature at measure.confidence, Student's t over the "
+         "packings; NaN with one packing",
+         Real([](Case c) { return half_width_over_packings(c, granular_temperature()); }),
+         nothing,
+         {{.place = 1232, .format = "{:.2g}", .position = 321}}},
         added_later({"coordination_number", "1",
                      "Mean contacts per grain, with other grains (counted for both) and with the floor, over "
                      "the cycle; "
-                     "NaN without measure.rolling",
+                     "NaN without measure.rolling or measure.impacts",
                      coordination_number(), mean}),
         {"coordination_number_half_width", "1",
          "Half-width of the interval of coordination_number at measure.confidence, Student's t over the "
          "packings; NaN with one packing",
-         Real(coordination_half_width)},
+         Real([](Case c) { return half_width_over_packings(c, coordination_number()); })},
         added_later({"rolling_problem", "1",
                      "Why the table rolling is empty although measure.rolling asks for it; else empty",
                      packing_field([](auto& packing) -> auto& { return packing.rolling_problem; })}),

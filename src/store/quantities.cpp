@@ -1,5 +1,6 @@
 #include "prepare/numerical_errors.hpp"
 #include "prepare/softness.hpp"
+#include "store/impact_quantities.hpp"
 #include "store/layer_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
@@ -366,7 +367,7 @@ std::vector<Quantity> const& quantities() {
              {drive_quantities(), efficiency_quantities(), flow_quantities(), run_quantities(),
               start_and_scatter_quantities(), grain_and_layer_quantities(), layer_quantities(),
               material_quantities(), open_quantities(), screen_quantities(), stage_quantities(),
-              wear_quantities()})
+              wear_quantities(), impact_quantities()})
             rows.insert(rows.end(), part.begin(), part.end());
         return rows;
     }();

@@ -1,5 +1,6 @@
 #include "store/reference.hpp"
 
+#include "store/impact_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/observable.hpp"
 #include "store/open_quantities.hpp"
@@ -22,6 +23,7 @@ constexpr std::string_view real_type = "float64", whole_type = "int32", word_typ
 std::string_view shape_of(std::string_view group) {
     if (group == "profiles") return "bins";
     if (group == "wear") return "triangles";
+    if (group == "impacts") return "classes";
     return group == "surface" ? "columns" : "samples";
 }
 
@@ -69,7 +71,8 @@ void add_packings(std::vector<NameInFile>& names) {
         add(names, ends ? "cycle_ends/<packing>/" : "series/<packing>/", real_type,
             ends ? "cycles + 1" : "cycles", series.entry);
     }
-    for (auto const* const tables : {&packing_tables(), &rolling_tables(), &wear_tables()}) {
+    for (auto const* const tables :
+         {&packing_tables(), &rolling_tables(), &wear_tables(), &impact_tables()}) {
         for (PackingTable const& table : *tables)
             add(names, std::string(table.group) + "/<packing>/", real_type, shape_of(table.group),
                 table.entry);
@@ -99,6 +102,8 @@ void add_packings(std::vector<NameInFile>& names) {
     for (Entry const& entry : screening_entries()) add(names, "screening/", real_type, "cycles + 1", entry);
     for (Entry const& entry : partition_cycles_entries())
         add(names, "partition_cycles/", real_type, "sizes * (cycles + 1)", entry);
+    for (Entry const& entry : impact_spectrum_entries())
+        add(names, "impact_spectrum/", real_type, "classes", entry);
     for (MassFlowColumn const& column : mass_flow_columns())
         add(names, "mass_flow/", real_type, "slabs", column.entry);
 }

@@ -7,6 +7,7 @@
 #include "measure/reaction.hpp"
 #include "scenario/reader/campaign_file.hpp"
 #include "store/hdf5_memory_file.hpp"
+#include "store/impact_quantities.hpp"
 #include "store/material_quantities.hpp"
 #include "store/open_quantities.hpp"
 #include "store/schema.hpp"
@@ -207,6 +208,8 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         read_tables(file, i, record.packings[i], rolling_tables());
     for (std::size_t i = 0; record.scenario.measure.wear && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], wear_tables());
+    for (std::size_t i = 0; record.scenario.measure.impacts && i < record.packings.size(); ++i)
+        read_tables(file, i, record.packings[i], impact_tables());
     for (std::size_t i = 0; i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
@@ -277,11 +280,13 @@ std::string result_bytes(CaseRecord const& record) {
     add_case_table(file, "partition", partition_entries(), partition_table(record));
     add_case_table(file, "screening", screening_entries(), screening_table(record));
     add_case_table(file, "partition_cycles", partition_cycles_entries(), partition_cycles_table(record));
+    add_case_table(file, "impact_spectrum", impact_spectrum_entries(), impact_spectrum_table(record));
     for (std::size_t i = 0; i < record.packings.size(); ++i) {
         add_tables(file, i, record.packings[i], packing_series());
         add_tables(file, i, record.packings[i], packing_tables());
         if (record.scenario.measure.rolling) add_tables(file, i, record.packings[i], rolling_tables());
         if (record.scenario.measure.wear) add_tables(file, i, record.packings[i], wear_tables());
+        if (record.scenario.measure.impacts) add_tables(file, i, record.packings[i], impact_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
         if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
         if (is_screen(record.scenario)) add_tables(file, i, record.packings[i], screen_tables());

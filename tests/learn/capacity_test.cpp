@@ -65,5 +65,43 @@ TEST(Capacity, NamesAContradiction) {
     EXPECT_THAT(bounds.contradiction, Optional(4.0));
 }
 
+/// The record of a case with a packing for each outflow (kg/s), which were all fed with 1 kg/s.
+store::CaseRecord record_with(std::vector<double> const& outflows) {
+    store::CaseRecord record{};
+    record.scenario.measure.confidence = 0.95;
+    for (double const outflow : outflows) {
+        store::PackingRecord packing{};
+        packing.open.inflow = 1;
+        packing.open.outflow = outflow;
+        packing.series.open.fed = {0, 1e6};
+        record.packings.push_back(packing);
+    }
+    return record;
+}
+
+bool is_refused(core::Outcome outcome, std::vector<double> const& outflows) {
+    store::CaseRecord const record = record_with(outflows);
+    return is_overfed(outcome, &record);
+}
+
+// A trough fills when less leaves it than is fed, by more than the 2 % and the interval of unsteady_flow().
+TEST(Capacity, IsNotReachedWhileWhatIsFedAlsoLeaves) {
+    using enum core::Outcome;
+    EXPECT_TRUE(is_refused(not_steady, {0.8, 0.81, 0.79}));
+    EXPECT_TRUE(is_refused(not_steady, {0.9}));
+    // Not steady for another reason: it empties, its speed drifts, or its packings differ.
+    EXPECT_FALSE(is_refused(not_steady, {1.2, 1.21, 1.19}));
+    EXPECT_FALSE(is_refused(not_steady, {0.99, 0.995, 0.985}));
+    EXPECT_FALSE(is_refused(not_steady, {0.7, 1.1, 1.0}));
+    EXPECT_FALSE(is_overfed(not_steady, nullptr));
+}
+
+TEST(Capacity, IsReachedWhereTheLayerReachesTheFeed) {
+    using enum core::Outcome;
+    EXPECT_TRUE(is_overfed(overfull, nullptr));
+    for (core::Outcome const other : {finished, not_precise, bistable_or_slow})
+        EXPECT_FALSE(is_refused(other, {0.8, 0.81, 0.79})) << name_of(other);
+}
+
 }  // namespace
 }  // namespace vibrotrough::learn

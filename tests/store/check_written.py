@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 TYPES = {"int32": np.dtype("<i4"), "float64": np.dtype("<f8")}
-SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "triangles": (2,), "materials": (4,), "stages": (1,), "sizes": (2,), "grains": (3,), "sizes * (cycles + 1)": (4,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
+SHAPES = {"result.h5": {"scalar": (), "packings": (2,), "samples": (5,), "bins": (4,), "columns": (3,), "slabs": (3,), "triangles": (2,), "classes": (2,), "materials": (4,), "stages": (1,), "sizes": (2,), "grains": (3,), "sizes * (cycles + 1)": (4,), "cycles": (1,), "cycles + 1": (2,), "101": (101,)}, "campaign.h5": {"cases": (2,)}}
 CYCLES = {"1": 3, "2": 1}  # cycles of the sample's packings
 
 
@@ -61,7 +61,7 @@ def check_file(path, heading, reference):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|screen|sizes|passed|wear)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|screen|sizes|passed|wear|impacts)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -144,6 +144,10 @@ def check_result_values(file):
     assert case["wear_rate"] == 2.25 and case["specific_wear"] == 0.75
     assert math.isclose(case["specific_wear_half_width"], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-12)
     assert list(file["wear/2"]["rate"]) == [1.5, 3.0] and list(file["wear/1"]["x"]) == [0.01, 0.02]
+    # Packings with 0.25 and 0.75 W/kg, and 2 and 2.5 impacts per kg and s in the second class.
+    assert case["impact_power"] == 0.5 and case["impacts_seen"] == 24 and case["granular_temperature"] == 0.26
+    assert list(file["impact_spectrum"]["rate"]) == [4, 2.25] and list(file["impact_spectrum"]["trough_rate"]) == [0, 1]
+    assert math.isclose(file["impact_spectrum"]["rate_half_width"][1], math.tan(0.95 * math.pi / 2) * 0.25, rel_tol=1e-9)
     # Three of five passed, with ((3 - 2) / 4)^2 at an attempt.
     assert np.allclose(file["partition"]["stays"], [0.4, 1]) and list(file["partition"]["probability"]) == [0.0625, 0]
     assert math.isclose(file["partition"]["attempts"][0], math.log(0.4) / math.log(0.9375), rel_tol=1e-12)

@@ -64,16 +64,6 @@ void check_campaign(std::string const& file, scenario::CaseMaker const& maker) {
     }
 }
 
-/// Whether less left the trough than was fed, so that it filled ever more, in the mean over the packings.
-bool is_filling(campaign::PlannedCase const& planned) {
-    auto const summary = campaign::find_summary(planned);
-    if (!summary) return false;
-    double difference = 0;
-    for (store::PackingRecord const& packing : summary->record.packings)
-        difference += packing.open.outflow.value_or(0) - packing.open.inflow.value_or(0);
-    return difference < 0;
-}
-
 /// The search over the feeds of one campaign.
 class CapacitySearch {
   public:
@@ -102,9 +92,9 @@ class CapacitySearch {
         auto const cases = campaign::survey(ready_.plan, campaign::activity_in(ready_.plan.folder));
         for (campaign::CaseOverview const& one : cases) {
             double const feed = *one.planned->scenario().feed.mass_flow;
-            using core::Outcome;
-            bool const is_overfed = one.outcome == Outcome::overfull ||
-                                    (one.outcome == Outcome::not_steady && is_filling(*one.planned));
+            auto const summary = campaign::find_summary(*one.planned);
+            bool const is_overfed =
+                one.outcome && learn::is_overfed(*one.outcome, summary ? &summary->record : nullptr);
             if (!is_overfed && one.status != campaign::CaseStatus::ended)
                 throw core::MissingError(fmt::format("the feed of {:.4g} t/h has no result ({}): {}",
                                                      feed * kg_per_s_in_t_per_h, one.label(), one.message));

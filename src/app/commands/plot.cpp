@@ -185,8 +185,8 @@ void add_plot(CLI::App& program, int& exit_code) {
     auto const options = add_common(*command);
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
-        ->check(CLI::IsMember(
-            {"efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles"}))
+        ->check(CLI::IsMember({"efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling",
+                               "profiles", "impacts", "partition", "segregation"}))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -235,6 +235,9 @@ void add_plot(CLI::App& program, int& exit_code) {
   spin        for each case: spin and slip of the floor grains, and friction, over the cycle
   rolling     for each case with measure.rolling: spin, slip and forces at the floor over the cycle
   profiles    for each case: velocity over height
+  impacts     for each case with measure.impacts: how often impacts have which energy
+  partition   for each case with a screen: the share of each size that stays
+  segregation for each case with several materials: their segregation index over time
 
 With --x and --y, one figure shows any column of 'vibrotrough compare' over any other, with its interval, and for
 speed, efficiency and mass flow what the theory and the rolling-layer law say of the same cases. A column is named as in

@@ -129,6 +129,8 @@ void check_plan(GivenKeys const& given) {
                    "remove it, or the stages");
     if (given.has("measure.wear"))
         given.fail("measure.wear", "the wear is not measured in stages", "remove it, or the stages");
+    if (given.has("measure.impacts"))
+        given.fail("measure.impacts", "impacts are not measured in stages", "remove it, or the stages");
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+"""Figures of the tables that a result has beside its motion: the spectrum of impacts, the partition curve of a screen, and the segregation
+of a mixture over time, each with its intervals over the packings. A result without the table gives no figure.
+"""
+
+import pathlib
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, NullFormatter
+from numpy.typing import NDArray
+
+import vibrotrough
+from figure_style import COLOURS, DASHES, case_title, corner, new_figure, plain_axes, points, save
+
+if TYPE_CHECKING:
+    from figures import Source
+
+Floats = NDArray[np.float64]
+MICRO = 1e6
+SUPERSCRIPTS = str.maketrans("-0123456789", "\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
+
+
+def column(result: vibrotrough.File, table: str, name: str) -> Floats:
+    """Empty where the result has no such table."""
+    path = f"{table}/{name}"
+    return np.asarray(result[path], dtype=float) if path in result else np.empty(0)
+
+
+def finish(source: "Source", case: str, axes: Axes, output: pathlib.Path) -> list[pathlib.Path]:
+    figure = axes.get_figure()
+    axes.legend(frameon=False, fontsize=points(8))
+    plain_axes(axes)
+    axes.set_title(case_title(source.row_of(case)), fontsize=points(10))
+    corner(figure, source.attributes)
+    figure.tight_layout(rect=(0, 0.02, 1, 1))
+    return save(figure, output)
+
+
+def power_of_ten(value: float, _: object) -> str:
+    return "10" + str(round(np.log10(value))).translate(SUPERSCRIPTS)
+
+
+def show_decades(axis: Axis) -> None:
+    """A logarithmic axis: the style draws no formulas, which powers of ten are."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+    axis.set_major_formatter(FuncFormatter(power_of_ten))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def plot_impacts(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
+    low, high = (MICRO * column(result, "impact_spectrum", name) for name in ("energy_from", "energy_to"))
+    if len(low) == 0:
+        return []
+    _, axes = new_figure()
+    decades = np.log10(high[0] / low[0])
+    for name, label, style in (("rate", "between grains", 0), ("trough_rate", "with the trough", 1)):
+        rate, half_width = (column(result, "impact_spectrum", name + end) / decades for end in ("", "_half_width"))
+        seen = rate > 0
+        axes.stairs(np.where(seen, rate, np.nan), np.append(low, high[-1]), baseline=None, color=COLOURS[style], linestyle=DASHES[style], linewidth=1.4, label=label)
+        middle = np.sqrt(low * high)[seen]
+        # Over zero no interval has an end on a logarithmic axis.
+        down = np.minimum(half_width, 0.999 * rate)[seen]
+        axes.errorbar(middle, rate[seen], [down, half_width[seen]], fmt="none", ecolor=COLOURS[style], elinewidth=1)
+    show_decades(axes.xaxis)
+    show_decades(axes.yaxis)
+    # What is rarer than a thousandth of the most frequent was seen once or twice.
+    rates = [column(result, "impact_spectrum", name) / decades for name in ("rate", "trough_rate")]
+    least = 1e-3 * np.max(rates)
+    frequent = np.flatnonzero(np.max(rates, axis=0) >= least)
+    axes.set(xlim=(low[frequent[0]], high[-1]), ylim=(least, None))
+    axes.set(xlabel="energy of the impact, m* v\u00b2 / 2  [\u00b5J]", ylabel="impacts per kg, second and decade")
+    return finish(source, case, axes, output)
+
+
+def plot_partition(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
+    size, stays, low, high, model = (column(result, "partition", name) for name in ("diameter", "stays", "stays_low", "stays_high", "stays_by_model"))
+    if len(size) == 0:
+        return []
+    _, axes = new_figure()
+    axes.errorbar(1e3 * size, stays, [np.nan_to_num(stays - low), np.nan_to_num(high - stays)], color=COLOURS[0], marker="o", markersize=4, capsize=2, label="measured")
+    axes.plot(1e3 * size, model, color=COLOURS[2], linestyle=DASHES[2], label="one attempt in each cycle (Gaudin)")
+    cut = float(result["case/cut_size"])
+    if np.isfinite(cut):
+        axes.plot([1e3 * cut], [0.5], color=COLOURS[1], marker="d", linestyle="none", label=f"d50 {1e3 * cut:.3g} mm")
+    axes.set(xlabel="diameter of the grains  [mm]", ylabel="share that stays on the screen  [-]", ylim=(-0.03, 1.03))
+    return finish(source, case, axes, output)
+
+
+def plot_segregation(source: "Source", case: str, result: vibrotrough.File, output: pathlib.Path) -> list[pathlib.Path]:
+    cycle = column(result, "segregation", "cycle")
+    if len(cycle) == 0:
+        return []
+    _, axes = new_figure()
+    for number in range(4):
+        index, half_width = (column(result, "segregation", f"{name}_{number}") for name in ("index", "half_width"))
+        if len(index) == 0:
+            break
+        axes.plot(cycle, index, color=COLOURS[number], linestyle=DASHES[number], linewidth=1.4, label=str(result["materials/name"][number]))
+        axes.fill_between(cycle, index - half_width, index + half_width, color=COLOURS[number], alpha=0.2, linewidth=0)
+    axes.axhline(0, color="#999999", linewidth=0.6)
+    axes.set(xlabel="cycle  [-]", ylabel="segregation index, 1 on top of the others  [-]")
+    axes.margins(x=0.01)
+    return finish(source, case, axes, output)
