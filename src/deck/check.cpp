@@ -296,12 +296,13 @@ void check_engine(std::vector<Finding>& findings, prepare::PreparedCase const& c
     char const* const key = has_frames ? "output.frames_per_cycle" : "measure.max_cycles";
     std::string const advice =
         has_frames ? "write fewer frames" : "lower it or measure.max_packings, or use fewer or larger grains";
-    for (Finding size : {most("disk", key, expected_bytes(c), 1e10, 1e12, advice),
-                         most("disk, with max_packings packings of max_cycles cycles", key, largest_bytes(c),
-                              1e11, never, advice),
-                         most("memory of one engine", "layer.grains", expected_memory(c), 8e9, 1e12,
+    constexpr double gigabyte = 1e9;
+    for (Finding size : {most("disk", key, expected_bytes(c) / gigabyte, 10, 1000, advice),
+                         most("disk, with max_packings packings of max_cycles cycles", key,
+                              largest_bytes(c) / gigabyte, 100, never, advice),
+                         most("memory of one engine", "layer.grains", expected_memory(c) / gigabyte, 8, 1000,
                               "use fewer grains, or a shorter box")}) {
-        size.unit = "byte";
+        size.unit = "GB";
         findings.push_back(size);
     }
 }

@@ -1,6 +1,7 @@
 #include "app/commands/common_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 namespace vibrotrough::app {
 
@@ -24,11 +25,11 @@ void add_engine(CLI::App& command, std::string& engine) {
         ->type_name("PATH");
 }
 
-void add_python(CLI::App& command, std::string& python) {
+void add_python(CLI::App& command, std::string& python, std::string const& modules) {
     command
         .add_option(
             "--python", python,
-            "Python with numpy, h5py and matplotlib; default: /usr/bin/python3, else python3 on the PATH")
+            fmt::format("Python with {}; default: /usr/bin/python3, else python3 on the PATH", modules))
         ->type_name("PATH");
 }
 

@@ -24,7 +24,9 @@ void add_results_folder(CLI::App& command, std::string& folder);
 /// Adds the option --liggghts for the path of the engine.
 void add_engine(CLI::App& command, std::string& engine);
 
-/// Adds the option --python for the path of a Python that has the modules of the figures.
-void add_python(CLI::App& command, std::string& python);
+/// Adds the option --python for the path of a Python that has the modules, which are those of the figures
+/// unless others are named.
+void add_python(CLI::App& command, std::string& python,
+                std::string const& modules = "numpy, h5py and matplotlib");
 
 }  // namespace vibrotrough::app

@@ -116,7 +116,7 @@ void add_observe(CLI::App& program, int& exit_code) {
     command->add_flag("--examples", options->examples,
                       "Print the file of the functions that ship with the program, and exit");
     command->add_flag("--json", options->json, "Print what was measured as JSON for scripts");
-    add_python(*command, options->python);
+    add_python(*command, options->python, "numpy and h5py");
     command->footer(
         R"(A file of your own begins like this. The function gets one cycle of a packing after the other and returns a number:
 
