@@ -15,6 +15,8 @@ def bins_over_height(packing):
     """Edges of slabs of one mean diameter, m, up to twice the height of the layer at rest: the same for all packings of a case."""
     diameter = packing.value("grain_diameter")
     height = packing.value("mass_per_area") / packing.value("grain_density") / SETTLED
+    if not np.isfinite(height):  # grains leave, so that there is no mass at rest: that of the first frame
+        height = packing.frames[0].volumes.sum() / packing.frames[0].floor_area / SETTLED
     return diameter * np.arange(int(np.ceil(2 * height / diameter)) + 1)
 
 
@@ -32,19 +34,22 @@ def speed_of_grains(packing):
 def segregation_index(packing):
     """Height of the last material's grains, or of the larger half of the grains, above all others over half the layer's height: 1 on top."""
     first = packing.frames[0]
-    if np.ptp(first.types) > 0:
-        chosen = first.types == first.types.max()
-    elif np.ptp(first.radii) > 1e-6 * first.radii.max():
-        chosen = first.radii > np.median(first.radii)
-        if not chosen.any():
-            chosen = first.radii == first.radii.max()
-    else:
+    by_type = np.ptp(first.types) > 0
+    if not by_type and np.ptp(first.radii) <= 1e-6 * first.radii.max():
         return None  # all grains are alike: there is nothing to measure
-    weights = first.volumes  # those of one material, whatever its density, have one mean height
-    half_height = first.volumes.sum() / first.floor_area / SETTLED / 2
+    middle, largest = np.median(first.radii), first.radii.max()
+
+    def is_chosen(frame):
+        if by_type:
+            return frame.types == first.types.max()
+        return frame.radii > middle if middle < largest else frame.radii == largest
 
     def index(frame):
-        heights = frame.positions[:, 2]
+        chosen = is_chosen(frame)  # grains may come and go
+        if chosen.all() or not chosen.any():
+            raise vibrotrough.GrainsChangeError("one of the two kinds of grains has left")
+        heights, weights = frame.positions[:, 2], frame.volumes  # those of one material, whatever its density, have one mean height
+        half_height = weights.sum() / frame.floor_area / SETTLED / 2
         return (np.average(heights[chosen], weights=weights[chosen]) - np.average(heights[~chosen], weights=weights[~chosen])) / half_height
 
     return [index(cycle.frames[-1]) for cycle in packing.cycles("frames")]

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from vibrotrough_campaign import Case
-from vibrotrough_frames import Floats, Observable, Packing
+from vibrotrough_frames import Floats, GrainsChangeError, Observable, Packing
 
 Curve = tuple[list[float], list[list[float | None]]]  # where the points are (none for a number); for each cycle, the values
 
@@ -54,10 +54,11 @@ def load(work: pathlib.Path, file: str) -> list[Observable]:
 
 
 def with_traceback(file: str, what: str, call: Any) -> Any:
-    """What a person's code returns. @raises Refused after its traceback was shown, from the person's first line on"""
+    """What a person's code returns. @raises Refused after its traceback was shown, from the person's first line on
+    @raises GrainsChangeError as the code does"""
     try:
         return call()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, GrainsChangeError):
         raise
     except BaseException as error:  # also SystemExit: it is not for the person's code to end the program
         frames = traceback.extract_tb(error.__traceback__)
@@ -156,7 +157,10 @@ class Measurement:
         cycles = self.packing.cycles(self.one.needs)
         if not cycles:
             return None
-        return self.of_cycles(cycles) if self.one.of == "cycle" else self.of_packing(len(cycles))
+        try:
+            return self.of_cycles(cycles) if self.one.of == "cycle" else self.of_packing(len(cycles))
+        except GrainsChangeError:
+            return None
 
 
 class Progress:

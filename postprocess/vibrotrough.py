@@ -41,8 +41,8 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module("vibrotrough_theory")
     if name in ("Campaign", "ProgramError", "table"):
         return getattr(importlib.import_module("vibrotrough_campaign"), name)
-    if name == "observable":
-        return importlib.import_module("vibrotrough_frames").observable
+    if name in ("observable", "GrainsChangeError"):
+        return getattr(importlib.import_module("vibrotrough_frames"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -47,6 +47,10 @@ Integers = NDArray[np.int64]
 NEEDS = ("frames", "contacts", "cycles")  # anything else is the name of a file in the packing's folder
 
 
+class GrainsChangeError(ValueError):
+    """The frames of a packing do not have the same grains, as on a screen. `vibrotrough observe` leaves the packing out."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Observable:
     """What `observable` says of a function."""
@@ -212,7 +216,7 @@ class Frames(Sequence[Frame]):
         """The positions in each frame, m, (grains, 3), as if the box did not repeat itself: a grain that leaves at one end goes on beyond it.
 
         Between two frames a grain may move by half the box relative to the layer's centre of mass, whose way the engine knows.
-        @raises ValueError when grains come or go
+        @raises GrainsChangeError when grains come or go
         """
         way = self._packing.table("cycles.csv") if not self._packing.file("phases.csv").is_file() else self._packing.table("phases.csv")
         places, before = np.empty((0, 3)), None
@@ -220,7 +224,7 @@ class Frames(Sequence[Frame]):
             if before is None:
                 places = frame.positions.copy()
             elif not np.array_equal(frame.ids, before.ids):
-                raise ValueError("grains come or go, so that they have no way through all frames")
+                raise GrainsChangeError("grains come or go, so that they have no way through all frames")
             else:
                 carried = np.zeros(3)
                 carried[0] = np.diff(np.interp([before.step, frame.step], way["step"], way["x_com"]))[0]

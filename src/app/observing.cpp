@@ -166,7 +166,8 @@ evaluate::ObservedPacking packing_from(Json const& one) {
 }
 
 constexpr char const* has_no_value =
-    "it has no value in any packing: it returned None, or frames of whole cycles are missing";
+    "it has no value in any packing: it returned None, grains come or go, or frames of whole cycles are "
+    "missing";
 
 /// Adds what was measured in a case.
 void add_case(Observed& observed, Json const& answer, store::CaseRecord const& record) {
@@ -189,7 +190,8 @@ std::string missing(std::string const& needs) {
             of_all);
     if (needs == "contacts")
         return fmt::format(
-            "no packing keeps contacts: write contacts = true and frames_per_cycle = 20 under [output] in "
+            "no packing keeps contacts, which are written of layers of spheres alone: write contacts = true "
+            "and frames_per_cycle = 20 under [output] in "
             "the campaign file{}, and run it again",
             of_all);
     return fmt::format("no packing has the file {}",
