@@ -78,13 +78,25 @@ def parts_of(case: Case) -> list[str]:
     return sentences
 
 
+def effects_of(case: Case) -> list[str]:
+    """What depth and slope do by the atlas of simulated layers, each with the interval of the atlas."""
+    effects = case.get("atlas_effects") or {}
+    sentences = []
+    if depth := effects.get("of_depth"):
+        sentences.append(f"Depth: by the atlas, {effects['depth']:.1f} diameters instead of the fewest that it has change the efficiency by: "
+                         f"{amount(depth['value'], depth['half_width'])}.")
+    if slope := effects.get("of_slope"):
+        sentences.append(f"Slope: by the atlas, its part of the difference from the theory is: {amount(slope['value'], slope['half_width'])}.")
+    return sentences
+
+
 def explained(case: Case) -> str:
     where = place(case)
     if abs(difference(case)) <= half_width(case):
         return f"{where[0].upper()}{where[1:]} the layer agrees with the theory within its interval of \u00b1 {half_width(case):.2f}."
     side = "above" if difference(case) > 0 else "below"
     head = f"{where[0].upper()}{where[1:]} the velocity efficiency is {side} the theory's: {signed(difference(case), half_width(case))}."
-    return " ".join([head, *parts_of(case)])
+    return " ".join([head, *parts_of(case), *effects_of(case)])
 
 
 def trends(cases: list[Case], swept: Swept) -> list[str]:
@@ -168,7 +180,9 @@ def not_known(cases: list[Case], campaign: dict[str, Any]) -> list[str]:
         state = {"blocked": "the grains cannot rotate, which real ones can"}.get(
             grains.get("rotation", "free"), "the grains roll freely" if rolling is None else f"{rolling:g} is an input")
         sentences.append(f"Rolling friction: {state}. How much the answer depends on it, a sweep over grains.rolling_friction tells.")
-    unvaried = [name for name, keys in (("depth", ("layer.height", "layer.diameters", "layer.grains")), ("slope", ("trough.inclination",))) if not varied & set(keys)]
+    told_by_atlas = {name for name in ("depth", "slope") if any((case.get("atlas_effects") or {}).get(f"of_{name}") for case in told)}
+    unvaried = [name for name, keys in (("depth", ("layer.height", "layer.diameters", "layer.grains")), ("slope", ("trough.inclination",)))
+                if not varied & set(keys) and name not in told_by_atlas]
     if unvaried:
         sentences.append(f"{' and '.join(unvaried).capitalize()}: not varied here, so that what {'they do' if len(unvaried) > 1 else 'it does'} to the difference from the theory is "
                          "not seen.")

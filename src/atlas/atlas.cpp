@@ -1,6 +1,7 @@
 #include "atlas/atlas.hpp"
 
 #include "atlas/tables.hpp"
+#include "theory/point_mass.hpp"
 
 #include <cmath>
 
@@ -95,6 +96,29 @@ Answer predict(prepare::PreparedCase const& prepared) {
     answer.efficiency = value->efficiency;
     answer.half_width = value->half_width;
     return answer;
+}
+
+std::optional<Effects> effects(prepare::PreparedCase const& prepared) {
+    if (!predict(prepared).is_inside()) return {};
+    constexpr double noticeable = 0.1;  // diameters
+    Place const place = place_of(prepared);
+    Effects found{place[depth_input], {}, {}};
+    Place other = place;
+    other[depth_input] = inputs()[depth_input].low;
+    if (place[depth_input] - other[depth_input] > noticeable)
+        found.of_depth = difference_between(place, other);
+    if (place[tan_inclination_input] == 0) return found;
+    Place level = place;
+    level[tan_inclination_input] = 0;
+    found.of_slope = difference_between(place, level);
+    if (!found.of_slope) return found;
+    auto const of_mass = [](Place const& at) {
+        theory::PointMass const point{at[throw_number_input], at[tan_vibration_input],
+                                      at[tan_inclination_input], at[friction_input]};
+        return theory::solve(point).velocity_efficiency;
+    };
+    found.of_slope->efficiency -= of_mass(place) - of_mass(level);
+    return found;
 }
 
 }  // namespace vibrotrough::atlas

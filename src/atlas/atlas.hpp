@@ -29,4 +29,18 @@ struct Answer {
 /// the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
+/// What single inputs change, by the atlas.
+struct Effects {
+    double depth;  ///< of the layer, in diameters
+    /// The efficiency at its depth minus that at the least depth of the atlas; none without a difference in
+    /// depth.
+    std::optional<SurfaceValue> of_depth;
+    /// The difference from the point mass at its slope minus that on the level, at the same throw number;
+    /// none on the level.
+    std::optional<SurfaceValue> of_slope;
+};
+
+/// What depth and slope of a layer change; nothing for a layer outside of the atlas.
+std::optional<Effects> effects(prepare::PreparedCase const& prepared);
+
 }  // namespace vibrotrough::atlas

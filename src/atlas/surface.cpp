@@ -75,6 +75,20 @@ double Surface::efficiency_at(Place const& place, double theory) const {
     return sum / static_cast<double>(others_.size());
 }
 
+SurfaceValue Surface::difference(Place const& place, double theory, Place const& other,
+                                 double theory_there) const {
+    Eigen::VectorXd const xa = scaled(place), ha = trend_at(theory);
+    Eigen::VectorXd const xb = scaled(other), hb = trend_at(theory_there);
+    std::vector<inference::ProcessValue> parts;
+    for (inference::GaussianProcess const& process : others_) {
+        auto const a = process.predict(xa, ha), b = process.predict(xb, hb);
+        double const variance = a.sd * a.sd + b.sd * b.sd - 2 * process.covariance(xa, ha, xb, hb);
+        parts.push_back({a.mean - b.mean, std::sqrt(std::max(0.0, variance))});
+    }
+    auto const [mean, sd] = inference::mixture(parts);
+    return {mean, deviations_in_half_width * sd};
+}
+
 double Surface::variance_reduction(Place const& place, double theory, Place const& where, double theory_there,
                                    double half_width) const {
     Eigen::VectorXd const x = scaled(where), h = trend_at(theory_there);

@@ -85,6 +85,10 @@ class Surface {
     /// The efficiency alone of at(), which takes a fraction of the time.
     double efficiency_at(Place const& place, double theory) const;
 
+    /// What the surface says of the efficiency at one place minus that at another, of which it knows more
+    /// than of either: what both have in common is no part of the interval.
+    SurfaceValue difference(Place const& place, double theory, Place const& other, double theory_there) const;
+
     /// By how much a further value at `where`, with so wide a 95 % interval, would lower the variance of the
     /// efficiency at `place`, by the process of the largest likelihood.
     double variance_reduction(Place const& place, double theory, Place const& where, double theory_there,

@@ -38,6 +38,11 @@ std::optional<SurfaceValue> value_at(Place const& place);
 /// The efficiency alone of value_at(), which takes a fraction of the time.
 std::optional<double> efficiency_at(Place const& place);
 
+/// What the atlas says of the efficiency at one place minus that at another. The half-width is that of the
+/// surface alone: numerical errors are common to both places, and the scatter of layers is no part of a
+/// trend.
+std::optional<SurfaceValue> difference_between(Place const& place, Place const& other);
+
 /// The numbers of a place that lie outside of the ranges of the atlas.
 std::vector<Outside> outside_ranges(Place const& place);
 

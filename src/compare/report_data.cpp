@@ -1,5 +1,6 @@
 #include "compare/report_data.hpp"
 
+#include "atlas/atlas.hpp"
 #include "compare/compared_cases.hpp"
 #include "compare/exports.hpp"
 #include "compare/point_mass_csv.hpp"
@@ -8,6 +9,7 @@
 #include "core/version.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +42,25 @@ Json swept_list(campaign::Plan const& plan) {
     return list;
 }
 
+/// A number of the atlas with its interval.
+Json with_interval(std::optional<atlas::SurfaceValue> const& value) {
+    if (!value) return nullptr;
+    return {{"value", value->efficiency}, {"half_width", value->half_width}};
+}
+
+/// The rows of compare, with what depth and slope change where the atlas knows it.
+Json cases_with_effects(ComparedCases const& compared) {
+    Json list = case_list(compared);
+    for (std::size_t i = 0; i < compared.cases.size(); ++i) {
+        auto const effects = atlas::effects(*compared.cases[i].planned->prepared);
+        if (!effects) continue;
+        list.at(i)["atlas_effects"] = {{"depth", effects->depth},
+                                       {"of_depth", with_interval(effects->of_depth)},
+                                       {"of_slope", with_interval(effects->of_slope)}};
+    }
+    return list;
+}
+
 }  // namespace
 
 std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan,
@@ -61,7 +82,7 @@ std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan
                     {"input", core::read_file(plan.folder / "campaign.toml", core::largest_note)},
                     {"columns", column_descriptions(compared.columns)},
                     {"swept", swept_list(plan)},
-                    {"cases", case_list(compared)}};
+                    {"cases", cases_with_effects(compared)}};
     constexpr auto replace = Json::error_handler_t::replace;  // a user's text may not be UTF-8
     core::write_file_atomically(folder / "campaign.json", json.dump(2, ' ', false, replace) + "\n");
     core::write_file_atomically(folder / "theory_curves.csv", theory_curves_csv(compared.rows));

@@ -150,6 +150,34 @@ TEST(Atlas, WhatIsNotKnownWidensTheInterval) {
     EXPECT_GT(partly.half_width, whole.half_width);
 }
 
+// The difference between two places is that of what the atlas says of them, and is known better than by two
+// intervals that had nothing in common.
+TEST(Atlas, ADifferenceIsKnownBetterThanItsEnds) {
+    Place const shallow{2, 0.5, 0, 0.3, 2, 3, 0.55, 0.1, 0.55};
+    Place deep = shallow;
+    deep[depth_input] = 4;
+    SurfaceValue const found = difference_between(deep, shallow).value();
+    EXPECT_NEAR(found.efficiency, *efficiency_at(deep) - *efficiency_at(shallow), 1e-12);  // rounding
+    EXPECT_GT(found.half_width, 0);
+    EXPECT_LT(found.half_width, std::hypot(value_at(deep)->half_width, value_at(shallow)->half_width));
+    EXPECT_NEAR(difference_between(deep, deep)->half_width, 0, 1e-6);  // the root of rounding errors of 1e-12
+}
+
+TEST(Atlas, TellsWhatDepthAndSlopeChange) {
+    auto const effects_of = [](std::string const& text) {
+        return effects(prepare::prepare_case(single_case(text)));
+    };
+    Effects const level = effects_of(inside_layer).value();
+    EXPECT_NEAR(level.depth, 4, 0.2);
+    EXPECT_TRUE(level.of_depth.has_value());
+    EXPECT_FALSE(level.of_slope.has_value());
+    Effects const uphill =
+        effects_of(with("inclination = \"0 deg\"", "tan_inclination = 0.05", inside_layer)).value();
+    // The difference from the point mass: what the slope does to both is no part of it.
+    EXPECT_LT(std::abs(uphill.of_slope->efficiency), 0.3);
+    EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"42 mm\"", inside_layer)).has_value());
+}
+
 // Every simulated layer lies within the interval that the surface has at its own place, but for the share
 // that 95 % intervals leave out: the tables belong to each other.
 TEST(Atlas, TheDrawsBelongToTheLayers) {

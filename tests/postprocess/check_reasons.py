@@ -52,6 +52,17 @@ def check_rolling():
     assert "grains roll: too little to tell (\u00b1 0.09);" in sentence and "it leaves +0.20 \u00b1 0.10." in sentence, sentence
 
 
+def check_the_atlas():
+    """Depth and slope by the atlas; what its interval hides gets no number, and what it tells is no longer called unknown."""
+    told_of = {"depth": 4.2, "of_depth": {"value": -0.08, "half_width": 0.03}, "of_slope": {"value": 0.01, "half_width": 0.04}}
+    found = told([dict(CASE, atlas_effects=told_of)])
+    assert found["Why theory"][0].endswith("Depth: by the atlas, 4.2 diameters instead of the fewest that it has change the efficiency by: \u22120.08 \u00b1 0.03. "
+                                           "Slope: by the atlas, its part of the difference from the theory is: too little to tell (\u00b1 0.04)."), found["Why theory"][0]
+    assert not any("not varied" in sentence for sentence in found["What known"]), found["What known"]
+    level = told([dict(CASE, atlas_effects={**told_of, "of_slope": None})])
+    assert "Slope: by" not in level["Why theory"][0] and any(sentence.startswith("Slope: not varied") for sentence in level["What known"]), level
+
+
 def check_a_long_name():
     (sentence,) = told([dict(CASE, label=", ".join(f"grains.friction {number}" for number in range(9)))])["Why theory"]
     assert sentence.startswith("In case a the velocity efficiency is above"), sentence
@@ -98,5 +109,5 @@ def check_the_laws_error():
     assert abs(report_reasons.LAW_HALF_WIDTH - 1.96 * rms) < 1e-12, rms
 
 
-for check in (check_a_difference, check_an_agreement, check_rolling, check_a_long_name, check_trends, check_changes, check_what_is_not_known, check_the_laws_error):
+for check in (check_a_difference, check_an_agreement, check_rolling, check_the_atlas, check_a_long_name, check_trends, check_changes, check_what_is_not_known, check_the_laws_error):
     check()
