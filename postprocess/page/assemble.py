@@ -12,7 +12,7 @@ import re
 import sys
 
 # In this order: later ones use what earlier ones declare.
-SCRIPTS = ("german", "words", "numbers", "theory", "state", "inputs", "sentences", "answers", "curve", "measured", "campaign", "map", "motion", "main")
+SCRIPTS = ("german", "words", "numbers", "theory", "state", "inputs", "sentences", "answers", "curve", "measured", "campaign", "designs", "map", "motion", "main")
 LARGEST = 3_000_000  # bytes
 
 

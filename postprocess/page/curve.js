@@ -65,12 +65,14 @@ function drawCurves() {
   const quantity = quantityOf(), [from, to] = axisRange(page.curveAxis), marks = pointsOnCurve();
   const values = curves.slice(0, page.machines.length).flatMap((curve) => (curve ? curve.points : [])).filter(Boolean)
     .flatMap(({ answer }) => [answer[quantity.of("rule")], answer[quantity.of("mass")], answer[quantity.of("layer")], answer[quantity.of("atlas")], answer[quantity.high]]).concat(marks.flatMap((one) => [one.y + one.bar, one.y - one.bar].map((y) => y / quantity.factor)))
-    .filter(Number.isFinite).map((value) => value * quantity.factor);
+    .filter(Number.isFinite).map((value) => value * quantity.factor).concat(wantedFlows());
   const top = Math.max(1e-6, ...values) * 1.05, bottom = Math.min(0, ...values) * 1.05;
   const left = 52, right = 12, above = 10, below = 42;
   const x = (value) => left + (value - from) / (to - from) * (width - left - right), y = (value) => above + (top - value) / (top - bottom) * (height - above - below);
   const parts = frameParts({ x, y, from, to, bottom, top, width, height, left, right, above, below, title: quantity.title });
   curves.slice(0, page.machines.length).forEach((curve, i) => { if (curve) parts.push(...curveParts(curve, i, quantity, x, y)); });
+  for (const flow of wantedFlows()) parts.push(svg("line", { x1: left, x2: width - right, y1: y(flow), y2: y(flow), class: "asked" }),
+    svg("text", { x: left + 4, y: y(flow) - 5, class: "tick" }, say("asked", showNumber(flow))));
   for (const one of marks) if (one.x >= from && one.x <= to) parts.push(markPart(one, x, y));
   page.answers.forEach((answer, i) => {
     if (!answer || !Number.isFinite(answer[quantity.of("best")])) return;
@@ -103,13 +105,36 @@ function curveParts(curve, i, quantity, x, y) {
   const at = (point, name) => point.answer[name] * quantity.factor;
   const path = (list, name) => runsOf(list, (point) => Number.isFinite(at(point, name)))
     .map((run) => `M${run.map((point) => `${x(point.value).toFixed(1)} ${y(at(point, name)).toFixed(1)}`).join("L")}`).join("");
-  const band = runsOf(points, (point) => Number.isFinite(at(point, quantity.low))).map((run) => {
+  // Atlas and models have bands of their own: where one ends and the other begins, the answer changes its source.
+  const band = (list) => runsOf(list, (point) => Number.isFinite(at(point, quantity.low))).map((run) => {
     const lower = run.map((point) => `${x(point.value).toFixed(1)} ${y(at(point, quantity.low)).toFixed(1)}`);
     const upper = run.map((point) => `${x(point.value).toFixed(1)} ${y(at(point, quantity.high)).toFixed(1)}`);
     return `M${lower.join("L")}L${upper.reverse().join("L")}Z`;
   }).join("");
-  return [svg("path", { d: band, class: `band band-${i}` }),
+  const bands = [true, false].map((ofLayers) => svg("path", { d: partsOfCurve(points).filter((part) => part.ofAtlas === ofLayers).map((part) => band(part.points)).join(""),
+    class: `band band-${i} ${ofLayers ? "of-atlas" : "of-models"}` }));
+  return [...bands,
     ...["rule", "mass", "layer", "atlas"].map((of) => svg("path", { d: path(points, quantity.of(of)), class: `line ${of} line-${i}` }))];
+}
+
+/// The points of a curve in stretches that the atlas, or the models outside of it, answer.
+function partsOfCurve(points) {
+  const parts = [];
+  for (const point of points) {
+    const inAtlas = point.answer.model === ofAtlas, last = parts[parts.length - 1];
+    if (last && last.ofAtlas === inAtlas) last.points.push(point);
+    else parts.push({ ofAtlas: inAtlas, points: [point] });
+  }
+  return parts;
+}
+
+/// Says why the band has a gap; nothing where it has none.
+function showGap() {
+  const curve = curves[page.active], parts = curve ? partsOfCurve(curve.points.filter(Boolean)) : [], inside = parts.filter((one) => one.ofAtlas);
+  if (parts.length < 2 || inside.length === 0) { put("gap-text", ""); return; }
+  const ends = inside.map(({ points }) => `${showNumber(points[0].value)} ${say("to")} ${showNumber(points[points.length - 1].value)}`).join(", ");
+  const outside = parts.find((one) => !one.ofAtlas).points[0].answer.model;
+  put("gap-text", say("band_gap", axisTitle(page.curveAxis), ends, say(modelWords[outside])));
 }
 
 /// Stretches of a list in which all are good.
@@ -129,7 +154,8 @@ function markPart(one, x, y) {
 function pointsOnCurve() { return [...casePoints(), ...measuredPoints()]; }
 
 function showCurveLegend() {
-  const entries = [["atlas", "by_atlas"], ["layer", "by_layer"], ["mass", "by_mass"], ["rule", "by_rule"], ["band", "band"], ["own", "your_point"]];
+  const entries = [["atlas", "by_atlas"], ["layer", "by_layer"], ["mass", "by_mass"], ["rule", "by_rule"], ["band of-atlas", "band_atlas"], ["band", "band_models"], ["own", "your_point"]];
+  if (wantedFlows().length > 0) entries.push(["asked", "asked_line"]);
   if (page.cases.length > 0) entries.push(["simulated", "simulated_same"], ["simulated other", "simulated_other"]);
   if (page.measured && page.measured.points.length > 0) entries.push(["measured", "measured"]);
   document.getElementById("curve-legend").replaceChildren(...entries.map(([key, word]) => make("li", {}, make("span", { class: `key ${key}`, "aria-hidden": "true" }), say(word))));

@@ -22,7 +22,7 @@ function drawFrame(now) {
   const wasDirty = work.dirty;
   if (work.dirty) { work.dirty = false; showAnswers(); }
   const curvesDone = growCurves(until);
-  if (wasDirty || !work.curvesDone) drawCurves();
+  if (wasDirty || !work.curvesDone) { drawCurves(); showGap(); }
   work.curvesDone = curvesDone;
   if (wasDirty) { drawMotion(); drawMapFrame(); }
   const mapDone = curvesDone && isSeen("map") ? growMap(until) : !isSeen("map") || !curvesDone ? false : true;
@@ -42,6 +42,7 @@ function showAnswers() {
   if (answer) showAnswer(answer);
   else showNoAnswer(page.problem);
   showComparison();
+  showDesignNow();
   showCurveLegend();
   if (!document.documentElement.dataset.answered) document.documentElement.dataset.answered = performance.now();
 }
@@ -59,6 +60,7 @@ function translate() {
   showMeasuredNote();
   showMotionLegend();
   showCases();
+  showDesigns();
   showMachines();
 }
 
@@ -137,6 +139,7 @@ function listen() {
 
 async function start() {
   page.language = (navigator.language || "en").startsWith("de") ? "de" : "en";
+  readDesigns(location.hash === "");
   readLink(location.hash);
   makeInputs();
   readCases();

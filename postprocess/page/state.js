@@ -22,7 +22,7 @@ const mapAxisNames = ["stroke_mm", "rpm", "vibration_angle_deg", "inclination_de
 const page = {
   language: "en", speedUnit: "m/s", machines: [Object.fromEntries(settings.map((one) => [one.name, one.start]))], active: 0,
   curveAxis: "stroke_mm", curveQuantity: "speed", mapX: "stroke_mm", mapY: "vibration_angle_deg", mapModel: "layer", motionModel: "layer",
-  measured: null, cases: [], wrong: new Set(), theory: null, answers: [],
+  measured: null, cases: [], designs: [], wrong: new Set(), theory: null, answers: [],
 };
 
 /// Other choices that a link holds, and what they may be.

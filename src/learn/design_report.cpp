@@ -161,7 +161,28 @@ Json as_json(SpeedTried const& one) {
     json["probability"] = known(one.probability);
     json["machine_number"] = one.machine_number;
     json["landing_speed_m_per_s"] = one.landing_speed;
+    json["vibration_angle_deg"] = one.vibration_angle / degree;
+    json["inclination_deg"] = one.inclination / degree;
+    json["rank"] = one.rank;
     return json;
+}
+
+/// What was asked for.
+Json as_json(DesignTask const& t) {
+    return {{"width_m", t.width},
+            {"length_m", t.length},
+            {"bulk_density_kg_per_m3", t.bulk_density},
+            {"depth_m", {t.depth.low, t.depth.high}},
+            {"rpm", {60 * t.space.frequency.low, 60 * t.space.frequency.high}},
+            {"stroke_mm", {2e3 * t.space.amplitude.low, 2e3 * t.space.amplitude.high}},
+            {"vibration_angle_deg",
+             {t.space.vibration_angle.low / degree, t.space.vibration_angle.high / degree}},
+            {"inclination_deg", {t.space.inclination.low / degree, t.space.inclination.high / degree}},
+            {"max_machine_number", t.space.max_machine_number},
+            {"max_throw_number", t.space.max_throw_number},
+            {"max_landing_speed_m_per_s", t.landing_speed ? Json(*t.landing_speed) : Json()},
+            {"grain_diameter_mm", t.grain_diameter ? Json(1e3 * *t.grain_diameter) : Json()},
+            {"rolling_friction", t.rolling_friction ? Json(*t.rolling_friction) : Json()}};
 }
 
 }  // namespace
@@ -236,7 +257,8 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
 
 Json design_json(DesignTask const& t, RiskDesign const& d) {
     theory::Drive const& m = d.drive;
-    Json json{{"feasible", d.feasible},
+    Json json{{"task", as_json(t)},
+              {"feasible", d.feasible},
               {"sentence", first_sentence(t, d)},
               {"stroke_mm", 2e3 * m.amplitude},
               {"amplitude_m", m.amplitude},
@@ -276,19 +298,6 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
 
 Json design_page_data(DesignTask const& t, RiskDesign const& d) {
     Json json = design_json(t, d);
-    json["task"] = {
-        {"width_m", t.width},
-        {"length_m", t.length},
-        {"bulk_density_kg_per_m3", t.bulk_density},
-        {"depth_m", {t.depth.low, t.depth.high}},
-        {"rpm", {60 * t.space.frequency.low, 60 * t.space.frequency.high}},
-        {"stroke_mm", {2e3 * t.space.amplitude.low, 2e3 * t.space.amplitude.high}},
-        {"vibration_angle_deg",
-         {t.space.vibration_angle.low / degree, t.space.vibration_angle.high / degree}},
-        {"inclination_deg", {t.space.inclination.low / degree, t.space.inclination.high / degree}},
-        {"max_machine_number", t.space.max_machine_number},
-        {"max_throw_number", t.space.max_throw_number},
-        {"max_landing_speed_m_per_s", t.landing_speed ? Json(*t.landing_speed) : Json()}};
     json["quantile_shares"] = quantile_shares();
     auto const add_quantiles = [](Json& model, ModelForecast const& f, bool is_known) {
         Json& list = model["mass_flow_quantiles_t_per_h"] = Json::array();

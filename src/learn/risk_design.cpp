@@ -279,15 +279,25 @@ std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
 RiskDesign best_of_speeds(DesignTask const& task) {
     std::optional<RiskDesign> best;
     std::vector<SpeedTried> tried;
+    std::vector<std::pair<std::pair<bool, double>, std::size_t>> order;
     for (double const frequency : task.frequencies) {
         DesignTask one = task;
         one.frequencies.clear();
         one.space.frequency = {frequency, frequency};
         try {
             RiskDesign const design = design_at_any_speed(one);
-            tried.push_back({frequency, design.feasible, design.drive.amplitude, design.sure_speed,
-                             design.depth, design.probability, design.machine_number, design.landing_speed,
-                             design.untested});
+            tried.push_back({.frequency = frequency,
+                             .feasible = design.feasible,
+                             .amplitude = design.drive.amplitude,
+                             .sure_speed = design.sure_speed,
+                             .depth = design.depth,
+                             .probability = design.probability,
+                             .machine_number = design.machine_number,
+                             .landing_speed = design.landing_speed,
+                             .untested = design.untested,
+                             .vibration_angle = design.drive.vibration_angle,
+                             .inclination = design.drive.inclination});
+            order.emplace_back(worth(task, design), tried.size() - 1);
             if (!best || worth(task, design) > worth(task, *best)) best = design;
         } catch (std::invalid_argument const& error) {
             tried.push_back({.frequency = frequency, .why_none = error.what()});
@@ -300,6 +310,9 @@ RiskDesign best_of_speeds(DesignTask const& task) {
                                 *one.why_none);
         throw std::invalid_argument(text);
     }
+    // Of equals, the first speed that was asked for is the better one, as above.
+    std::ranges::stable_sort(order, [](auto const& a, auto const& b) { return a.first > b.first; });
+    for (std::size_t i = 0; i < order.size(); ++i) tried[order[i].second].rank = static_cast<int>(i) + 1;
     best->speeds_tried = tried;
     return *best;
 }

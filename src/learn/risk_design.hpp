@@ -48,6 +48,9 @@ struct SpeedTried {
     double landing_speed = 0;                  ///< m/s
     std::optional<std::string> untested = {};  ///< why its probability is not known
     std::optional<std::string> why_none = {};  ///< why there is no machine, without a full stop
+    double vibration_angle = 0;                ///< rad
+    double inclination = 0;                    ///< rad
+    int rank = 0;                              ///< 1 for the best by the objective; 0 without a machine
 };
 
 /// What one model says of a design.

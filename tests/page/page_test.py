@@ -4,40 +4,21 @@ usage: page_test.py BROWSER PROGRAM WORK      BROWSER is chromium or firefox
 """
 
 import json
-import os
-import pathlib
 import random
 import re
 import shutil
-import subprocess
 import sys
 import unittest
 
 try:
     from browser import Browser, pages_in
+    import results_test
 except ImportError:
     print("SKIPPED: python3-websocket is not installed")
     sys.exit(77)
+from page_program import ANSWERED, NAME, NEEDS, READY, WORK, number, program
 
-NAME, PROGRAM, WORK = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-WORK.mkdir(parents=True, exist_ok=True)
-os.environ["VIBROTROUGH_PROGRAM"] = PROGRAM
-sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "end_to_end"))
-from trough_program import campaign_text  # noqa: E402
-NEEDS = {"chromium": ["chromium", "chromedriver"], "firefox": ["firefox-esr"]}
-ANSWERED = "document.documentElement.dataset.answered"
-READY = "document.documentElement.dataset.atlas"  # the atlas follows after the first answer
-
-
-def program(*words, **options):
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False, **options)
-
-
-def number(text):
-    """The number that a text begins with, and half of its last digit."""
-    found = re.match(r"[−-]?\d+(?:[.,](\d+))?", text)
-    assert found, text
-    return float(found[0].replace("−", "-").replace(",", ".")), 0.5 * 10 ** -len(found[1] or "") * (1 + 1e-9)
+CampaignTest, DesignTest = results_test.CampaignTest, results_test.DesignTest  # run with those of this file
 
 
 class PageTest(unittest.TestCase):
@@ -118,6 +99,26 @@ class PageTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout)[0]
 
+    def flow_of_speed(self, one):
+        """t/h for each m/s, as the program has it for this trough and layer."""
+        done = program("theory", "point", "--json", "--stroke", f"{one['stroke_mm']} mm", "--rpm", one["rpm"], "--vibration-angle", f"{one['vibration_angle_deg']} deg",
+                       "--friction", one["friction"], "--layer-height", f"{one['depth_mm']} mm", "--layer-width", f"{one['width_mm']} mm",
+                       "--bulk-density", f"{one['bulk_density']} kg/m3")  # fmt: skip
+        quantities = json.loads(done.stdout)["quantities"]
+        return quantities["mass_flow_per_hour"]["value"] / quantities["conveying_speed"]["value"]
+
+    def test_the_band_has_a_gap_where_the_atlas_ends(self):
+        """Atlas and models have bands of their own, and a sentence says from where to where the atlas answers."""
+        b = self.browser
+        self.go("grain_mm=3&depth_mm=12&rpm=960")
+        b.wait("document.documentElement.dataset.complete === 'true'")
+        left, right = (b.run(f"document.querySelector('#curve .band.{of}').getBBox().x") for of in ("of-models", "of-atlas"))
+        self.assertLess(left, right)
+        self.assertIn("there the atlas answers", b.text("gap-text"))
+        self.go("grain_mm=3&depth_mm=60&rpm=960")
+        b.wait("document.documentElement.dataset.complete === 'true'")
+        self.assertEqual((b.text("gap-text"), b.run("document.querySelector('#curve .band.of-atlas').getAttribute('d')")), ("", ""))
+
     def test_the_atlas_is_that_of_predict(self):
         draw = random.Random(12)
         inside = 0
@@ -126,7 +127,8 @@ class PageTest(unittest.TestCase):
             stroke, machine_number = round(2 * grain * draw.uniform(0.6, 2), 1), draw.uniform(1.8, 4.5)
             one = {"stroke_mm": stroke, "rpm": round(945.8 * (machine_number / (stroke / 2)) ** 0.5), "vibration_angle_deg": round(draw.uniform(20, 40)),
                    "inclination_deg": round(draw.uniform(-5, 5), 1), "friction": round(draw.uniform(0.2, 0.55), 2), "friction_band": 0,
-                   "rolling_friction": draw.choice([0, 0.05, 0.15, 0.3]), "grain_mm": grain, "depth_mm": round(grain * draw.uniform(2.5, 6.5), 1)}
+                   "rolling_friction": draw.choice([0, 0.05, 0.15, 0.3]), "grain_mm": grain, "depth_mm": round(grain * draw.uniform(2.5, 6.5), 1),
+                   "width_mm": 450, "bulk_density": 700}
             self.go("&".join(f"{name}={value}" for name, value in one.items()))
             said = self.predicted()
             with self.subTest(one, said=said):
@@ -135,6 +137,7 @@ class PageTest(unittest.TestCase):
                     for shown in ("speed", "atlas-speed"):
                         self.assert_shows(shown, said["speed_m_per_s"])
                     self.assert_shows("efficiency", said["efficiency"])
+                    self.assert_shows("flow", said["speed_m_per_s"] * self.flow_of_speed(one))
                     self.assertEqual((self.browser.text("model"), self.browser.text("trust-word")), ("atlas of layers", "tested"))
                     # What friction and restitution of the grains change is 0.006 (standard deviation), and widens the interval a little.
                     low, high = (number(text)[0] for text in self.browser.text("atlas-band").split(" to "))
@@ -352,36 +355,6 @@ class PageTest(unittest.TestCase):
             self.drawn()
             wide, inner = self.browser.run("[document.documentElement.scrollWidth, innerWidth]")
             self.assertLessEqual(wide, inner)
-
-
-class CampaignTest(unittest.TestCase):
-    def test_simulated_cases(self):
-        """A campaign of two small cases: the points and bars of the page are the numbers of compare."""
-        if not shutil.which("liggghts"):
-            self.skipTest("liggghts is not installed")
-        file, runs = WORK / "small.toml", WORK / "<b>runs"
-        file.write_text(campaign_text({"trough.width": "300 mm"}, {"trough.throw_number": [1.7, 2.2]}), encoding="utf-8")
-        done = program("run", file, "--output", runs, "--jobs", 1)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        rows = json.loads(program("compare", runs, "--json").stdout)
-        page = WORK / "campaign.html"
-        done = program("page", runs, "--output", page)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        browser = Browser(NAME, WORK / "campaign")
-        self.addCleanup(browser.close)
-        browser.open(page)
-        browser.wait(f"{READY} && document.documentElement.dataset.complete === 'true'")  # curves that appear below the pointer take the click away
-        self.assertIn("<b>runs", browser.text("campaign-title"))
-        browser.click("#campaign-table tbody tr:nth-child(2) button")
-        browser.wait("document.querySelectorAll('#curve .mark.simulated:not(.other)').length === 1")
-        self.assertEqual(browser.run("document.querySelectorAll('#curve .mark.simulated .bar').length"), 2)
-        table = browser.text("campaign-table")
-        for row in rows:
-            for column in ("conveying_speed_m_per_s", "mass_flow_t_per_h"):
-                shown = f"{row[column]:.3g}"
-                self.assertIn(shown, table)
-        self.assertAlmostEqual(float(browser.text("throw-number")), rows[1]["throw_number"], places=2)
-        self.assertEqual(browser.console, [])
 
 
 def main():

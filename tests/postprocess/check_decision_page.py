@@ -1,4 +1,5 @@
-"""The pages of a design and of a calibration: what they say, that they ask for nothing, and how they look in a browser.
+"""The pages of a design and of a calibration: what they say, that they ask for nothing, how they look in a browser, and that one sheet
+of paper is enough.
 
 usage: check_decision_page.py POSTPROCESS WORK
 """
@@ -121,6 +122,10 @@ def check_in_browser(browser, page, work):
         subprocess.run([*common, f"--window-size={width},{height}", f"--screenshot={picture}", page.as_uri()], capture_output=True,
                        timeout=600, check=True)
         assert picture.stat().st_size > 20000, picture
+    printed = work / f"{page.stem}.pdf"
+    subprocess.run([*common, "--no-pdf-header-footer", f"--print-to-pdf={printed}", page.as_uri()], capture_output=True, timeout=600, check=True)
+    sheets = len(re.findall(rb"/Type\s*/Page\b", printed.read_bytes()))
+    assert sheets == 1, f"{page.name} takes {sheets} sheets of paper"
 
 
 def main(scripts, work):

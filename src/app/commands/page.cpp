@@ -9,13 +9,17 @@
 #include "compare/exports.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/note.hpp"
 #include "core/own_program.hpp"
 #include "core/text.hpp"
+#include "learn/design_file.hpp"
 
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -28,7 +32,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct PageArguments {
-    std::string folder;
+    std::vector<std::string> results;
     std::string output = "vibrotrough.html";
 };
 
@@ -63,6 +67,10 @@ fs::path built_page() {
         "package");
 }
 
+std::string name_of(std::string const& path) {
+    return fs::path(path).lexically_normal().filename().string();
+}
+
 /// The rows of compare, as far as the page shows them.
 Json cases_of(std::string const& folder) {
     auto const bundle = archive::open_bundle(folder);
@@ -78,7 +86,47 @@ Json cases_of(std::string const& folder) {
             if (all.contains(column)) one[std::string(column)] = all.at(std::string(column));
         cases.push_back(std::move(one));
     }
-    return {{"name", fs::path(folder).lexically_normal().filename().string()}, {"cases", cases}};
+    return {{"name", name_of(folder)}, {"cases", cases}};
+}
+
+/// What is put into the page besides the theory; null where nothing was given.
+struct Shown {
+    Json campaign = nullptr;
+    Json designs = Json::array();
+};
+
+/// A file .json is a design; a folder or any other file a campaign.
+Shown read_results(std::vector<std::string> const& paths) {
+    Shown shown;
+    for (std::string const& path : paths) {
+        if (fs::path(path).extension() == ".json" && !fs::is_directory(path)) {
+            if (!fs::exists(path))
+                throw core::InputError(fmt::format(
+                    "{}: there is no such file; write 'vibrotrough design ... --json > design.json'",
+                    core::harmless(path)));
+            try {
+                Json design = learn::proposed_machines(core::read_file(path));
+                design["name"] = name_of(path);
+                shown.designs.push_back(std::move(design));
+            } catch (core::note::Fault const& fault) {
+                throw core::InputError(fmt::format(
+                    "{}: this is not what 'vibrotrough design --json' prints ({}); write 'vibrotrough "
+                    "design ... --json > design.json'",
+                    core::harmless(path), fault.what()));
+            }
+        } else if (shown.campaign.is_null()) {
+            shown.campaign = cases_of(path);
+        } else {
+            throw core::InputError(
+                fmt::format("{}: the page shows one campaign; leave one out, or put the cases of "
+                            "both into one campaign",
+                            core::harmless(path)));
+        }
+    }
+    constexpr std::size_t most = 2;
+    if (shown.designs.size() > most)
+        throw core::InputError("the page compares two designs; leave the others out");
+    return shown;
 }
 
 /// Text that can stand within a script: no name may end it.
@@ -89,15 +137,21 @@ std::string for_script(Json const& json) {
     return text;
 }
 
+/// Puts numbers into their place in the page.
+void put(std::string& page, std::string const& identity, Json const& json) {
+    std::string const place =
+        fmt::format(R"(<script type="application/json" id="{}">null</script>)", identity);
+    auto const at = page.find(place);
+    if (at == std::string::npos)
+        throw core::MissingError("the installed page is damaged; install Vibrotrough again");
+    page.replace(at + place.find("null"), 4, for_script(json));
+}
+
 int run_page(PageArguments const& options) {
     std::string page = core::read_file(built_page());
-    if (!options.folder.empty()) {
-        std::string const place = R"(<script type="application/json" id="campaign">null</script>)";
-        auto const at = page.find(place);
-        if (at == std::string::npos)
-            throw core::MissingError("the installed page is damaged; install Vibrotrough again");
-        page.replace(at + place.find("null"), 4, for_script(cases_of(options.folder)));
-    }
+    Shown const shown = read_results(options.results);
+    if (!shown.campaign.is_null()) put(page, "campaign", shown.campaign);
+    if (!shown.designs.empty()) put(page, "designs", shown.designs);
     core::write_file_atomically(options.output, page);
     fmt::print("{}\n", core::harmless(options.output));
     return all_well;
@@ -109,9 +163,11 @@ void add_page(CLI::App& program, int& exit_code) {
     auto const options = std::make_shared<PageArguments>();
     CLI::App* const command = program.add_subcommand(
         "page", "Write a page for browsers that computes speed and mass flow while you change the machine");
-    command->add_option("CAMPAIGN_DIR", options->folder,
-                        "Folder of a campaign's results, or a bundle of 'vibrotrough archive': its cases are "
-                        "drawn as points with bars");
+    command->add_option(
+        "RESULTS", options->results,
+        "Folder of a campaign's results, or a bundle of 'vibrotrough archive', whose cases are "
+        "drawn as points with bars; a FILE.json that 'vibrotrough design --json' printed, with whose "
+        "machine the page begins, or two, which it compares");
     command->add_option("--output", options->output, "The file that is written")
         ->type_name("FILE.html")
         ->capture_default_str();
@@ -121,6 +177,10 @@ with the theory and the atlas of this program, compiled for browsers: the point 
 missed in simulated layers, and within the atlas what 'vibrotrough predict' says. A link holds all inputs, and 'Copy as campaign
 file' gives what 'vibrotrough run' simulates.
 
+With a design, machine A is the proposed one, and machine B the second best of several speeds of the drive (--rpm 960,1450) or
+that of the second file, for example the proposal of another model. The required mass flow is a line, and what the design says of
+each machine stands beside the answer of the page.
+
 Exit codes:
     0  the file is written
     2  the input is wrong
@@ -128,7 +188,10 @@ Exit codes:
 
 Examples:
   vibrotrough page
-  vibrotrough page runs/demo --output demo.html)");
+  vibrotrough page runs/demo --output demo.html
+  vibrotrough design --mass-flow "12 t/h" --bulk-density "600 kg/m3" --width "300 mm" \
+      --friction 0.3 --json > design.json
+  vibrotrough page design.json)");
     command->callback([options, &exit_code] { exit_code = run_page(*options); });
 }
 
