@@ -20,6 +20,7 @@ import pathlib
 import sys
 import textwrap
 from collections import defaultdict
+from collections.abc import Mapping
 from typing import Any
 
 import h5py
@@ -103,6 +104,19 @@ def read_rolling_layer(path: pathlib.Path) -> dict[LineKey, Pair]:
     return lines
 
 
+def read_atlas(path: pathlib.Path) -> dict[LineKey, tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+    """Lines of the atlas, of a fine curve that has them: throw numbers, efficiencies and half-widths of their 95 % intervals."""
+    points: dict[LineKey, list[tuple[float, float, float]]] = defaultdict(list)
+    for row in csv.DictReader(io.StringIO(read_note(path).decode())):
+        if row.get("atlas_efficiency"):
+            points[line_key(row)].append((float(row["throw_number"]), float(row["atlas_efficiency"]), float(row["atlas_half_width"])))
+    lines = {}
+    for key, triples in points.items():
+        places, values, widths = np.array(sorted(triples)).T
+        lines[key] = (places, values, widths)
+    return lines
+
+
 def rotates(columns: Columns) -> bool:
     """Whether any case has grains that rotate freely, of which the rolling-layer law speaks."""
     return "free" in list(columns.get("grain_rotation", ()))
@@ -151,8 +165,9 @@ def colours_of(series: Series, line: LineKey, rows: list[int]) -> set[int]:
     return set()
 
 
-def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKey, Pair], style: dict[str, Any]) -> None:
-    """Lines over the throw number, in the colour of their cases; grey where the cases have several."""
+def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKey, Pair], style: dict[str, Any],
+                bands: Mapping[LineKey, NDArray[np.float64]] | None = None) -> None:
+    """Lines over the throw number, in the colour of their cases; grey where the cases have several. `bands` has half-widths."""
     spare = int(series.colours.max(initial=0)) + 1
     for line, (places, efficiency) in sorted(theory.items(), key=str):
         every, here = colours_of(series, line, list(range(series.count))), colours_of(series, line, rows)
@@ -161,7 +176,10 @@ def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKe
         number = min(here, default=spare)
         spare += not here
         colour = GREY if len(here) > 1 else COLOURS[number % len(COLOURS)]
-        axes.plot(places, efficiency, color=colour, linestyle="-" if len(here) > 1 else DASHES[number % len(DASHES)], **style)
+        usual = "-" if len(here) > 1 else DASHES[number % len(DASHES)]
+        axes.plot(places, efficiency, color=colour, **{"linestyle": usual} | style)
+        if bands:
+            axes.fill_between(places, efficiency - bands[line], efficiency + bands[line], color=colour, alpha=0.12, linewidth=0)
 
 
 def draw_theory_at_cases(axes: Axes, series: Series, rows: list[int], theory: dict[str, float | None]) -> None:
@@ -270,10 +288,12 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
     theory, style = read_theory(theory_file) if theory_file else ({}, {})
     rolling = read_rolling_layer(theory_file) if theory_file and rotates(columns) else {}
+    atlas = read_atlas(theory_file) if theory_file else {}
     series = Series(columns, units, attributes)
     told = "; crosses: point-mass theory" if at_cases else ""
     if series.is_over_throw_number():
         told = ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
+        told += "; dots with a band: atlas, 95 %" if atlas else ""
     shown = list(itertools.islice(series.panels.items(), MOST_PANELS))
     across = 1 if is_narrow() else min(len(shown), 2)
     down = -(-len(shown) // across)
@@ -287,6 +307,8 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
         if series.is_over_throw_number():
             draw_theory(one, series, rows, theory, style)
             draw_theory(one, series, rows, rolling, {"linewidth": 0.8, "alpha": 0.7})
+            draw_theory(one, series, rows, {key: line[:2] for key, line in atlas.items()}, {"linewidth": 1.2, "linestyle": ":"},
+                        {key: line[2] for key, line in atlas.items()})
         elif at_cases:
             draw_theory_at_cases(one, series, rows, at_cases)
         draw(one, series, rows)

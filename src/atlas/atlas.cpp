@@ -83,7 +83,7 @@ std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& p
 }  // namespace
 
 Answer predict(prepare::PreparedCase const& prepared) {
-    Answer answer{{}, {}, of_another_kind(prepared)};
+    Answer answer{{}, {}, {}, of_another_kind(prepared)};
     if (!answer.is_inside()) return answer;
     Place const place = place_of(prepared);
     answer.outside = out_of_range(prepared, place);
@@ -95,6 +95,7 @@ Answer predict(prepare::PreparedCase const& prepared) {
     }
     answer.efficiency = value->efficiency;
     answer.half_width = value->half_width;
+    answer.place = place;
     return answer;
 }
 

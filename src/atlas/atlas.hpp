@@ -13,6 +13,7 @@ struct Answer {
     std::optional<double> efficiency;  ///< velocity efficiency; none for a layer of another kind, or without
                                        ///< a mean speed by the rolling-layer law
     std::optional<double> half_width;  ///< of its 95 % interval
+    std::optional<Place> place;        ///< its numbers without a dimension, where it has an efficiency
     std::vector<Outside> outside;      ///< empty: the layer lies inside of the atlas
 
     /// Whether the atlas covers the layer.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -60,6 +61,7 @@ void add_atlas(Row& row, prepare::PreparedCase const& prepared) {
     if (!answer.is_inside()) return;
     row.efficiency_atlas = answer.efficiency;
     row.efficiency_atlas_half_width = answer.half_width;
+    row.atlas_place = answer.place;
 }
 
 /// Adds the theory at the friction of the layer as a whole. The effect of side walls is already included in
@@ -105,9 +107,35 @@ constexpr double degrees = 180 / std::numbers::pi;
 /// The inputs that are the same along a line of the figure.
 using Line = std::tuple<double, double, double>;  // vibration angle and inclination, deg; friction
 
-/// @param with_law  whether the law of rolling layers speaks of any case on this line
-std::string curve(Line const& line, bool with_law, double from, double to) {
-    constexpr int points = 400;  // finer than a print shows
+/// What is drawn along a line.
+struct LineModels {
+    bool with_law = false;  ///< whether the law of rolling layers speaks of any case on it
+    /// The places of its cases in the atlas, by throw number.
+    std::map<double, atlas::Place> places = {};
+    bool has_twins = false;  ///< whether two of them differ in something else than the throw number
+
+    void add(Row const& row) {
+        with_law = with_law || row.efficiency_rolling_layer.has_value();
+        if (!row.atlas_place) return;
+        auto const [at, is_new] = places.emplace(row.throw_number, *row.atlas_place);
+        has_twins = has_twins || (!is_new && at->second != *row.atlas_place);
+    }
+};
+
+/// What the atlas says of a layer between two cases; nothing beyond the outermost ones.
+std::optional<atlas::SurfaceValue> between_cases(LineModels const& models, double throw_number) {
+    auto const above = models.places.lower_bound(throw_number);
+    if (models.has_twins || above == models.places.end() || above == models.places.begin()) return {};
+    auto const below = std::prev(above);
+    double const share = (throw_number - below->first) / (above->first - below->first);
+    atlas::Place place = below->second;
+    for (std::size_t k = 0; k < place.size(); ++k) place[k] += share * (above->second[k] - place[k]);
+    return atlas::value_at(place);
+}
+
+std::string curve(Line const& line, LineModels const& models, double from, double to) {
+    constexpr int points = 400;       // finer than a print shows
+    constexpr int each_of_atlas = 8;  // whose lines are smooth
     auto const [angle, inclination, friction] = line;
     std::string text;
     for (int i = 0; i <= points; ++i) {
@@ -118,9 +146,11 @@ std::string curve(Line const& line, bool with_law, double from, double to) {
                                       .friction = friction};
         theory::Motion const motion = theory::solve(point);
         if (!motion.converged) continue;
-        auto const rolling = with_law ? rolling_efficiency(point, {}) : std::nullopt;
-        text += fmt::format("{:.6g},{},{},{},{},{}\n", gamma, angle, inclination, friction,
-                            motion.velocity_efficiency, rolling ? fmt::format("{}", *rolling) : "");
+        auto const rolling = models.with_law ? rolling_efficiency(point, {}) : std::nullopt;
+        auto const layer = i % each_of_atlas == 0 ? between_cases(models, gamma) : std::nullopt;
+        text += fmt::format("{:.6g},{},{},{},{},{},{}\n", gamma, angle, inclination, friction,
+                            motion.velocity_efficiency, rolling ? fmt::format("{}", *rolling) : "",
+                            layer ? fmt::format("{},{}", layer->efficiency, layer->half_width) : ",");
     }
     return text;
 }
@@ -130,17 +160,16 @@ std::string curve(Line const& line, bool with_law, double from, double to) {
 std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::string text =
         "throw_number,vibration_angle_deg,inclination_deg,friction,velocity_efficiency,rolling_layer_"
-        "efficiency\n";
-    std::map<Line, bool> lines;
+        "efficiency,atlas_efficiency,atlas_half_width\n";
+    std::map<Line, LineModels> lines;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Row const& row : rows) {
         if (!(row.vibration_angle_deg > 0)) continue;
-        bool& with_law = lines[{row.vibration_angle_deg, row.inclination_deg, row.friction}];
-        with_law = with_law || row.efficiency_rolling_layer.has_value();
+        lines[{row.vibration_angle_deg, row.inclination_deg, row.friction}].add(row);
         least = std::min(least, row.throw_number);
         most = std::max(most, row.throw_number);
     }
-    for (auto const& [line, with_law] : lines) text += curve(line, with_law, 0.9 * least, 1.1 * most);
+    for (auto const& [line, models] : lines) text += curve(line, models, 0.9 * least, 1.1 * most);
     return text;
 }
 

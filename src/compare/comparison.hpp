@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atlas/surface.hpp"
 #include "prepare/prepared_case.hpp"
 #include "store/quantity.hpp"
 
@@ -29,6 +30,7 @@ struct Row {
     std::optional<double> efficiency_rolling_layer;  ///< none outside the tested range of that law
     std::optional<double> efficiency_atlas;          ///< none outside the atlas of simulated layers
     std::optional<double> efficiency_atlas_half_width;  ///< of its 95 % interval
+    std::optional<atlas::Place> atlas_place;            ///< where in the atlas it lies
     std::optional<std::string> mode_theory;             ///< phases of that point mass in order
     std::optional<std::string> layer_mode;              ///< phases of the layer as a whole in order
     std::optional<double> friction_layer;               ///< of the layer as a whole, from a friction test
@@ -97,7 +99,9 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
 /// vibration angle, inclination and friction among the rows. The grid reaches from 0.9 times their smallest
 /// throw number to 1.1 times their largest. CSV with the columns throw_number, vibration_angle_deg,
 /// inclination_deg, friction, velocity_efficiency, rolling_layer_efficiency (of free spheres; empty where
-/// that law has not been tested). Throw numbers without a mean speed are left out.
+/// that law has not been tested), atlas_efficiency and atlas_half_width. The atlas is given at every eighth
+/// throw number between the cases that lie inside of it, for a layer between them; not where cases differ in
+/// something else. Throw numbers without a mean speed are left out.
 std::string theory_curves_csv(std::vector<Row> const& rows);
 
 }  // namespace vibrotrough::compare

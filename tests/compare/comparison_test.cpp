@@ -1,12 +1,17 @@
 #include "compare/comparison.hpp"
 
+#include "atlas/value.hpp"
 #include "store/sample_record.hpp"
 #include "theory/design.hpp"
 #include "theory/point_mass.hpp"
 #include "theory/quantities.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -233,6 +238,53 @@ TEST(Compare, HasNoMeasurementWithoutARecord) {
         EXPECT_FALSE(row.number("wall_time"));
         EXPECT_TRUE(row.efficiency_theory);
     }
+}
+
+/// A line of the curves that has the atlas: throw number, efficiency, half-width.
+std::vector<std::array<double, 3>> atlas_line(std::vector<Row> const& cases) {
+    std::vector<std::array<double, 3>> found;
+    std::istringstream text(theory_curves_csv(cases));
+    std::string line;
+    std::getline(text, line);
+    EXPECT_TRUE(line.ends_with(",rolling_layer_efficiency,atlas_efficiency,atlas_half_width"));
+    while (std::getline(text, line)) {
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+        if (cells.size() == 8)
+            found.push_back({std::stod(cells[0]), std::stod(cells[6]), std::stod(cells[7])});
+    }
+    return found;
+}
+
+// Between cases that lie inside of the atlas, a layer between them: numbers that change with the throw number
+// in proportion. Beyond the outermost cases, and where cases of one throw number differ, there is none. The
+// throw number is written with six digits.
+TEST(TheoryCurves, HaveTheAtlasBetweenTheCases) {
+    std::vector<Row> cases;
+    for (double const gamma : {1.5, 2.0, 3.0}) {
+        Row row{};
+        row.throw_number = gamma;
+        row.vibration_angle_deg = 30;
+        row.friction = 0.3;
+        row.atlas_place =
+            atlas::Place{gamma, std::tan(std::numbers::pi / 6), 0, 0.3, gamma, 4.5, 0.5, 0.1, 0.5};
+        cases.push_back(row);
+    }
+    auto const line = atlas_line(cases);
+    EXPECT_GT(line.size(), 30U);
+    for (auto const& [gamma, efficiency, half_width] : line) {
+        EXPECT_GT(gamma, 1.5);
+        EXPECT_LE(gamma, 3.0);
+        atlas::Place place = *cases.front().atlas_place;
+        place[0] = place[4] = gamma;
+        auto const value = atlas::value_at(place);
+        EXPECT_NEAR(efficiency, value->efficiency, 1e-4) << gamma;
+        EXPECT_NEAR(half_width, value->half_width, 1e-4) << gamma;
+    }
+    cases.push_back(cases.front());
+    cases.back().atlas_place->at(5) = 3;
+    EXPECT_TRUE(atlas_line(cases).empty());
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ def make_campaign(sample, columns, work):
         "campaign": "sample", "program_version": "0.1.0", "git_commit": "abcdef", "engine_version": HOSTILE,
         "written": "2026-11-21T12:00:00Z", "input": "# " + HOSTILE, "columns": columns, "swept": [], "cases": [*cases, failed]}), encoding="utf-8")
     (data / "theory_curves.csv").write_text(
-        "throw_number,vibration_angle_deg,velocity_efficiency\n2.0,28.6479,0.5\n3.5,28.6479,0.7\n", encoding="utf-8")
+        "throw_number,vibration_angle_deg,velocity_efficiency,atlas_efficiency,atlas_half_width\n"
+        "2.0,28.6479,0.5,0.55,0.05\n2.7,28.6479,0.6,,\n3.5,28.6479,0.7,0.75,0.08\n", encoding="utf-8")
     (folder / "certificate.json").write_text(json.dumps({"engine": HOSTILE, "passed": True, "checks": [
         {"name": "restitution", "deviation": 0.01}, {"name": "friction", "deviation": 0.0}]}), encoding="utf-8")
     (folder / "numerics.json").write_text(json.dumps(BUDGETS), encoding="utf-8")
