@@ -49,11 +49,34 @@ def allowed(ends: list[float], unit: str) -> str:
     return f"allowed {low:.3g} to {high:.4g}{'' if unit == DEGREE else ' '}{unit}"
 
 
+def draw_budget(axes: Axes, model: Data) -> None:
+    """What each uncertain input leaves open of the mass flow: a tornado, whose names stand above its bars."""
+    plain_axes(axes)
+    for place, share in enumerate(reversed(model["budget"])):
+        axes.barh(place, 2 * share["sd_t_per_h"], left=-share["sd_t_per_h"], height=0.32, color=COLOURS[0])
+        axes.text(0, place + 0.22, share["source"], ha="center", va="bottom", fontsize=7)
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+    axes.set_ylim(-0.4, len(model["budget"]) - 0.3)
+    axes.set_xlabel("mass flow \u00b1 one standard deviation,\neach alone  [t/h]")
+
+
+def least_sure(data: Data) -> Data:
+    """The model with the lowest probability, whose budget is shown."""
+    model: Data = min(data["models"], key=lambda one: one["probability"])
+    return model
+
+
 def draw_flow(data: Data) -> Any:
-    """The probability of each mass flow or more, by each model; nothing where it is not known."""
+    """The probability of each mass flow or more, by each model, and what leaves it open; nothing where it is not known."""
     if data["untested"] is not None:
         return ""
-    figure, axes = new_figure(size=(7.0, 3.3))
+    model = least_sure(data)
+    if model["budget"]:
+        figure, (axes, beside) = new_figure(1, 2, size=(7.0, 3.3), gridspec_kw={"width_ratios": [1.35, 1]})
+        draw_budget(beside, model)
+    else:
+        figure, axes = new_figure(size=(7.0, 3.3))
     plain_axes(axes)
     probability = 1 - np.array(data["quantile_shares"])
     known = [model for model in [*data["models"], *data["models_beside"]] if model["mass_flow_quantiles_t_per_h"]]
@@ -69,11 +92,18 @@ def draw_flow(data: Data) -> Any:
     axes.set_ylabel("probability of so much\nor more  [%]")
     axes.legend(frameon=False, loc="upper right", bbox_to_anchor=(1.0, 0.94))
     figure.tight_layout()
-    return svg_of(figure, "Probability of a mass flow or more")
+    return svg_of(figure, "Probability of a mass flow or more, and what leaves it open")
 
 
 def number(value: float | None) -> str:
     return NOT_KNOWN if value is None else f"{value:.3g}"
+
+
+def exciter_rows(exciter: Data | None) -> list[tuple[str, str, str]]:
+    if exciter is None:
+        return []
+    return [("exciter", f"{1e3 * exciter['static_moment_kg_m']:.4g} kg mm",
+             f"static moment, {1e-3 * exciter['centrifugal_force_n']:.3g} kN; {exciter['stroke_empty_mm']:.4g} mm when empty")]
 
 
 def row_of_model(model: Data, name: str) -> list[str]:
@@ -98,6 +128,7 @@ def design_page(data: Data) -> Page:
         ("landing speed", f"{data['landing_speed_m_per_s']:.3g} m/s",
          (f"at most {landing:.4g} m/s, " if landing is not None else "") + f"for frictions of {data['friction_low']:.3g} to {data['friction_high']:.3g}"),
         ("power", power, "given to the material (point mass)"),
+        *exciter_rows(data["exciter"]),
         ("held back by", "", ", ".join(data["active_limits"]).replace("<=", "\u2264").replace(">=", "\u2265") or "nothing"),
     ]
     asked = [
@@ -122,13 +153,14 @@ def design_page(data: Data) -> Page:
         "facts": [{"heading": "The machine", "rows": machine}, {"heading": "What was asked", "rows": asked}],
         "svg": draw_flow(data),
         "caption": "" if data["untested"] is not None else
-                   "Probability of a mass flow or more at this layer depth; dotted: the confidence asked.",
+                   "Probability of a mass flow or more at this layer depth; dotted: the confidence asked. "
+                   f"Right: what to measure first, by {least_sure(data)['model']}.",
         "tables": [
             {"heading": "What each model says",
              "headings": ["", "speed, m/s", f"with {sure}, m/s", "mass flow, t/h", "95 % interval, t/h", "reaches what was asked"], "rows": models},
             {"heading": "Rules of thumb, for comparison", "headings": ["rule", "m/s", "in practice, m/s"], "rows": rules}],
         "warnings": data["warnings"],
-        "basis": "The friction has a distribution, and each model misses the truth by its discrepancy. Every limit is kept by the machine as it is printed, "
+        "basis": "The friction has a distribution, what else is not exact counts as normal, and each model misses the truth by its discrepancy. Every limit is kept by the machine as it is printed, "
                  "the landing speed at every friction in the central 99.7 % of its distribution.",
         "command": "by vibrotrough design",
         "signed": ["Checked by", "Date", "Signature"],

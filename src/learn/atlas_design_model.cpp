@@ -6,34 +6,53 @@
 #include "core/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 namespace vibrotrough::learn {
 namespace {
 
-/// What of a layer a design does not know: its depth, which the mass flow decides, and the grains.
-constexpr std::array<atlas::Input, 4> unknown{atlas::depth_input, atlas::grain_friction_input,
-                                              atlas::rolling_friction_input, atlas::restitution_input};
-
 theory::Range range_of(atlas::Input input) {
     return {atlas::inputs()[input].low, atlas::inputs()[input].high};
 }
 
-/// The place of a drive, with what is not known in the middle of the atlas.
-atlas::Place place_of(theory::Drive const& d, double mu, KnownGrains const& grains) {
-    return {d.throw_number(),
-            std::tan(d.vibration_angle),
-            std::tan(d.inclination),
-            mu,
-            d.amplitude / grains.diameter,
-            atlas::middle_of(atlas::depth_input),
-            atlas::middle_of(atlas::grain_friction_input),
-            grains.rolling_friction.value_or(atlas::middle_of(atlas::rolling_friction_input)),
-            atlas::middle_of(atlas::restitution_input)};
+/// An input of the atlas that a design may not know.
+struct OpenInput {
+    atlas::Input input;
+    char const* name;
+    Uncertain value;
+    char const* why_open;  ///< when nobody gave it
+};
+
+/// Depth, which the mass flow decides, and the grains.
+std::vector<OpenInput> open_inputs(KnownGrains const& grains) {
+    auto const anything = [](atlas::Input input) {
+        return between_ends(range_of(input).low, range_of(input).high);
+    };
+    auto const one = [&](atlas::Input input, char const* name, std::optional<Uncertain> const& given) {
+        return OpenInput{input, name, given ? *given : anything(input), given ? nullptr : "not given"};
+    };
+    return {one(atlas::rolling_friction_input, "rolling friction", grains.rolling_friction),
+            one(atlas::grain_friction_input, "friction between grains", grains.friction),
+            one(atlas::restitution_input, "restitution", {}),
+            {atlas::depth_input, "depth of the layer in diameters", anything(atlas::depth_input), "atlas"}};
+}
+
+/// The place of a drive, with what is not exact at its mean.
+atlas::Place place_of(theory::Drive const& d, double mu, double diameter,
+                      std::vector<OpenInput> const& inputs) {
+    atlas::Place place(atlas::inputs().size());
+    place[atlas::throw_number_input] = d.throw_number();
+    place[atlas::tan_vibration_input] = std::tan(d.vibration_angle);
+    place[atlas::tan_inclination_input] = std::tan(d.inclination);
+    place[atlas::friction_input] = mu;
+    place[atlas::amplitude_input] = d.amplitude / diameter;
+    for (OpenInput const& one : inputs) place[one.input] = one.value.mean;
+    return place;
 }
 
 /// By how much a place is beyond a range, relative to its width; at most zero inside.
@@ -42,10 +61,39 @@ double beyond(atlas::Input input, double value) {
     return std::max(low - value, value - high) / (high - low);
 }
 
-/// Standard deviation, in velocity efficiency, of what is not known.
-double spread_of(KnownGrains const& grains) {
-    if (!grains.rolling_friction) return atlas::sd_of_unknown(unknown);
-    return atlas::sd_of_unknown(unknown, std::pair{atlas::rolling_friction_input, *grains.rolling_friction});
+/// Standard deviation of the efficiency when one input is not exact, within the range of the atlas.
+double spread_by(OpenInput const& one, atlas::Place place) {
+    double sum = 0, squares = 0, shares = 0;
+    for (UncertainNode const& node : nodes_of(one.value)) {
+        auto const [low, high] = range_of(one.input);
+        place[one.input] = std::clamp(node.value, low, high);
+        auto const efficiency = atlas::efficiency_at(place);
+        if (!efficiency) continue;
+        shares += node.share;
+        sum += node.share * *efficiency;
+        squares += node.share * *efficiency * *efficiency;
+    }
+    if (shares <= 0) return 0;
+    return std::sqrt(std::max(0.0, squares / shares - sum * sum / (shares * shares)));
+}
+
+std::vector<OwnSource> sources_at(atlas::Place const& place, std::vector<OpenInput> const& inputs) {
+    std::vector<OwnSource> all;
+    for (OpenInput const& one : inputs) {
+        if (one.value.sd <= 0) continue;
+        all.push_back({one.why_open == nullptr ? one.name
+                                               : fmt::format("{} ({}: {:.3g} to {:.3g})", one.name,
+                                                             one.why_open, one.value.low(), one.value.high()),
+                       spread_by(one, place)});
+    }
+    return all;
+}
+
+/// What all of them together leave open.
+double spread_at(atlas::Place const& place, std::vector<OpenInput> const& inputs) {
+    double squares = 0;
+    for (OwnSource const& one : sources_at(place, inputs)) squares += one.sd * one.sd;
+    return std::sqrt(squares);
 }
 
 theory::Range within(theory::Range const& space, theory::Range const& known, std::string_view what) {
@@ -58,22 +106,32 @@ theory::Range within(theory::Range const& space, theory::Range const& known, std
 
 }  // namespace
 
-DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
-    if (grains.rolling_friction && beyond(atlas::rolling_friction_input, *grains.rolling_friction) > 0) {
-        throw core::InputError(
-            fmt::format("a rolling friction of {:g} lies outside of the atlas, which has {:g} to {:g}",
-                        *grains.rolling_friction, range_of(atlas::rolling_friction_input).low,
-                        range_of(atlas::rolling_friction_input).high));
+DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy, double friction) {
+    auto const inputs = open_inputs(grains);
+    for (OpenInput const& one : inputs) {
+        if (beyond(one.input, one.value.mean) <= 0) continue;
+        throw core::InputError(fmt::format("a {} of {:g} lies outside of the atlas, which has {:g} to {:g}",
+                                           one.name, one.value.mean, range_of(one.input).low,
+                                           range_of(one.input).high));
     }
     DesignModel model{.name = "the atlas", .discrepancy = discrepancy, .is_slow = true};
-    model.at = [grains, spread = spread_of(grains)](theory::Drive const& d,
-                                                    double mu) -> std::optional<ModelEfficiency> {
-        auto const value = atlas::value_at(place_of(d, mu, grains));
+    double const usual = friction > 0 ? friction : atlas::middle_of(atlas::friction_input);
+    double const diameter = grains.diameter;
+    model.sources = [inputs, diameter, usual](theory::Drive const& d) {
+        return sources_at(place_of(d, usual, diameter, inputs), inputs);
+    };
+    // A design asks for many frictions at one drive.
+    auto const last = std::make_shared<std::pair<atlas::Place, double>>();
+    model.at = [inputs, diameter, usual, last](theory::Drive const& d,
+                                               double mu) -> std::optional<ModelEfficiency> {
+        auto const value = atlas::value_at(place_of(d, mu, diameter, inputs));
         if (!value) return {};
         double const whole = value->half_width, numerics = atlas::numerical_error();
         double const statistics = std::sqrt(whole * whole - numerics * numerics);
+        if (atlas::Place const place = place_of(d, usual, diameter, inputs); last->first != place)
+            *last = {place, spread_at(place, inputs)};
         return ModelEfficiency{value->efficiency,
-                               std::hypot(statistics / atlas::deviations_in_half_width, spread),
+                               std::hypot(statistics / atlas::deviations_in_half_width, last->second),
                                numerics / atlas::deviations_in_half_width};
     };
     model.narrowed = [grains](theory::DriveSpace space) {
@@ -93,8 +151,8 @@ DesignModel atlas_design_model(KnownGrains const& grains, double discrepancy) {
     model.known_range =
         fmt::format("throw numbers of {:g} to {:g} and strokes of {:.3g} to {:.3g} mm", gentle, vigorous,
                     2e3 * small * grains.diameter, 2e3 * large * grains.diameter);
-    model.excess = [grains](theory::Drive const& d) {
-        atlas::Place const place = place_of(d, atlas::middle_of(atlas::friction_input), grains);
+    model.excess = [inputs, diameter](theory::Drive const& d) {
+        atlas::Place const place = place_of(d, atlas::middle_of(atlas::friction_input), diameter, inputs);
         double most = -1;
         for (std::size_t input = 0; input < place.size(); ++input)
             most = std::max(most, beyond(static_cast<atlas::Input>(input), place[input]));

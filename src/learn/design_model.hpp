@@ -23,6 +23,12 @@ struct ModelEfficiency {
     double sd() const { return std::hypot(statistics_sd, numerics_sd); }
 };
 
+/// A part of a model's own uncertainty: an input that is not known, such as the rolling friction.
+struct OwnSource {
+    std::string name;  ///< of the input, with its range when nobody gave it
+    double sd;         ///< standard deviation, in velocity efficiency
+};
+
 /// A model of the conveying speed, by which a machine can be designed.
 struct DesignModel {
     std::string name;  ///< e.g. "the point mass"
@@ -31,6 +37,9 @@ struct DesignModel {
     std::span<ModelError const> errors = {};  ///< what simulated layers say of its error
     /// The velocity efficiency at a drive and a friction; nothing when the material has no steady speed.
     std::function<std::optional<ModelEfficiency>(theory::Drive const&, double friction)> at = {};
+    /// The parts of the statistical uncertainty that `at` gives which are those of known inputs; may be
+    /// empty.
+    std::function<std::vector<OwnSource>(theory::Drive const&)> sources = {};
     /// The drives of a space at which the model is known. @throws std::invalid_argument when there are none
     std::function<theory::DriveSpace(theory::DriveSpace)> narrowed = {};
     /// How far a drive is outside what the model knows, relatively; zero or less inside.

@@ -1,7 +1,7 @@
 #include "learn/design_report.hpp"
 
+#include "learn/design_details.hpp"
 #include "learn/machine_keys.hpp"
-#include "learn/makers_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,6 @@ namespace vibrotrough::learn {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double tonnes_per_hour = 3.6;  // in one kg/s
-
-constexpr char const* source_of_daesung = "Daesung Machinery, dsv.co.kr/vibrating_machinery_vc_06.html";
-constexpr char const* source_of_vdi = "after VDI 2333, vibrationsfoerdertechnik.de";
 
 /// W, given to the material on the whole trough, or W per metre of it.
 double power(DesignTask const& t, RiskDesign const& d) {
@@ -43,25 +38,13 @@ Json as_json(ModelForecast const& f, bool is_known) {
             {"mass_flow_low_t_per_h", known(tonnes_per_hour * f.low_flow)},
             {"mass_flow_high_t_per_h", known(tonnes_per_hour * f.high_flow)},
             {"probability", known(f.probability)},
+            {"mass_flow_sd_t_per_h", known(tonnes_per_hour * f.flow_sd)},
+            {"budget", is_known ? budget_json(f) : Json::array()},
             {"efficiency", f.efficiency ? Json(f.efficiency->efficiency) : Json(nullptr)},
             {"efficiency_half_width", half_width(&ModelEfficiency::statistics_sd)},
             {"numerical_error", half_width(&ModelEfficiency::numerics_sd)},
             {"efficiency_whole_half_width",
              f.efficiency ? Json(atlas::deviations_in_half_width * f.efficiency->sd()) : Json(nullptr)}};
-}
-
-Json rules_of_thumb(RiskDesign const& d) {
-    double const daesung = rule_of_daesung(d.drive);
-    return {{{"rule", "v = 3.81 N S, of which 70 to 80 % are used in practice"},
-             {"source", source_of_daesung},
-             {"speed_m_per_s", daesung},
-             {"low_m_per_s", 0.7 * daesung},
-             {"high_m_per_s", 0.8 * daesung}},
-            {{"rule", "no slip, flight of n cycles: v = g n^2 cot(beta) / (2 f)"},
-             {"source", source_of_vdi},
-             {"speed_m_per_s", speed_without_slip(d.drive)},
-             {"low_m_per_s", nullptr},
-             {"high_m_per_s", nullptr}}};
 }
 
 /// The three frictions of a campaign that checks a design; fewer when they are the same to three digits.
@@ -88,6 +71,7 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
         d.landing_speed, t.friction.low, t.friction.high, d.mode);
     text += fmt::format("power             {:.3g} W{} given to the material (point mass)\n", power(t, d),
                         t.length > 0 ? "" : " per metre of trough");
+    text += exciter_text(t, d);
     if (t.length > 0 && d.sure_speed > 0 && !d.untested)
         text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
                             100 * t.confidence);
@@ -135,13 +119,14 @@ std::string speeds_text(RiskDesign const& d) {
                                    "stroke", "sure", "layer", "machine number", "probability");
     text += fmt::format("{:<24} {:>9} {:>9} {:>10}\n", "1/min", "mm", "m/s", "mm");
     for (SpeedTried const& one : d.speeds_tried) {
-        std::string const speed = fmt::format("{:.4g}", 60 * one.frequency);
+        auto const choice = [](double value) { return value > 0 ? fmt::format("{:.4g}", value) : "any"; };
+        std::string const speed = choice(60 * one.frequency), stroke = choice(2e3 * one.amplitude);
         if (one.why_none) {
-            text += fmt::format("{:<24} {}\n", speed, *one.why_none);
+            text += fmt::format("{:<24} {:>9} {}\n", speed, stroke, *one.why_none);
             continue;
         }
         auto const known = [&](std::string const& words) { return one.untested ? "not known" : words; };
-        text += fmt::format("{:<24} {:>9.4g} {:>9} {:>10.4g} {:>17.3g} {:>12}\n", speed, 2e3 * one.amplitude,
+        text += fmt::format("{:<24} {:>9} {:>9} {:>10.4g} {:>17.3g} {:>12}\n", speed, stroke,
                             known(fmt::format("{:.3g}", one.sure_speed)), 1e3 * one.depth, one.machine_number,
                             known(fmt::format("{:.1f} %", 100 * one.probability)));
     }
@@ -152,6 +137,7 @@ Json as_json(SpeedTried const& one) {
     Json json{{"rpm", 60 * one.frequency}, {"feasible", one.feasible}};
     if (one.why_none) {
         json["why_none"] = *one.why_none;
+        if (one.amplitude > 0) json["stroke_mm"] = 2e3 * one.amplitude;
         return json;
     }
     auto const known = [&](double value) { return one.untested ? Json(nullptr) : Json(value); };
@@ -242,15 +228,8 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
     if (!d.beside.empty()) text += "beside it, for comparison:\n";
     for (ModelForecast const& f : d.beside) text += row_of(f, !f.untested);
     for (ModelForecast const& f : d.forecasts) text += own_uncertainty(f);
-    text += speeds_text(d);
-    double const daesung = rule_of_daesung(d.drive), no_slip = speed_without_slip(d.drive);
-    text += fmt::format(
-        "\nRules of thumb, for comparison:\n  {:.3g} m/s, of which 70 to 80 % are used in "
-        "practice: {:.3g} to {:.3g} m/s (v = 3.81 N S;\n  {})\n",
-        daesung, 0.7 * daesung, 0.8 * daesung, source_of_daesung);
-    text += no_slip > 0 ? fmt::format("  {:.3g} m/s without slip: v = g n^2 cot(beta) / (2 f) ({})\n",
-                                      no_slip, source_of_vdi)
-                        : fmt::format("  none for a trough that does not throw ({})\n", source_of_vdi);
+    text += budget_text(d) + speeds_text(d);
+    text += rules_text(d);
     for (std::string const& warning : d.warnings) text += "\n" + warning + "\n";
     return text;
 }
@@ -281,6 +260,7 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"probability", if_known(d, d.probability)},
               {"sure_speed_m_per_s", if_known(d, d.sure_speed)},
               {"untested", d.untested ? Json(*d.untested) : Json(nullptr)},
+              {"exciter", exciter_json(t, d)},
               {"objective", name_of(t.objective)},
               {"width_needed_m", d.width_needed ? Json(*d.width_needed) : Json(nullptr)},
               {"troughs_needed", d.width_needed ? Json(troughs_needed(t, d)) : Json(nullptr)},
@@ -288,7 +268,7 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"models_beside", Json::array()},
               {"speeds_compared", Json::array()},
               {"active_limits", d.active_limits},
-              {"rules_of_thumb", rules_of_thumb(d)},
+              {"rules_of_thumb", rules_json(d)},
               {"warnings", d.warnings}};
     for (ModelForecast const& f : d.forecasts) json["models"].push_back(as_json(f, !d.untested));
     for (ModelForecast const& f : d.beside) json["models_beside"].push_back(as_json(f, !f.untested));

@@ -14,9 +14,10 @@ namespace {
 constexpr double least_friction = 0.01;  // a normal distribution is cut here
 constexpr double in_the_tail = 0.0015;   // of the distribution, on each side, in which limits are not kept
 constexpr std::size_t least_draws = 100;
-constexpr int middle_parts = 5;      // of few_parts(), between the tails
-constexpr int equal_parts = 400;     // of many_parts()
-constexpr int parts_of_a_tail = 10;  // of many_parts(), and as many next to the tail
+constexpr int uniform_draws = 20000;  // that stand for a range: five lie beyond 99.9 %
+constexpr int middle_parts = 5;       // of few_parts(), between the tails
+constexpr int equal_parts = 400;      // of many_parts()
+constexpr int parts_of_a_tail = 10;   // of many_parts(), and as many next to the tail
 
 double normal_quantile(double p) {
     return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
@@ -34,6 +35,17 @@ KnownFriction normal_friction(double median, double sd) {
             fmt::format("a friction of {:g} +- {:g} makes no sense: it must be at least {:g}", median, sd,
                         least_friction));
     return {median, std::max(least_friction, median - 3 * sd), median + 3 * sd, sd};
+}
+
+KnownFriction friction_between(double low, double high) {
+    if (!(low >= least_friction && low <= high))
+        throw std::invalid_argument(
+            fmt::format("a friction of {:g} to {:g} makes no sense: it must be at least {:g}", low, high,
+                        least_friction));
+    KnownFriction known{(low + high) / 2, low, high};
+    for (int i = 0; i < uniform_draws; ++i)
+        known.draws.push_back(low + (high - low) * (i + 0.5) / uniform_draws);
+    return known;
 }
 
 KnownFriction drawn_friction(std::vector<double> const& friction, std::vector<double> const& discrepancy) {

@@ -30,6 +30,10 @@ struct KnownFriction {
 /// @throws std::invalid_argument when the median is below 0.01 or sd is negative
 KnownFriction normal_friction(double median, double sd);
 
+/// A friction that may be anything between two ends. @throws std::invalid_argument when they are in the wrong
+/// order, or the lower one is below 0.01
+KnownFriction friction_between(double low, double high);
+
 /// The posterior of a calibration. @param friction  at least 100 draws
 /// @param discrepancy  the draws of the model discrepancy beside them, in velocity efficiency, or none
 /// @throws std::invalid_argument when there are too few draws or a friction is below 1e-3

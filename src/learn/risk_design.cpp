@@ -1,6 +1,7 @@
 #include "learn/risk_design.hpp"
 
 #include "core/error.hpp"
+#include "learn/budget.hpp"
 #include "learn/machine_keys.hpp"
 #include "learn/risk_search.hpp"
 #include "learn/way_out.hpp"
@@ -203,6 +204,8 @@ ModelForecast forecast(RiskSearch const& search, DesignModel const& model, theor
                     {},
                     model.at(drive, task.friction.median),
                     model.untested(drive, task.friction.median, in_grains)};
+    f.flow_sd = flow * speeds.sd();
+    f.budget = budget_of(search, model, drive, depth);
     for (double const share : quantile_shares())
         f.flow_quantiles.push_back(flow * speeds.exceeded_with(1 - share));
     return f;
@@ -276,17 +279,35 @@ std::pair<bool, double> worth(DesignTask const& task, RiskDesign const& d) {
     return {true, d.sure_speed};
 }
 
-RiskDesign best_of_speeds(DesignTask const& task) {
+/// The task for each speed and stroke that can be had.
+std::vector<DesignTask> choices_of(DesignTask const& task) {
+    std::vector<DesignTask> all{task};
+    all.front().frequencies.clear();
+    all.front().amplitudes.clear();
+    auto const choose = [&](std::vector<double> const& values, theory::Range theory::DriveSpace::*range) {
+        if (values.empty()) return;
+        std::vector<DesignTask> chosen;
+        for (DesignTask const& one : all) {
+            for (double const value : values) {
+                chosen.push_back(one);
+                chosen.back().space.*range = {value, value};
+            }
+        }
+        all = chosen;
+    };
+    choose(task.frequencies, &theory::DriveSpace::frequency);
+    choose(task.amplitudes, &theory::DriveSpace::amplitude);
+    return all;
+}
+
+RiskDesign best_of_choices(DesignTask const& task) {
     std::optional<RiskDesign> best;
     std::vector<SpeedTried> tried;
     std::vector<std::pair<std::pair<bool, double>, std::size_t>> order;
-    for (double const frequency : task.frequencies) {
-        DesignTask one = task;
-        one.frequencies.clear();
-        one.space.frequency = {frequency, frequency};
+    for (DesignTask const& one : choices_of(task)) {
         try {
             RiskDesign const design = design_at_any_speed(one);
-            tried.push_back({.frequency = frequency,
+            tried.push_back({.frequency = design.drive.frequency,
                              .feasible = design.feasible,
                              .amplitude = design.drive.amplitude,
                              .sure_speed = design.sure_speed,
@@ -300,14 +321,21 @@ RiskDesign best_of_speeds(DesignTask const& task) {
             order.emplace_back(worth(task, design), tried.size() - 1);
             if (!best || worth(task, design) > worth(task, *best)) best = design;
         } catch (std::invalid_argument const& error) {
-            tried.push_back({.frequency = frequency, .why_none = error.what()});
+            auto const given = [](theory::Range const& r) { return r.low == r.high ? r.low : 0; };
+            tried.push_back({.frequency = given(one.space.frequency),
+                             .amplitude = given(one.space.amplitude),
+                             .why_none = error.what()});
         }
     }
     if (!best) {
         std::string text;
-        for (SpeedTried const& one : tried)
-            text += fmt::format("{}at {:.4g} 1/min {}", text.empty() ? "" : "; ", 60 * one.frequency,
-                                *one.why_none);
+        for (SpeedTried const& one : tried) {
+            text += text.empty() ? "" : "; ";
+            if (!task.frequencies.empty()) text += fmt::format("at {:.4g} 1/min ", 60 * one.frequency);
+            if (!task.amplitudes.empty())
+                text += fmt::format("with a stroke of {:.4g} mm ", 2e3 * one.amplitude);
+            text += *one.why_none;
+        }
         throw std::invalid_argument(text);
     }
     // Of equals, the first speed that was asked for is the better one, as above.
@@ -327,13 +355,15 @@ std::vector<double> quantile_shares() {
 
 RiskDesign design_with_risk(DesignTask const& task) {
     check(task);
-    return task.frequencies.empty() ? design_at_any_speed(task) : best_of_speeds(task);
+    bool const is_free = task.frequencies.empty() && task.amplitudes.empty();
+    return is_free ? design_at_any_speed(task) : best_of_choices(task);
 }
 
 RiskDesign judge_machine(DesignTask const& task, theory::Drive const& drive, double depth) {
     check(task);
     DesignTask one = task;
     if (!one.frequencies.empty()) one.space.frequency = {drive.frequency, drive.frequency};
+    if (!one.amplitudes.empty()) one.space.amplitude = {drive.amplitude, drive.amplitude};
     RiskSearch search(one, allowed_space(one));
     return described(one, search, drive, depth);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "learn/design_model.hpp"
+#include "learn/exciter.hpp"
 
 #include <optional>
 #include <string>
@@ -16,12 +17,20 @@ enum class Objective {
     least_power,           ///< the least power that the trough gives to the material
 };
 
+/// How exactly a machine is set and its material weighed: standard uncertainties, 0 when exact.
+struct SettingErrors {
+    double amplitude = 0;        ///< m
+    double vibration_angle = 0;  ///< rad
+    double bulk_density = 0;     ///< kg/m^3
+};
+
 /// What is known and wanted of a trough. The friction is not known exactly, and no model is exact.
 struct DesignTask {
     theory::DriveSpace space;              ///< stroke, frequency, angles and the largest K and Gamma
     std::vector<DesignModel> models;       ///< at least one; all of them must reach the mass flow
     std::vector<DesignModel> beside = {};  ///< what these say of the machine is told; they decide nothing
     KnownFriction friction;                ///< of the material on the trough
+    SettingErrors errors = {};             ///< of what the machine is set to and the material weighs
     double bulk_density;                   ///< kg/m^3, > 0
     double width;                          ///< m, of the trough, > 0
     double length = 0;                     ///< m, of the trough, for power and time; 0 when it is not known
@@ -29,18 +38,20 @@ struct DesignTask {
     theory::Range depth{0.002, 0.1};       ///< m, of the layer
     std::optional<double> grain_diameter = {};    ///< m, if it is known
     std::optional<double> rolling_friction = {};  ///< coefficient of the grains, if it is known
+    std::optional<MovedMachine> machine = {};     ///< trough, springs and exciter, if they are known
     std::optional<double> landing_speed;          ///< m/s, largest speed of an impact on the trough
     double confidence = 0.95;  ///< probability with which the mass flow is to be reached, in [0.5, 0.999]
     Objective objective = Objective::fastest;  ///< what to be best at
     /// Hz, of the drives that can be had, of which the best is chosen; empty: any within the space.
     std::vector<double> frequencies = {};
+    std::vector<double> amplitudes = {};  ///< m, likewise, of the strokes that can be had
 };
 
-/// The machine for one of the speeds of the drive that can be had.
+/// The machine for one of the speeds and strokes of the drive that can be had.
 struct SpeedTried {
-    double frequency;                          ///< Hz
+    double frequency;                          ///< Hz; 0 where no machine was found at any
     bool feasible = false;                     ///< as in RiskDesign, like all that follows
-    double amplitude = 0;                      ///< m
+    double amplitude = 0;                      ///< m; 0 likewise
     double sure_speed = 0;                     ///< m/s
     double depth = 0;                          ///< m
     double probability = 0;                    ///< that the mass flow is reached
@@ -51,6 +62,13 @@ struct SpeedTried {
     double vibration_angle = 0;                ///< rad
     double inclination = 0;                    ///< rad
     int rank = 0;                              ///< 1 for the best by the objective; 0 without a machine
+};
+
+/// What one uncertain input leaves open of the mass flow; see budget_of().
+struct BudgetShare {
+    std::string source;  ///< the input
+    double sd;           ///< kg/s, standard deviation when it alone varies
+    double gained;       ///< kg/s, that would be sure as well if it were known exactly
 };
 
 /// What one model says of a design.
@@ -67,6 +85,8 @@ struct ModelForecast {
     std::optional<ModelEfficiency> efficiency;
     /// Why its probability and intervals may not be relied on, without a full stop: see RiskDesign.
     std::optional<std::string> untested = {};
+    double flow_sd = 0;                    ///< kg/s, standard deviation of the mass flow
+    std::vector<BudgetShare> budget = {};  ///< the largest share first; empty where nothing is uncertain
 };
 
 /// 2.5 %, 5 %, ..., 97.5 %: the shares of a distribution below the quantiles of a forecast.
@@ -95,16 +115,18 @@ struct RiskDesign {
     /// m, of the trough that would carry the mass flow at the confidence with this drive and the largest
     /// depth; only when the mass flow is not reached and some speed is sure.
     std::optional<double> width_needed;
-    std::vector<SpeedTried> speeds_tried;    ///< one for each of the task's frequencies
+    std::vector<SpeedTried> speeds_tried;    ///< one for each of the task's frequencies and amplitudes
     std::vector<std::string> active_limits;  ///< what holds it back
     std::vector<std::string> warnings;       ///< where a model is known to be wrong, in whole sentences
 };
 
 /// Finds the drive and the depth of the layer that carry a mass flow with a stated probability.
 ///
-/// The speed is uncertain in three ways: the friction has a distribution, a model may know its own
-/// uncertainty (a learnt surface), and each model misses a normal error, its discrepancy. The speed that is
-/// reached with the stated confidence is a quantile of this distribution, the least of all models'.
+/// The speed is uncertain in four ways: the friction has a distribution, a model may know its own
+/// uncertainty (a learnt surface), each model misses a normal error, its discrepancy, and stroke, angle and
+/// bulk density are not exact: these count as normal errors of the speed in proportion to theirs, taken at
+/// the median of the friction. The speed that is reached with the stated confidence is a quantile of this
+/// distribution, the least of all models'.
 ///
 /// The drive is searched for by theory::best_drive(): first the fastest; if that reaches the mass flow at the
 /// largest depth, the best one of those that do. It is then rounded to steps of 1/min, 0.1 mm of stroke

@@ -1,5 +1,6 @@
 #include "learn/risk_search.hpp"
 
+#include "learn/uncertain.hpp"
 #include "theory/plastic_quantities.hpp"
 
 #include <algorithm>
@@ -32,10 +33,35 @@ std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, d
     return theory::plastic_quantities(motion, point, {d.amplitude});
 }
 
+/// m/s, standard deviation of a model's speed when one number of a drive is not exact.
+double spread_by(DesignModel const& model, theory::Drive const& drive, double theory::Drive::*number,
+                 double sd, double friction) {
+    if (sd <= 0) return 0;
+    double sum = 0, squares = 0;
+    for (UncertainNode const& node : nodes_of({drive.*number, sd})) {
+        theory::Drive other = drive;
+        other.*number = std::max(1e-6, node.value);
+        auto const value = model.at(other, friction);
+        if (!value) return 0;
+        double const speed = value->efficiency * other.trough_speed();
+        sum += node.share * speed;
+        squares += node.share * speed * speed;
+    }
+    return std::sqrt(std::max(0.0, squares - sum * sum));
+}
+
+SettingSpread spread_of(DesignTask const& task, DesignModel const& model, theory::Drive const& drive) {
+    double const mu = task.friction.median;
+    return {spread_by(model, drive, &theory::Drive::amplitude, task.errors.amplitude, mu),
+            spread_by(model, drive, &theory::Drive::vibration_angle, task.errors.vibration_angle, mu),
+            task.errors.bulk_density / task.bulk_density};
+}
+
 /// What a model says of a drive, by parts of the friction.
-SpeedDistribution speeds_by(DesignModel const& model, theory::Drive const& drive, std::optional<double> depth,
-                            std::vector<FrictionPart> const& parts) {
+SpeedDistribution speeds_by(DesignTask const& task, DesignModel const& model, theory::Drive const& drive,
+                            std::optional<double> depth, std::vector<FrictionPart> const& parts) {
     double const usually_missed = model.missed(drive, depth), trough = drive.trough_speed();
+    SettingSpread const set = spread_of(task, model, drive);
     SpeedDistribution d;
     for (FrictionPart const& part : parts) {
         auto const value = model.at(drive, part.friction);
@@ -44,7 +70,9 @@ SpeedDistribution speeds_by(DesignModel const& model, theory::Drive const& drive
         auto const add = [&](double share, double missed) {
             d.shares.push_back(share);
             d.means.push_back(mean);
-            d.sds.push_back(trough * std::hypot(known, missed));
+            double const settings =
+                std::hypot(set.amplitude, set.vibration_angle, set.bulk_density * std::abs(mean));
+            d.sds.push_back(std::hypot(trough * std::hypot(known, missed), value ? settings : 0));
         };
         if (!model.uses_calibrated_discrepancy || part.discrepancies.empty()) {
             add(part.share, usually_missed);
@@ -89,6 +117,20 @@ double SpeedDistribution::exceeded_with(double probability) const {
         .first;
 }
 
+double SpeedDistribution::sd_of_means() const {
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < means.size(); ++i) mean += shares[i] * means[i];
+    for (std::size_t i = 0; i < means.size(); ++i)
+        squares += shares[i] * (means[i] - mean) * (means[i] - mean);
+    return std::sqrt(squares);
+}
+
+double SpeedDistribution::sd() const {
+    double within = 0;
+    for (std::size_t i = 0; i < sds.size(); ++i) within += shares[i] * sds[i] * sds[i];
+    return std::hypot(sd_of_means(), std::sqrt(within));
+}
+
 RiskSearch::RiskSearch(DesignTask const& task, theory::DriveSpace space)
     : task_(task),
       space_(space),
@@ -111,13 +153,17 @@ double RiskSearch::needed() const {
 
 SpeedDistribution RiskSearch::speeds(theory::Drive const& drive, DesignModel const& model,
                                      std::optional<double> depth) const {
-    return speeds_by(model, drive, depth, many_);
+    return speeds_by(task_, model, drive, depth, many_);
+}
+
+SettingSpread RiskSearch::spread_of_settings(theory::Drive const& drive, DesignModel const& model) const {
+    return spread_of(task_, model, drive);
 }
 
 double RiskSearch::sure_speed(theory::Drive const& drive, std::vector<FrictionPart> const& parts) const {
     double least = infinity;
     for (DesignModel const& model : task_.models)
-        least = std::min(least, speeds_by(model, drive, {}, parts).exceeded_with(task_.confidence));
+        least = std::min(least, speeds_by(task_, model, drive, {}, parts).exceeded_with(task_.confidence));
     return least;
 }
 

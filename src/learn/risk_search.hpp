@@ -16,6 +16,15 @@ struct SpeedDistribution {
     double probability_above(double speed) const;
     /// The speed that is exceeded with a probability, m/s.
     double exceeded_with(double probability) const;
+    double sd() const;           ///< m/s, standard deviation
+    double sd_of_means() const;  ///< m/s, of it what the parts differ in their means
+};
+
+/// What the errors of the settings leave open of a speed: standard deviations.
+struct SettingSpread {
+    double amplitude = 0;        ///< m/s, by the stroke
+    double vibration_angle = 0;  ///< m/s
+    double bulk_density = 0;     ///< of the mass flow, relative
 };
 
 /// The drives that a design looks at, and what is known of each.
@@ -31,6 +40,8 @@ class RiskSearch {
     /// @param depth  of the layer, in diameters of its grains, if it is known
     SpeedDistribution speeds(theory::Drive const& drive, DesignModel const& model,
                              std::optional<double> depth = {}) const;
+    /// At the median of the friction.
+    SettingSpread spread_of_settings(theory::Drive const& drive, DesignModel const& model) const;
     /// m/s, reached with the task's confidence by all models; below zero when the material runs away. By the
     /// many parts of the friction.
     double sure_speed(theory::Drive const& drive) const;

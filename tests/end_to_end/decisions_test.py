@@ -125,6 +125,31 @@ class Engineer(EndToEndTest):
         self.assertIn("a stroke of 0.85 mm or less", third["why_none"])
         self.assertEqual(design["machine_number"], min(one["machine_number"] for one in (first, second) if one["feasible"]))
 
+    def test_the_best_of_the_strokes_that_can_be_had(self):
+        design = self.design("--friction", "0.3", "--machine-number", "4", "--rpm", "960", "--stroke", "4,6,9 mm", flow="3 t/h")
+        first, second, third = design["speeds_compared"]
+        self.assertEqual([round(one["stroke_mm"], 9) for one in (first, second, third)], [4, 6, 9])
+        self.assertIn("machine number", third["why_none"])
+        self.assertAlmostEqual(design["stroke_mm"], 6, 9)
+
+    def test_what_is_not_exact_is_ranked_and_the_stroke_follows_from_the_exciter(self):
+        words = ["--friction", "0.25 to 0.35", "--bulk-density", "600+-30 kg/m3", "--rpm", "960", "--vibration-angle", "28 deg", "--stroke-uncertainty",
+                 "0.2 mm", "--width", "300 mm", "--length", "3 m", "--layer-depth", "5 mm to 60 mm", "--model-discrepancy", "0.03"]
+        answer = self.call("design", "--mass-flow", "2 t/h", *words, "--trough-mass", "120 kg", "--exciter", "working 92 kg cm", "--json")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        design = json.loads(answer.stdout)
+        self.assertAlmostEqual(design["exciter"]["static_moment_kg_m"], 0.46, 12)
+        self.assertAlmostEqual(design["exciter"]["stroke_empty_mm"], 2e3 * 0.46 / 120, 9)
+        self.assertLess(design["stroke_mm"], design["exciter"]["stroke_empty_mm"])
+        budget = design["models"][0]["budget"]
+        self.assertEqual({one["source"] for one in budget}, {"friction on the trough", "bulk density", "stroke", "error of the point mass"})
+        self.assertAlmostEqual(sum(one["share_of_variance"] for one in budget), 1, 6)
+        for more, message in ((["--exciter", "92 kg cm", "--trough-mass", "120 kg"], "working 168 kg cm"), (["--spring", "9 N/mm"], "--trough-mass"),
+                              (["--exciter", "3 kN at 960", "--trough-mass", "120 kg", "--stroke", "8 mm"], "both given")):
+            answer = self.call("design", "--mass-flow", "3 t/h", *words, *more)
+            self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
+            self.assertIn(message, answer.stderr)
+
     def verify(self, *words, flow="6 t/h", wanted=0):
         """`design --verify` of a thin layer of large grains, whose simulation takes 15 s of processor time."""
         answer = self.call("design", "--mass-flow", flow, "--bulk-density", "600 kg/m3", "--width", "400 mm", "--friction", "0.3", "--rpm", "960",

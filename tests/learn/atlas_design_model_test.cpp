@@ -26,7 +26,7 @@ theory::Drive middle() {
 // The model is the atlas with what is not known in the middle of its ranges: depth 4.5, friction of grains
 // 0.55, restitution 0.55. Tolerance: rounding of the throw number.
 TEST(AtlasDesignModel, IsTheAtlas) {
-    DesignModel const model = atlas_design_model({diameter, 0.05});
+    DesignModel const model = atlas_design_model({diameter, Uncertain{0.05}});
     auto const value = model.at(middle(), 0.3).value();
     auto const known = atlas::value_at({2, 0.65, 0, 0.3, 2, 4.5, 0.55, 0.05, 0.55}).value();
     EXPECT_NEAR(value.efficiency, known.efficiency, 1e-6);
@@ -34,10 +34,10 @@ TEST(AtlasDesignModel, IsTheAtlas) {
 }
 
 TEST(AtlasDesignModel, IsLessSureWithoutTheRollingFriction) {
-    double const known = atlas_design_model({diameter, 0.1}).at(middle(), 0.3)->sd(),
+    double const known = atlas_design_model({diameter, Uncertain{0.1}}).at(middle(), 0.3)->sd(),
                  unknown = atlas_design_model({diameter, {}}).at(middle(), 0.3)->sd();
     EXPECT_GT(unknown, known);
-    EXPECT_THROW(atlas_design_model({diameter, 0.5}), core::InputError);
+    EXPECT_THROW(atlas_design_model({diameter, Uncertain{0.5}}), core::InputError);
 }
 
 TEST(AtlasDesignModel, KnowsWhereItEnds) {
@@ -62,7 +62,8 @@ TEST(AtlasDesignModel, KnowsWhereItEnds) {
 // A task within the atlas: 1.5 t/h of 3 mm grains on 200 mm, in a layer of 9 to 18 mm.
 TEST(AtlasDesignModel, DesignsAMachine) {
     DesignTask task{};
-    task.models = {atlas_design_model({diameter, 0.05})};
+    task.models = {atlas_design_model({diameter, Uncertain{0.05}})};
+    task.space.vibration_angle = {0.6, 0.6};
     task.friction = normal_friction(0.3, 0);
     task.bulk_density = 600;
     task.width = 0.2;

@@ -20,6 +20,7 @@ DesignTask trough_of_pellets(double tonnes_per_hour) {
     DesignTask task{};
     task.space.frequency = {16, 16};
     task.space.max_machine_number = 4;
+    task.space.vibration_angle = {0.49, 0.49};  // 28 degrees: a throw number of 1.88 with 4 g
     task.friction = normal_friction(0.3, 0);
     task.bulk_density = 600;
     task.width = 0.4;
@@ -29,7 +30,8 @@ DesignTask trough_of_pellets(double tonnes_per_hour) {
 }
 
 ModelsToChoose all_models() {
-    return {atlas_design_model({pellet, 0.1}), "", rolling_layer_design_model(), point_mass_design_model()};
+    return {atlas_design_model({pellet, Uncertain{0.1}}), "", rolling_layer_design_model(),
+            point_mass_design_model()};
 }
 
 std::vector<std::string> names(std::vector<ModelForecast> const& forecasts) {

@@ -23,6 +23,8 @@ SCREEN = (1300, 1000)
 def forecast(name, median):
     shares = np.arange(1, 40) / 40
     return {"model": name, "median_speed_m_per_s": median, "sure_speed_m_per_s": 0.8 * median, "mass_flow_t_per_h": 60 * median,
+            "budget": [{"source": "rolling friction (not given: 0 to 0.2)", "sd_t_per_h": 0.6, "share_of_variance": 0.64, "sure_if_known_t_per_h": 0.4},
+                       {"source": "friction on the trough", "sd_t_per_h": 0.4, "share_of_variance": 0.3, "sure_if_known_t_per_h": 0.1}],
             "mass_flow_low_t_per_h": 46 * median, "mass_flow_high_t_per_h": 74 * median, "probability": 0.962,
             "mass_flow_quantiles_t_per_h": list(60 * median * (0.8 + 0.4 * shares))}
 
@@ -36,6 +38,7 @@ def design():
         "mass_flow_wanted_t_per_h": 12.0, "confidence": 0.95, "probability": 0.962, "sure_speed_m_per_s": 0.19,
         "untested": None, "objective": "least-machine-number", "models": [forecast("the point mass", 0.24), forecast("the rolling-layer law", 0.29)],
         "models_beside": [forecast("the atlas", 0.3) | {"probability": None, "sure_speed_m_per_s": None, "mass_flow_quantiles_t_per_h": []}],
+        "exciter": {"static_moment_kg_m": 0.84, "centrifugal_force_n": 5074.0, "stroke_empty_mm": 12.9},
         "active_limits": ["layer depth <= 40 mm", "landing speed <= 0.3 m/s"],
         "rules_of_thumb": [
             {"rule": "v = 3.81 N S, of which 70 to 80 % are used in practice", "source": "Daesung Machinery", "speed_m_per_s": 0.292,
@@ -132,7 +135,7 @@ def main(scripts, work):
     work = pathlib.Path(work).resolve() / "decision_page"
     work.mkdir(parents=True, exist_ok=True)
     pages = {}
-    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung",
+    for data, expected in ((design(), ["12.4 mm", "742 1/min", "31.5\u00b0", "38.7 mm", "landing speed \u2264 0.3 m/s", "allowed 20 to 40\u00b0", "fixed", "96.2 %", "Daesung", "840 kg mm", "5.07 kN; 12.9 mm when empty",
                                     "the atlas (for comparison)0.3not known18not knownnot known"]),
                            (deep_design(), ["Not tested: no probability is known.", "the point mass0.24not known14.4not knownnot known"]),
                            (calibration(), ["0.45", "0.39 to 0.51 (95 %)", "R-hat up to 1.002", "0.0601 \u00b1 0.003"])):

@@ -10,9 +10,12 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "learn/design_report.hpp"
+#include "learn/driven_design.hpp"
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -39,6 +42,11 @@ learn::DesignTask read_task(DesignArguments const& options) {
             "--rolling-friction: neither the point mass nor the rolling-layer law knows it; write --model "
             "atlas, --verify or --campaign as well, or leave it out");
     if (!options.verify) return task;
+    if (task.machine && task.machine->exciter)
+        throw core::InputError(
+            "--verify: proposes machines with other strokes than the exciter gives; verify the machine that "
+            "it "
+            "gives by --stroke");
     if (!task.grain_diameter)
         throw core::InputError(
             "--verify: simulates the layer and needs the size of its grains; write "
@@ -62,14 +70,27 @@ learn::DesignTask read_task(DesignArguments const& options) {
     return task;
 }
 
+/// The machine that the models propose, whose stroke follows from the exciter if there is one.
+learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTask const& task) {
+    auto const models = options.task.models_to_choose(task);
+    auto const find = [&](learn::DesignTask const& one) {
+        return models ? choose_machine(one, *models) : learn::ChosenDesign{one, propose_machine(one)};
+    };
+    if (!task.machine || !task.machine->exciter) return find(task);
+    try {
+        return learn::design_with_exciter(task, find);
+    } catch (std::invalid_argument const& error) {
+        throw core::InputError(fmt::format("--exciter: {}", error.what()));
+    }
+}
+
 /// Verifies the design unless it was not asked for; tells how.
 VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask task) {
-    if (auto const models = options.task.models_to_choose(task)) {
-        learn::ChosenDesign chosen = choose_machine(task, *models);
-        if (!options.verify) return {std::move(chosen.task), std::move(chosen.design), {}};
-        task = std::move(chosen.task);
+    if (!options.verify || options.task.models_to_choose(task)) {
+        learn::ChosenDesign found = find_machine(options, task);
+        if (!options.verify) return {std::move(found.task), std::move(found.design), {}};
+        task = std::move(found.task);
     }
-    if (!options.verify) return {task, propose_machine(task), {}};
     VerificationOptions how = options.verification;
     if (options.budget) how.budget = read_core_time(*options.budget);
     if (options.jobs) how.jobs = read_count("--jobs", *options.jobs, "2", 1, 10000);
@@ -132,7 +153,7 @@ void add_verification(CLI::App& command, DesignArguments& options) {
 constexpr char const* help =
     R"(Answers: which stroke, speed and angle carry this mass flow on this trough, and how sure is that?
 
-1. The friction is never known exactly. Give it with its standard uncertainty, or give the speeds that you
+1. The friction is never known exactly. Give it with its standard uncertainty (0.3+-0.03), or give the speeds that you
 measured on another machine to 'vibrotrough theory calibrate' and its file to --posterior.
 
 2. No model is exact either: each misses the truth by its discrepancy. Speed and mass flow therefore have a
@@ -155,6 +176,9 @@ point mass, and the others stand beside it.
 The rules of thumb beside the answer know neither friction nor depth. --campaign writes the campaign file that
 checks the design with grains; its grains are assumed, so put in what you know of yours.
 
+The answer ranks what is uncertain by what it leaves open of the mass flow: what to measure first. With
+--trough-mass it tells the exciter that is needed, and with --exciter the stroke follows from it.
+
 5. Where no machine carries the mass flow so surely, the answer says how wide a trough would, or how many side by
 side. Where the limits exclude every machine, each one that alone would have to give way is named, with the value.
 
@@ -163,8 +187,8 @@ the ends of its central 95 %. The models are corrected with what the layers say,
 until a machine's simulation agrees with what was promised of it and its mass flow is reached so surely. Of the grains
 their diameter and rolling friction are yours; the rest is assumed, as machine_N.toml in the folder says.
 
-A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds of the drive (--rpm 960,1450,2900)
-a machine is found for each; the best by the objective is printed, and what the others gave.
+A range is "LOW to HIGH"; a single value fixes the quantity. With several speeds or strokes of the drive
+(--rpm 960,1450,2900, --stroke "6,8,10 mm") a machine is found for each; the best by the objective is printed, and what the others gave.
 
 Exit codes:
     0  the mass flow is reached

@@ -1,6 +1,7 @@
 #include "app/commands/design_options.hpp"
 
 #include "app/commands/calibration_options.hpp"
+#include "app/commands/uncertain_options.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
@@ -47,6 +48,23 @@ std::vector<double> read_listed_speeds(Text const& rpm) {
     return frequencies;
 }
 
+/// m, of a list of strokes such as "6,8,10 mm" or "6 mm, 8 mm"; empty when the text is a range or one number.
+std::vector<double> read_listed_amplitudes(Text const& stroke) {
+    constexpr std::ptrdiff_t sure_commas = 2;  // one may be decimal
+    bool const is_list = stroke && (std::ranges::count(*stroke, ',') >= sure_commas ||
+                                    stroke->find("m,") != std::string::npos);
+    std::vector<double> amplitudes;
+    if (!is_list) return amplitudes;
+    std::string const unit = stroke->substr(stroke->find_last_of("0123456789.") + 1);
+    std::stringstream pieces(*stroke);
+    for (std::string piece; std::getline(pieces, piece, ',');) {
+        bool const has_unit = piece.find('m') != std::string::npos;
+        amplitudes.push_back(
+            read_positive_quantity("--stroke", has_unit ? piece : piece + unit, "m", "6,8,10 mm") / 2);
+    }
+    return amplitudes;
+}
+
 theory::DriveSpace read_space(DesignOptions const& o) {
     theory::DriveSpace space;
     auto const quantity = [](char const* option, char const* unit, char const* example) {
@@ -69,7 +87,10 @@ theory::DriveSpace read_space(DesignOptions const& o) {
         space.frequency =
             read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
     }
-    if (o.stroke) {
+    if (auto const listed = read_listed_amplitudes(o.stroke); !listed.empty()) {
+        auto const [low, high] = std::ranges::minmax(listed);
+        space.amplitude = {low, high};
+    } else if (o.stroke) {
         char const* const example = "2 mm to 16 mm";
         space.amplitude = read_range("--stroke", *o.stroke, example, quantity("--stroke", "m", example));
         space.amplitude = {space.amplitude.low / 2, space.amplitude.high / 2};
@@ -90,6 +111,30 @@ theory::DriveSpace read_space(DesignOptions const& o) {
     if (o.throw_number)
         space.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
     return space;
+}
+
+learn::SettingErrors read_errors(DesignOptions const& o, double bulk_density) {
+    learn::SettingErrors errors{.bulk_density = bulk_density};
+    if (o.stroke_uncertainty)
+        errors.amplitude =
+            read_positive_quantity("--stroke-uncertainty", *o.stroke_uncertainty, "m", "0.2 mm") / 2;
+    if (o.angle_uncertainty)
+        errors.vibration_angle = read_angle("--angle-uncertainty", *o.angle_uncertainty, "0.5 deg", 0, 20);
+    return errors;
+}
+
+/// @throws core::InputError when the stroke cannot follow from the exciter
+void check_exciter(DesignOptions const& o, learn::DesignTask const& task) {
+    required("--length", o.length, "\"3 m\"");
+    if (!task.machine->exciter) return;
+    refuse_both("--exciter", o.exciter.exciter(), "--stroke", o.stroke);
+    refuse_both("--exciter", o.exciter.exciter(), "--amplitude", o.amplitude);
+    bool const is_one_speed =
+        task.frequencies.empty() && task.space.frequency.low == task.space.frequency.high;
+    if (task.machine->spring > 0 && !is_one_speed)
+        throw core::InputError(
+            "--spring: with springs the stroke depends on the speed of the drive; write one, for example "
+            "--rpm 960");
 }
 
 /// Values of the surface's inputs that the user gave: numbers by whole key, and words.
@@ -133,6 +178,7 @@ learn::DesignModel read_surface(DesignOptions const& o, learn::KnownFriction con
 void DesignOptions::add_to(CLI::App& command) {
     add_material(command);
     add_limits(command);
+    exciter.add_to(command);
     command.add_option("--objective", objective, "What the machine is to be best at")
         ->check(CLI::IsMember({"fastest", "gentlest-landing", "least-machine-number", "least-power"}))
         ->capture_default_str();
@@ -173,19 +219,27 @@ void DesignOptions::add_material(CLI::App& command) {
         command.add_option(name, text, help)->group("The task");
     };
     add("--mass-flow", mass_flow, "To be reached, for example \"12 t/h\", or by volume \"20 m3/h\"");
-    add("--bulk-density", bulk_density, "Of the material, for example \"600 kg/m3\"");
+    add("--bulk-density", bulk_density,
+        "Of the material, for example \"600 kg/m3\", \"600+-30 kg/m3\" or \"550 to 650 kg/m3\"");
     add("--width", width, "Of the trough, for example \"300 mm\"");
     add("--length", length, "Of the trough, for power and time, for example \"3 m\"");
     add("--layer-depth", depth, "Range of the layer's depth; default: \"2 mm to 100 mm\"");
-    add("--friction", friction, "mu, friction coefficient of the material on the trough");
+    add("--friction", friction,
+        "mu, friction coefficient of the material on the trough: 0.3, with its standard uncertainty "
+        "0.3+-0.03, "
+        "or anything within a range, \"0.25 to 0.35\"");
     add("--friction-uncertainty", friction_uncertainty,
-        "Its standard uncertainty (one standard deviation); default: 0");
+        "Its standard uncertainty (one standard deviation), instead of +-; default: 0");
     add("--grain-diameter", grain_diameter,
         "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
         "default is \"3 mm\"");
     add("--rolling-friction", rolling_friction,
-        "Of the grains, for the atlas and for layers that are simulated; default: not known, for the "
-        "atlas anything between 0 and 0.2, and 0 in the campaign");
+        "Of the grains, for the atlas and for layers that are simulated, written like --friction; default: "
+        "not "
+        "known, for the atlas anything between 0 and 0.2, and 0 in the campaign");
+    add("--grain-friction", grain_friction,
+        "Friction between the grains, for the atlas, written like --friction; default: not known, anything "
+        "between 0.3 and 0.8");
     add("--posterior", posterior,
         "In place of both: the file that 'vibrotrough theory calibrate --posterior FILE' wrote, or what its "
         "--json printed");
@@ -195,7 +249,9 @@ void DesignOptions::add_limits(CLI::App& command) {
     auto const add = [&](char const* name, Text& text, char const* help) {
         command.add_option(name, text, help)->group("The machine's limits");
     };
-    add("--stroke", stroke, "Range of 2 r; default: \"1 mm to 30 mm\"");
+    add("--stroke", stroke,
+        "Range of 2 r, or the strokes that can be had, such as \"6,8,10 mm\", of which the best is chosen; "
+        "default: \"1 mm to 30 mm\"");
     add("--amplitude", amplitude, "Range of r, half the stroke, instead of --stroke");
     add("--rpm", rpm,
         "Range of the drive's turns per minute, or the speeds that can be had, such as 960,1450,2900, of "
@@ -204,6 +260,10 @@ void DesignOptions::add_limits(CLI::App& command) {
     add("--frequency", frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
     add("--vibration-angle", vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
     add("--inclination", inclination, "Range of alpha, uphill positive; default: level");
+    add("--stroke-uncertainty", stroke_uncertainty,
+        "Standard uncertainty of the stroke as it is set, for example \"0.2 mm\"; default: exact");
+    add("--angle-uncertainty", angle_uncertainty,
+        "Standard uncertainty of the vibration angle as it is set, for example \"0.5 deg\"; default: exact");
     add("--machine-number", machine_number,
         "Largest machine number K = omega^2 r / g that the structure bears; default: 5");
     add("--throw-number", throw_number,
@@ -221,12 +281,14 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
         calibrated_model = read.model;
         return read.friction;
     }
-    double const median =
-        read_number_within("--friction", required("--friction", friction, "0.3"), "0.3", 0.01, 10);
-    double const sd = friction_uncertainty
-                          ? read_number_within("--friction-uncertainty", *friction_uncertainty, "0.03", 0, 1)
-                          : 0;
-    return learn::normal_friction(median, sd);
+    learn::Uncertain known =
+        read_uncertain_number("--friction", required("--friction", friction, "0.3"), "0.3", 0.01, 10);
+    if (friction_uncertainty) {
+        if (known.sd > 0) refuse_both("--friction", friction, "--friction-uncertainty", friction_uncertainty);
+        known.sd = read_number_within("--friction-uncertainty", *friction_uncertainty, "0.03", 0, 1);
+    }
+    return known.shape == learn::Shape::uniform ? learn::friction_between(known.low(), known.high())
+                                                : learn::normal_friction(known.mean, known.sd);
 }
 
 learn::KnownGrains DesignOptions::read_grains() const {
@@ -236,7 +298,10 @@ learn::KnownGrains DesignOptions::read_grains() const {
             "--grain-diameter \"3 mm\"");
     learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm")};
     if (rolling_friction)
-        grains.rolling_friction = read_number_within("--rolling-friction", *rolling_friction, "0.05", 0, 1);
+        grains.rolling_friction =
+            read_uncertain_number("--rolling-friction", *rolling_friction, "0.05", 0, 1);
+    if (grain_friction)
+        grains.friction = read_uncertain_number("--grain-friction", *grain_friction, "0.5", 0, 10);
     return grains;
 }
 
@@ -252,7 +317,7 @@ std::optional<learn::ModelsToChoose> DesignOptions::models_to_choose(learn::Desi
     learn::ModelsToChoose choice{
         {}, "", learn::rolling_layer_design_model({}, missed), learn::point_mass_design_model(missed)};
     try {
-        choice.atlas = learn::atlas_design_model(read_grains(), missed.value_or(0));
+        choice.atlas = learn::atlas_design_model(read_grains(), missed.value_or(0), task.friction.median);
     } catch (core::InputError const& error) {
         choice.why_no_atlas = error.what();
     }
@@ -277,7 +342,7 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         else if (name == "rolling-layer")
             all.push_back(learn::rolling_layer_design_model({}, missed));
         else if (name == "atlas")
-            all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0)));
+            all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
             all.push_back(read_surface(*this, known, missed.value_or(0)));
     }
@@ -292,11 +357,17 @@ learn::DesignTask DesignOptions::task() const {
     learn::DesignTask task{};
     task.space = read_space(*this);
     task.frequencies = read_listed_speeds(rpm);
+    task.amplitudes = read_listed_amplitudes(stroke);
     std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
-    task.bulk_density = quantity("--bulk-density", bulk_density, "kg/m3", "600 kg/m3");
+    auto const density = read_uncertain_quantity(
+        "--bulk-density", required("--bulk-density", bulk_density, "\"600 kg/m3\""), "kg/m3", "600 kg/m3");
+    task.bulk_density = density.mean;
+    task.errors = read_errors(*this, density.sd);
     task.mass_flow = read_mass_flow("--mass-flow", flow, task.bulk_density);
     task.width = quantity("--width", width, "m", "300 mm");
     if (length) task.length = quantity("--length", length, "m", "3 m");
+    task.machine = exciter.machine();
+    if (task.machine) check_exciter(*this, task);
     if (landing_speed) task.landing_speed = quantity("--landing-speed", landing_speed, "m/s", "0.3 m/s");
     if (confidence) task.confidence = read_number_within("--confidence", *confidence, "0.95", 0.5, 0.999);
     if (depth)
@@ -305,7 +376,7 @@ learn::DesignTask DesignOptions::task() const {
         });
     if (grain_diameter)
         task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
-    if (rolling_friction) task.rolling_friction = read_grains().rolling_friction;
+    if (rolling_friction) task.rolling_friction = read_grains().rolling_friction->mean;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     task.models = read_models(task.friction);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/commands/exciter_options.hpp"
 #include "app/commands/theory/options.hpp"
 #include "learn/atlas_design_model.hpp"
 #include "learn/model_choice.hpp"
@@ -18,10 +19,12 @@ namespace vibrotrough::app {
 struct DesignOptions {
     Text mass_flow, bulk_density, width, length, depth;                    ///< what is to be carried
     Text friction, friction_uncertainty, posterior;                        ///< of the material
-    Text grain_diameter, rolling_friction;                                 ///< of its grains
+    Text grain_diameter, rolling_friction, grain_friction;                 ///< of its grains
+    Text stroke_uncertainty, angle_uncertainty;                            ///< of what the machine is set to
     Text rpm, frequency, stroke, amplitude, vibration_angle, inclination;  ///< ranges of the drive
     Text machine_number, throw_number, landing_speed;                      ///< largest values
     Text confidence, discrepancy;                                          ///< of the answer
+    ExciterOptions exciter;                                                ///< and springs
     std::vector<std::string> models;    ///< point-mass, rolling-layer, atlas, surface
     std::string surface;                ///< folder of the campaign of the surface
     std::vector<std::string> places;    ///< KEY=VALUE of the surface's other inputs

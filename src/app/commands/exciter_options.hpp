@@ -1,0 +1,25 @@
+#pragma once
+
+#include "app/commands/theory/options.hpp"
+#include "learn/exciter.hpp"
+
+#include <optional>
+
+namespace vibrotrough::app {
+
+/// The options of `vibrotrough design` that describe what moves the trough.
+class ExciterOptions {
+  public:
+    /// Declares the options of the command.
+    void add_to(CLI::App& command);
+    /// The machine; nothing without --trough-mass.
+    /// @throws core::InputError when an option is wrong, or one that needs the mass stands alone
+    std::optional<learn::MovedMachine> machine() const;
+    /// The text of --exciter.
+    Text const& exciter() const { return exciter_; }
+
+  private:
+    Text trough_mass_, exciter_, spring_, added_mass_;
+};
+
+}  // namespace vibrotrough::app

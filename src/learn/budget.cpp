@@ -1,0 +1,81 @@
+#include "learn/budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+/// A source that every part of the friction has: standard deviations in m/s, one for each part.
+struct SourceInParts {
+    std::string name;
+    std::vector<double> sds;
+};
+
+double root_mean_square(SpeedDistribution const& speeds, std::vector<double> const& sds) {
+    double sum = 0;
+    for (std::size_t i = 0; i < sds.size(); ++i) sum += speeds.shares[i] * sds[i] * sds[i];
+    return std::sqrt(sum);
+}
+
+/// What the model itself, its unknown grains and the settings of the machine leave open.
+std::vector<SourceInParts> sources_in_parts(RiskSearch const& search, DesignModel const& model,
+                                            theory::Drive const& drive, SpeedDistribution const& speeds) {
+    std::size_t const count = speeds.means.size();
+    std::vector<SourceInParts> all;
+    if (model.sources)
+        for (OwnSource const& one : model.sources(drive))
+            all.push_back({one.name, std::vector<double>(count, one.sd * drive.trough_speed())});
+    SettingSpread const spread = search.spread_of_settings(drive, model);
+    all.push_back({"stroke", std::vector<double>(count, spread.amplitude)});
+    all.push_back({"vibration angle", std::vector<double>(count, spread.vibration_angle)});
+    std::vector<double> density;
+    for (double const mean : speeds.means) density.push_back(spread.bulk_density * std::abs(mean));
+    all.push_back({"bulk density", density});
+    std::vector<double> rest;
+    for (std::size_t i = 0; i < count; ++i) {
+        double variance = speeds.sds[i] * speeds.sds[i];
+        for (SourceInParts const& one : all) variance -= one.sds[i] * one.sds[i];
+        rest.push_back(std::sqrt(std::max(0.0, variance)));
+    }
+    all.push_back({fmt::format("error of {}", model.name), rest});
+    return all;
+}
+
+/// The speeds if one of the sources in every part were known.
+SpeedDistribution without(SpeedDistribution speeds, SourceInParts const& source) {
+    for (std::size_t i = 0; i < speeds.sds.size(); ++i)
+        speeds.sds[i] =
+            std::sqrt(std::max(0.0, speeds.sds[i] * speeds.sds[i] - source.sds[i] * source.sds[i]));
+    return speeds;
+}
+
+}  // namespace
+
+std::vector<BudgetShare> budget_of(RiskSearch const& search, DesignModel const& model,
+                                   theory::Drive const& drive, double depth) {
+    DesignTask const& task = search.task();
+    std::optional<double> in_grains;
+    if (task.grain_diameter) in_grains = depth / *task.grain_diameter;
+    SpeedDistribution const speeds = search.speeds(drive, model, in_grains);
+    auto const median = model.at(drive, task.friction.median);
+    if (!median || std::ranges::any_of(speeds.means, [](double mean) { return mean < -100; })) return {};
+    double const flow = task.bulk_density * task.width * depth;
+    double const sure = speeds.exceeded_with(task.confidence);
+    std::vector<BudgetShare> all;
+    auto const add = [&](std::string const& source, double sd, SpeedDistribution const& known) {
+        if (sd > 1e-9 * drive.trough_speed())
+            all.push_back({source, flow * sd, flow * (known.exceeded_with(task.confidence) - sure)});
+    };
+    SpeedDistribution const one_friction{
+        {1}, {median->efficiency * drive.trough_speed()}, {root_mean_square(speeds, speeds.sds)}};
+    add("friction on the trough", speeds.sd_of_means(), one_friction);
+    for (SourceInParts const& one : sources_in_parts(search, model, drive, speeds))
+        add(one.name, root_mean_square(speeds, one.sds), without(speeds, one));
+    std::ranges::sort(all, std::greater(), &BudgetShare::sd);
+    return all;
+}
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "learn/model_choice.hpp"
+
+#include <functional>
+
+namespace vibrotrough::learn {
+
+/// kg, of the material on the trough of a task. @param depth  m, of the layer
+double material_on(DesignTask const& task, double depth);
+
+/// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter
+/// gives under the layer of the machine found before, until it stays within a thousandth. It begins with the
+/// empty trough, which keeps the limits, too. What is not known
+/// of the added mass counts as an error of the stroke.
+/// @param task  with a machine that has an exciter, the length of the trough, and, where the machine has
+///   springs, one frequency
+/// @param find  searches for a machine
+/// @throws as `find` and amplitude_of() do
+ChosenDesign design_with_exciter(DesignTask const& task,
+                                 std::function<ChosenDesign(DesignTask const&)> const& find);
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,58 @@
+#include "learn/exciter.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double near_resonance = 0.2;  // of its frequency
+
+double squared_omega(double frequency) {
+    double const omega = 2 * std::numbers::pi * frequency;
+    return omega * omega;
+}
+
+/// kg, what acts like a mass: inertia less the springs.
+double effective_mass(MovedMachine const& machine, double frequency, double material) {
+    double const resonance = resonance_of(machine, material);
+    if (resonance > 0 && std::abs(frequency / resonance - 1) < near_resonance)
+        throw std::invalid_argument(
+            fmt::format("the drive at {:.4g} 1/min is too near to the resonance of the springs at {:.4g} "
+                        "1/min: the stroke depends on damping there, which is not known",
+                        60 * frequency, 60 * resonance));
+    return std::abs(machine.moving_mass(material) - machine.spring / squared_omega(frequency));
+}
+
+}  // namespace
+
+Exciter exciter_of_force(double force, double frequency) {
+    return {force / squared_omega(frequency)};
+}
+
+double force_of(Exciter const& exciter, double frequency) {
+    return exciter.static_moment * squared_omega(frequency);
+}
+
+double resonance_of(MovedMachine const& machine, double material) {
+    return std::sqrt(machine.spring / machine.moving_mass(material)) / (2 * std::numbers::pi);
+}
+
+double amplitude_of(MovedMachine const& machine, double frequency, double material) {
+    if (!machine.exciter) throw std::invalid_argument("there is no exciter");
+    return machine.exciter->static_moment / effective_mass(machine, frequency, material);
+}
+
+Exciter exciter_needed(MovedMachine const& machine, double frequency, double material, double amplitude) {
+    return {amplitude * effective_mass(machine, frequency, material)};
+}
+
+double usual_drive_power(double mass, double amplitude, double frequency) {
+    double const force = mass * amplitude * squared_omega(frequency);
+    return force * amplitude * 2 * std::numbers::pi * frequency / std::numbers::sqrt2;
+}
+
+}  // namespace vibrotrough::learn

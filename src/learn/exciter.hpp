@@ -1,0 +1,58 @@
+#pragma once
+
+#include "learn/uncertain.hpp"
+
+#include <optional>
+
+namespace vibrotrough::learn {
+
+/// Unbalanced motors. Their static moment is the sum of unbalanced mass times its distance from the shaft, of
+/// all motors together.
+///
+/// Makers give one of three numbers: the static moment, which is mass times amplitude of the machine
+/// (Italvibras' M_t = e P_v, e-catalogue p. 96); the working moment, twice as much, which is mass times
+/// stroke (NetterVibration, "Formelsammlung": s = M / m and F = 54.84 M (n/1000)^2 with M in cm kg); or the
+/// centrifugal force F = m_u r omega^2 at a speed.
+struct Exciter {
+    double static_moment;  ///< kg m, of all motors together, > 0
+};
+
+/// The exciter that has a centrifugal force at a frequency. @param force  N @param frequency  Hz
+Exciter exciter_of_force(double force, double frequency);
+
+/// N, the centrifugal force of an exciter at a frequency in Hz: F = m_u r omega^2. Two motors that turn
+/// against each other give it along a line.
+double force_of(Exciter const& exciter, double frequency);
+
+/// The mass that an exciter moves, and its springs.
+struct MovedMachine {
+    double mass;                     ///< kg, of trough, motors and all that moves with them, without material
+    double spring = 0;               ///< N/m, of all springs in the direction of vibration; 0 when very soft
+    std::optional<Exciter> exciter;  ///< nothing: the one that is needed is looked for
+    /// The part of the material's mass that moves with the trough. NetterVibration counts 10 to 25 % of the
+    /// load of troughs; simulated layers have 16 % at a throw number of 1.7 and 2 % at 3 (validation/demo).
+    Uncertain added_mass = between_ends(0.10, 0.25);
+
+    /// kg, that move with some material on the trough. @param material  kg
+    double moving_mass(double material) const { return mass + added_mass.mean * material; }
+};
+
+/// m, the amplitude that an exciter gives: A = m_u r omega^2 / |k - m omega^2|, the undamped response of one
+/// mass on springs. Far above the resonance it is m_u r / m, whatever the frequency.
+/// @param material  kg, on the trough
+/// @throws std::invalid_argument without an exciter, and within a fifth of the frequency of the resonance,
+///   where the amplitude depends on the damping
+double amplitude_of(MovedMachine const& machine, double frequency, double material);
+
+/// The exciter that gives an amplitude, as above. @param amplitude  m
+Exciter exciter_needed(MovedMachine const& machine, double frequency, double material, double amplitude);
+
+/// Hz, of the resonance of the springs with the moving mass; 0 without springs.
+double resonance_of(MovedMachine const& machine, double material);
+
+/// W, that makers of crank drives install for a moved mass: F A omega / sqrt(2), with F the largest
+/// acceleration times the mass. It reproduces the "drive capacity" of ROSTA's example (Oscillating
+/// Mountings, p. 2.22).
+double usual_drive_power(double mass, double amplitude, double frequency);
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+
+namespace vibrotrough::learn {
+
+/// What is known of a number that is not known exactly.
+enum class Shape {
+    normal,   ///< a normal distribution
+    uniform,  ///< anything between two ends, mean - sqrt(3) sd and mean + sqrt(3) sd
+};
+
+/// A number that is not known exactly.
+struct Uncertain {
+    double mean;                  ///< of its distribution
+    double sd = 0;                ///< its standard uncertainty, >= 0
+    Shape shape = Shape::normal;  ///< of its distribution
+
+    double low() const;   ///< end of a uniform distribution
+    double high() const;  ///< the other end
+};
+
+/// Anything between two ends. @throws std::invalid_argument when low > high
+Uncertain between_ends(double low, double high);
+
+/// A value of a distribution and its share.
+struct UncertainNode {
+    double share;  ///< of the distribution
+    double value;  ///< in its middle
+};
+
+/// Three values that stand for a distribution: the nodes of Gauss' quadrature, exact for means of polynomials
+/// up to the fifth degree (M. Abramowitz and I.A. Stegun, Handbook of Mathematical Functions, 25.4.29 and
+/// 25.4.46).
+std::array<UncertainNode, 3> nodes_of(Uncertain const& number);
+
+}  // namespace vibrotrough::learn

@@ -1,0 +1,60 @@
+#include "learn/driven_design.hpp"
+
+#include "learn/design_report.hpp"
+#include "learn/pellets.hpp"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vibrotrough::learn {
+namespace {
+
+/// 2 t/h of pellets on a trough of 120 kg with unbalanced motors, at 960/min and 28 degrees.
+DesignTask driven_trough() {
+    DesignTask task = pellets();
+    task.mass_flow = 2 / 3.6;
+    task.models = {point_mass_design_model(0.03)};
+    task.space.frequency = {16, 16};
+    task.space.vibration_angle = {0.49, 0.49};
+    task.machine = MovedMachine{120, 0, Exciter{0.46}};
+    return task;
+}
+
+ChosenDesign proposed(DesignTask const& task) {
+    return {task, design_with_risk(task)};
+}
+
+// The stroke is what the exciter gives under the layer that carries the mass flow, which is less than when
+// the trough is empty; and what is not known of the added mass is one of the sources of the uncertainty.
+TEST(DrivenDesign, StrokeFollowsFromTheExciterUnderTheLayer) {
+    auto const [task, design] = design_with_exciter(driven_trough(), proposed);
+    ASSERT_TRUE(design.feasible);
+    double const material = 600 * 0.3 * 3 * design.depth, moved = 120 + 0.175 * material;
+    EXPECT_NEAR(material_on(task, design.depth), material, 1e-9);
+    EXPECT_NEAR(design.drive.amplitude, 0.46 / moved, 1.5e-3 * 0.46 / moved);
+    EXPECT_LT(design.drive.amplitude, 0.995 * 0.46 / 120);
+    EXPECT_THAT(design.forecasts.front().budget,
+                testing::Contains(testing::Field(&BudgetShare::source, "stroke")));
+    auto const json = design_json(task, design).at("exciter");
+    EXPECT_NEAR(json.at("stroke_empty_mm").get<double>(), 2e3 * 0.46 / 120, 1e-9);
+    EXPECT_THAT(design_text(task, design),
+                testing::HasSubstr("static moment 460 kg mm (working moment 92 cm kg)"));
+}
+
+// Without an exciter the one is told that gives the stroke.
+TEST(DrivenDesign, TellsTheExciterThatIsNeeded) {
+    DesignTask task = driven_trough();
+    task.machine->exciter.reset();
+    task.space.amplitude = {0.0035, 0.0035};
+    RiskDesign const design = design_with_risk(task);
+    double const moved = 120 + 0.175 * 600 * 0.3 * 3 * design.depth;
+    auto const json = design_json(task, design).at("exciter");
+    EXPECT_NEAR(json.at("static_moment_kg_m").get<double>(), 0.0035 * moved, 1e-9);
+    EXPECT_FALSE(json.at("is_given"));
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn

@@ -1,0 +1,80 @@
+#include "learn/exciter.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace vibrotrough::learn {
+namespace {
+
+constexpr double omega_at_1000 = 2 * std::numbers::pi * 1000 / 60;
+
+// NetterVibration, "Formelsammlung" (netter-vibration.com): stroke s = M / m with the working moment M, twice
+// the static one, F = 54.84 M (n/1000)^2 with M in cm kg, and a = 5.59 s (n/1000)^2 in g with s in cm. A
+// machine of 180 kg with 150 kg of material, of which 20 % count, and a working moment of 168 cm kg: 8 mm.
+// Their 54.84 is 54.831, their 5.59 is 5.5895.
+TEST(Exciter, IsThatOfNetterVibration) {
+    MovedMachine machine{180, 0, Exciter{1.68 / 2}, {0.2}};
+    double const amplitude = amplitude_of(machine, 16, 150);
+    EXPECT_NEAR(2 * amplitude, 0.008, 1e-12);
+    double const n = 0.96;  // 1000/min
+    EXPECT_NEAR(force_of(*machine.exciter, 16), 54.84 * 168 * n * n, 2e-4 * 54.84 * 168 * n * n);
+    double const acceleration = amplitude * std::pow(n * omega_at_1000, 2) / 9.81;
+    EXPECT_NEAR(acceleration, 5.59 * 0.8 * n * n, 1e-3 * acceleration);
+    EXPECT_NEAR(exciter_needed(machine, 16, 150, amplitude).static_moment, 0.84, 1e-12);
+    EXPECT_NEAR(exciter_of_force(force_of(*machine.exciter, 16), 16).static_moment, 0.84, 1e-12);
+}
+
+// Deca Vibrator Industries, "How much vibrator do you need": the stroke in inches is c F / W with F and W in
+// pounds and c = 0.0945, 0.0530, 0.0236, 0.0059 at 864, 1152, 1728 and 3456 cycles a minute. Gravity is
+// 386.09 in/s2. Their digits: 0.0945 is 0.2 % more than their formula for any speed, 1 / (14.2 (n/1000)^2).
+TEST(Exciter, IsThatOfDecaVibrator) {
+    constexpr double inch = 0.0254, pound = 0.45359237;
+    for (auto const& [cycles, coefficient] :
+         {std::pair{864.0, 0.0945}, {1152.0, 0.0530}, {1728.0, 0.0236}, {3456.0, 0.0059}}) {
+        double const weight = 400 * pound, force = 1000 * pound * 9.80665;
+        MovedMachine const machine{weight, 0, exciter_of_force(force, cycles / 60), {0.0}};
+        double const stroke = 2 * amplitude_of(machine, cycles / 60, 0) / inch;
+        EXPECT_NEAR(stroke, coefficient * 1000 / 400, 0.002 * stroke) << cycles;
+        EXPECT_NEAR(stroke, 2.5 / (14.2 * std::pow(cycles / 1000, 2)), 0.002 * stroke) << cycles;
+    }
+}
+
+// ROSTA, Oscillating Mountings, p. 2.22: a trough of 200 kg with 50 kg of material, half of which is coupled,
+// so that 225 kg move by 12 mm at 340/min: machine factor 1.6, acceleration force 3423 N, total spring value
+// 285 N/mm (of a shaker in resonance), drive capacity about 1.0 kW. As many digits as are printed.
+TEST(Exciter, ReproducesRostasExample) {
+    MovedMachine machine{200, 0, {}, {0.5}};
+    double const frequency = 340 / 60.0, omega = 2 * std::numbers::pi * frequency;
+    EXPECT_NEAR(machine.moving_mass(50), 225, 1e-12);
+    Exciter const exciter = exciter_needed(machine, frequency, 50, 0.012);
+    EXPECT_NEAR(force_of(exciter, frequency), 3423, 0.5);
+    EXPECT_NEAR(0.012 * omega * omega / 9.81, 1.6, 0.05);
+    EXPECT_NEAR(usual_drive_power(225, 0.012, frequency), 1000, 50);
+    machine.spring = 285e3;
+    EXPECT_NEAR(resonance_of(machine, 50), frequency, 0.002 * frequency);
+    machine.exciter = exciter;
+    EXPECT_THROW(amplitude_of(machine, frequency, 50), std::invalid_argument);
+}
+
+// One mass on springs: above its resonance a load makes the stroke smaller, below it larger, and far from it
+// the springs do not count. At twice the resonance k = m omega^2 / 4, so that the stroke is 4/3 of that
+// without springs; at half of it k = 4 m omega^2, so that it is a third.
+TEST(Exciter, IsOneMassOnSprings) {
+    MovedMachine machine{100, 0, Exciter{0.5}, {0.2}};
+    double const free = amplitude_of(machine, 16, 0);
+    EXPECT_NEAR(free, 0.005, 1e-15);
+    double const stiffness = 100 * std::pow(2 * std::numbers::pi * 16, 2);
+    machine.spring = stiffness / 4;
+    EXPECT_NEAR(amplitude_of(machine, 16, 0), free * 4 / 3, 1e-12);
+    EXPECT_LT(amplitude_of(machine, 16, 50), amplitude_of(machine, 16, 0));
+    machine.spring = 4 * stiffness;
+    EXPECT_NEAR(amplitude_of(machine, 16, 0), free / 3, 1e-12);
+    EXPECT_GT(amplitude_of(machine, 16, 50), amplitude_of(machine, 16, 0));
+}
+
+}  // namespace
+}  // namespace vibrotrough::learn
