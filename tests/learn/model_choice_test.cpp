@@ -49,7 +49,11 @@ TEST(ModelChoice, TheAtlasDecidesWhereItKnowsTheLayer) {
     EXPECT_GE(design.depth, 3 * pellet);
     EXPECT_LE(design.depth, 6 * pellet);
     EXPECT_THAT(design_text(task, design), HasSubstr("beside it, for comparison:\nthe rolling-layer law"));
-    EXPECT_EQ(design_json(task, design).at("models_beside").at(1).at("model"), "the point mass");
+    auto const json = design_json(task, design);
+    EXPECT_EQ(json.at("models_beside").at(1).at("model"), "the point mass");
+    // The maker's rule is 0.48 to 0.55 of the trough's speed, the layer has more than 0.7.
+    EXPECT_THAT(json.at("rules_of_thumb").at(0).at("why_different").get<std::string>(),
+                testing::AllOf(HasSubstr("less than the atlas says"), HasSubstr("at throw number 1.88")));
 }
 
 // The layer that carries 12 t/h is three times as deep as those of the atlas. The law was tested there at
