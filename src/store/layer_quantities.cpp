@@ -140,8 +140,9 @@ std::vector<Quantity> motion_quantities() {
         added_later({"granular_temperature",
                      "m2/s2",
                      "Granular temperature: a third of the mean square of the grains' velocities relative to "
-                     "the mean in their slab of one diameter, over the cycle; NaN with clumps and several "
-                     "materials",
+                     "the mean in their slab of one diameter, mean over ten phases of the cycle; the peak of "
+                     "a landing is shorter than their distance, so that other phases can give several times "
+                     "as much; NaN with clumps and several materials",
                      granular_temperature(),
                      mean,
                      {{.place = 1230, .format = "{:.3g}", .position = 320}}}),

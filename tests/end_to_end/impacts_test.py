@@ -2,12 +2,20 @@
 
 import csv
 import math
+import sys
 import unittest
+from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
 
 from trough_program import EndToEndTest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "postprocess"))
+import observables  # noqa: E402
+import vibrotrough  # noqa: E402
+import vibrotrough_frames  # noqa: E402
 
 SHORT = {"measure.impacts": True, "measure.min_cycles": 24, "measure.max_cycles": 24, "output.checkpoint_cycles": 8}
 GRAVITY = 9.81
@@ -115,6 +123,23 @@ class Impacts(EndToEndTest):
         ratio = np.array([found[key][0] / expected[key] for key in both if not found[key][1]])
         self.assertAlmostEqual(np.median(ratio), 1, delta=0.01)
         self.assertAlmostEqual(sum(found[key][0] for key in both) / sum(expected[key] for key in both), 1, delta=0.05)
+
+    def test_the_granular_temperature_is_that_of_the_frames(self):
+        """What the run's bins and energies give is what the shipped observable gives of the grains at the same moments: slabs of one
+        diameter, counted from the bottom of the box and from the trough. The negative control is the mean about the layer's centre."""
+        self.run_campaign(self.write_campaign(SHORT | {"measure.packings": 1, "output.frames_per_cycle": 10, "grains.diameter_spread": 0,
+                                                       "grains.youngs_modulus": "5 MPa"}), wanted=None)  # fmt: skip
+        result = vibrotrough.open_campaign(self.output).case(next(self.output.glob("cases/*")).name)
+        case = SimpleNamespace(folder=self.packing_folder().parent, result=result)
+        packing = vibrotrough_frames.Packing(case, 1)
+        discarded, steps = int(result["packings/cycles_discarded"][0]), packing.steps_per_cycle
+        seen = [SimpleNamespace(packing=packing, frames=[one]) for one in packing.frames if one.step > discarded * steps and one.step % (3 * steps // 10) == 0]
+        self.assertGreater(len(seen), 30)
+        squares = np.mean([observables.granular_temperature(cycle) for cycle in seen])
+        about_centre = np.mean([one.frames[0].velocities.var(axis=0).mean() for one in seen])
+        measured = result["packings/granular_temperature"][0]
+        self.assertAlmostEqual(measured / squares, 1, delta=0.06)
+        self.assertGreater(about_centre / measured, 1.1)
 
     def test_the_motion_is_that_without_it(self):
         lines = []

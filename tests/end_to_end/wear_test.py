@@ -83,6 +83,57 @@ class Wear(EndToEndTest):
         again = (again["cases"] if isinstance(again, dict) else again)[0]
         self.assertEqual([again[name] for name in COLUMNS], [row[name] for name in COLUMNS])
 
+    def check_rates(self, folder, file):
+        """The rates are those of the engine's files from the end of some cycle to that of the last one. Returns that cycle."""
+        steps, case, packing = file["packings"]["steps_per_cycle"][0], file["case"][()], file["packings"][0]
+        last = packing["cycles_discarded"] + packing["cycles_measured"]
+        worn = {cycle: read_wear(folder / f"wear.{cycle * steps}.vtk") for cycle in range(last + 1)}
+        rates, area = file["wear/1"]["rate"], file["wear/1"]["area"]
+        np.testing.assert_allclose(area, worn[0]["area"], rtol=1e-9)
+        self.assertGreater(rates.max(), 0)
+        self.assertAlmostEqual(packing["wear_rate"] / ((rates * area).sum() / area.sum()), 1, delta=1e-9)
+        begins = [cycle for cycle in range(packing["cycles_discarded"], last)
+                  if np.allclose((worn[last]["wear"] - worn[cycle]["wear"]) * case["frequency"] / (last - cycle), rates, rtol=1e-9)]  # fmt: skip
+        self.assertEqual(len(begins), 1)
+        return begins[0], last
+
+    def test_an_open_trough_wears_per_mass_that_left_it(self):
+        changes = {"layer.grains": None, "layer.length": "75 mm", "feed.mass_flow": "0.05 t/h", "feed.length": "15 mm", "trough.side_wall_friction": 0,
+                   "measure.wear": True, "measure.impacts": True, "measure.packings": 1, "measure.min_cycles": 32, "measure.max_cycles": 32}  # fmt: skip
+        self.run_campaign(self.write_campaign(changes), wanted=None)
+        folder = next(iter(self.output.glob("cases/*/packing-1")))
+        with h5py.File(self.results()[0]) as file:
+            first, last = self.check_rates(folder, file)
+            packing, area, time = file["packings"][0], file["wear/1"]["area"].sum(), (last - first) / file["case"]["frequency"]
+            left = file["flow/1"]["left_mass"][first + 1 : last + 1].sum()
+            self.assertAlmostEqual(packing["specific_wear"] / (packing["wear_rate"] * area * time / (left * 0.075)), 1, delta=1e-9)
+            # Impacts are measured there as well, per mass that is held.
+            energy = np.loadtxt(folder / "impacts.csv", delimiter=",", skiprows=2)
+            held, grains = file["flow/1"]["held_mass"][[30, 32]].mean(), energy[:, 2] > 0
+            self.assertAlmostEqual(packing["impact_power"] * held * 2 / file["case"]["frequency"] / energy[grains, 3].sum(), 1, delta=0.02)
+            self.assertGreater(packing["trough_impact_power"], 0)
+
+    def test_a_mesh_of_your_own_wears_where_it_is_hit(self):
+        """A channel whose upright walls wear less than its floor."""
+        corners = [(0, 15), (0, 0), (15, 0), (15, 15)]  # y and z, mm
+        text = "solid own\n"
+        for (y0, z0), (y1, z1) in zip(corners, corners[1:]):
+            a, b, c, d = (f"vertex {x} {y} {z}" for x, y, z in ((0, y0, z0), (15, y0, z0), (15, y1, z1), (0, y1, z1)))
+            for triangle in ((a, b, c), (a, c, d)):
+                text += "facet normal 0 0 0\nouter loop\n" + "\n".join(triangle) + "\nendloop\nendfacet\n"
+        (self.folder / "own.stl").write_text(text + "endsolid own\n")
+        changes = {"trough.mesh": "own.stl", "trough.mesh_unit": "mm", "measure.packings": 1, "measure.impacts": True}
+        self.run_campaign(self.write_campaign(SHORT | changes), wanted=None)
+        folder = next(iter(self.output.glob("cases/*/packing-1")))
+        with h5py.File(self.results()[0]) as file:
+            self.check_rates(folder, file)
+            wear, power = file["wear/1"][()], file["packings"]["trough_impact_power"][0]
+        floor = wear["z"] < 1e-6
+        self.assertAlmostEqual(wear["area"][floor].sum(), 0.015 * 0.015, delta=1e-9)
+        per_area = [(wear["rate"] * wear["area"])[part].sum() / wear["area"][part].sum() for part in (floor, ~floor)]
+        self.assertGreater(per_area[0], 2 * per_area[1])
+        self.assertGreater(power, 0)
+
     def test_the_motion_is_that_without_it(self):
         lines = []
         for wear in (True, False):
