@@ -37,7 +37,7 @@ function rowsOfProposal(one) {
   const range = (low, high) => (Number.isFinite(low) && Number.isFinite(high) ? showRange(low, high, "t/h") : "\u2013");
   return models.map((model, i) => make("tr", {}, make("th", { scope: "row" }, i > 0 ? "" : one.second ? say("design_next", one.design.name) : one.design.name),
     ...["stroke_mm", "rpm", "depth_mm"].map((name) => make("td", {}, i > 0 ? "" : fieldNumber(one.settings[name]))),
-    make("td", {}, designModels[model.model] ? say(designModels[model.model]) : model.model), make("td", {}, showNumber(model.flow)),
+    make("td", {}, (designModels[model.model] ? say(designModels[model.model]) : model.model) + (model.is_beside ? ` (${say("design_beside")})` : "")), make("td", {}, showNumber(model.flow)),
     make("td", {}, range(model.flow_low, model.flow_high)), make("td", {}, percent(model.probability)),
     make("td", {}, i > 0 ? "" : make("button", { type: "button", click: () => takeProposal(one) }, say("use_case")))));
 }

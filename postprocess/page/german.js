@@ -130,6 +130,7 @@ const germanWords = {
   design_untested: "Keine Wahrscheinlichkeit ist bekannt: die Modelle wurden dort nicht geprüft.",
   design_assumed: "Der Entwurf kennt nicht, und diese Seite nimmt an: {0}.",
   design_next: "{0}, zweitbeste Drehzahl",
+  design_beside: "zum Vergleich",
   design_probability: "Wahrscheinlichkeit",
   design_now: "Wie jetzt eingestellt fördert {0} {1} t/h ({2}{3}): {4}",
   design_reach_all: "das ganze Band erreicht das Geforderte.",

@@ -130,6 +130,7 @@ const englishWords = {
   design_untested: "No probability is known: the models were not tested there.",
   design_assumed: "The design does not know, and this page assumes: {0}.",
   design_next: "{0}, second best speed of the drive",
+  design_beside: "for comparison",
   design_probability: "probability",
   design_now: "As set now, {0} carries {1} t/h ({2}{3}): {4}",
   design_reach_all: "the whole band reaches what is asked.",

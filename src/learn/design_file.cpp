@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace vibrotrough::learn {
 namespace {
@@ -46,15 +47,20 @@ Json settings_of(Json const& design, Json const& drive) {
     return settings;
 }
 
+/// What the models say that decide, and those beside them.
 Json models_of(Json const& design) {
     Json models = Json::array();
-    for (Json const& one : note::list(design, "models"))
-        models.push_back({{"model", note::line(one, "model")},
-                          {"speed", note::number(one, "median_speed_m_per_s")},
-                          {"flow", note::number(one, "mass_flow_t_per_h")},
-                          {"flow_low", or_null(note::known_number(one, "mass_flow_low_t_per_h"))},
-                          {"flow_high", or_null(note::known_number(one, "mass_flow_high_t_per_h"))},
-                          {"probability", or_null(note::known_number(one, "probability"))}});
+    for (char const* const key : {"models", "models_beside"}) {
+        bool const is_beside = key == std::string_view("models_beside");
+        for (Json const& one : note::list(design, key))
+            models.push_back({{"model", note::line(one, "model")},
+                              {"is_beside", is_beside},
+                              {"speed", note::number(one, "median_speed_m_per_s")},
+                              {"flow", note::number(one, "mass_flow_t_per_h")},
+                              {"flow_low", or_null(note::known_number(one, "mass_flow_low_t_per_h"))},
+                              {"flow_high", or_null(note::known_number(one, "mass_flow_high_t_per_h"))},
+                              {"probability", or_null(note::known_number(one, "probability"))}});
+    }
     return models;
 }
 

@@ -13,6 +13,7 @@ namespace vibrotrough::learn {
 /// {"wanted_t_per_h", "confidence", "untested", "machines": [{"rpm", "settings", "probability", "models"}],
 /// "assumed"}; a number that is not known is null. `assumed` has the names of settings that the design does
 /// not know; `models` is empty for the second machine.
+/// A model with `is_beside` decided nothing.
 /// @throws core::note::Fault when the text is something else
 nlohmann::ordered_json proposed_machines(std::string_view text);
 

@@ -40,6 +40,7 @@ class DesignTest(unittest.TestCase):
         self.assert_is(b, said)
         table = b.text("design-table")
         self.assertIn("<i>design.json", table)
+        self.assertIn("point mass (for comparison)", table)
         for probability in (said["models"][0]["probability"], second["probability"]):
             self.assertIn("not known" if probability is None else f"{100 * probability:.3g} %", table)
         self.assertIn("Asked for are 12.0 t/h with a probability of 95.0 %.", b.text("design-asked"))
@@ -64,7 +65,7 @@ class DesignTest(unittest.TestCase):
 
     def test_two_designs(self):
         """The proposals of two models side by side; files that are no design are named."""
-        first, other = self.design("mass.json"), self.design("layer.json", "--model", "rolling-layer", "--rpm", 546, code=1)  # shallower than tested
+        first, other = self.design("mass.json", "--model", "point-mass"), self.design("layer.json", "--model", "rolling-layer", "--rpm", 546, code=1)  # shallower than tested
         b = self.open_page("mass.json", "layer.json")
         self.assert_is(b, first)
         self.assertIn("rolling-layer law", b.text("design-table"))
