@@ -69,6 +69,25 @@ TEST_F(AtomicFile, HandsOnTheModeOfTheFileThatItReplaces) {
     }
 }
 
+// A user who may not give the new file to the old one's group must not hand it to a group of their own: only
+// the rights of the owner and of everybody stay.
+TEST_F(AtomicFile, ShutsOutTheGroupWhereTheOwnerCannotBeKept) {
+    if (::geteuid() != 0) GTEST_SKIP() << "needs a file of somebody else";
+    constexpr uid_t nobody = 65534;
+    std::ofstream(folder / "a") << "old";
+    ASSERT_EQ(::chmod((folder / "a").c_str(), 0664), 0);
+    ASSERT_EQ(::chown(folder.c_str(), nobody, nobody), 0);
+    ASSERT_EQ(::setegid(nobody), 0);
+    ASSERT_EQ(::seteuid(nobody), 0);
+    EXPECT_NO_THROW(core::write_file_atomically(folder / "a", "new"));
+    ASSERT_EQ(::seteuid(0), 0);
+    ASSERT_EQ(::setegid(0), 0);
+    struct stat status {};
+    ASSERT_EQ(::stat((folder / "a").c_str(), &status), 0);
+    EXPECT_EQ(status.st_uid, nobody);
+    EXPECT_EQ(status.st_mode & 0777U, 0604U);
+}
+
 TEST_F(AtomicFile, WritesIntoAPipeAndRefusesALinkToIt) {
     fs::path const pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -56,6 +56,16 @@ TEST(Note, CountsAreWholeAndInTheirRange) {
     EXPECT_EQ(fault_of([&] { count(note, "none", 0); }), "'none' is missing");
 }
 
+// Both ends of a range belong to it, below zero too, where JSON has another type of number.
+TEST(Note, ARangeHoldsItsEnds) {
+    Json const note = parse(R"({"least": -5, "most": -3, "below": -6, "above": -2})");
+    EXPECT_EQ(whole_number(note, "least", -5, -3), -5);
+    EXPECT_EQ(whole_number(note, "most", -5, -3), -3);
+    for (char const* key : {"below", "above"})
+        EXPECT_EQ(fault_of([&] { whole_number(note, key, -5, -3); }),
+                  "'" + std::string(key) + "' is not a whole number from -5 to -3");
+}
+
 TEST(Note, NumbersAreNumbersAndNotBelowTheirLeast) {
     Json const note = parse(R"({"x": -0.5, "n": 3, "none": null, "true": true, "text": "1", "list": [1, 2.5],
                                 "mixed": [1, null]})");

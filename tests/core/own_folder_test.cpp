@@ -65,6 +65,22 @@ TEST_F(OwnFolder, ALinkIsReplacedOrRemovedAndNotFollowed) {
     expect_untouched();
 }
 
+// No link leads from one file system to another: the content is copied instead.
+TEST_F(OwnFolder, WhatCannotBeLinkedIsCopied) {
+    struct stat here {
+    }, there{};
+    fs::path const memory = "/dev/shm";
+    ASSERT_EQ(::stat(folder.c_str(), &here), 0);
+    if (::stat(memory.c_str(), &there) != 0 || ::access(memory.c_str(), W_OK) != 0 ||
+        here.st_dev == there.st_dev)
+        GTEST_SKIP() << "needs a second file system";
+    fs::path const source = memory / temporary.path().filename();
+    core::write_file_atomically(source, "far");
+    core::link_or_copy(source, folder / "copy");
+    fs::remove(source);
+    EXPECT_EQ(core::read_file(folder / "copy"), "far");
+}
+
 TEST_F(OwnFolder, ATreeIsRemovedWithItsLinksAndWithoutTheirTargets) {
     core::OwnFolder const own(folder);
     core::make_folder(folder / "cases" / "a" / "b" / "c");

@@ -84,5 +84,12 @@ TEST(Diagnostics, Quantile) {
     EXPECT_DOUBLE_EQ(quantile({10, 0}, 0.25), 2.5);
 }
 
+// The variance between the halves is compared with the variance within them as it would be of all values,
+// which divides by n and not by n - 1. Where the means of both halves agree exactly, that of the values and
+// that of their distances to the median, R-hat is sqrt((n - 1) / n), with n = 4 values in each half.
+TEST(Diagnostics, RhatOfHalvesWithTheSameMeanIsBelowOne) {
+    EXPECT_NEAR(rank_normalised_rhat({{1, 4, 5, 8, 2, 3, 6, 7}, 1}), std::sqrt(3.0 / 4), 1e-12);
+}
+
 }  // namespace
 }  // namespace vibrotrough::inference

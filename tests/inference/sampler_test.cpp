@@ -100,5 +100,17 @@ TEST(Sampler, SenselessInputsAreRefused) {
     EXPECT_THROW(sample(nowhere, {{0, 1}}, {}), std::invalid_argument);
 }
 
+// Chains may agree and still know a quantity too roughly: both conditions must hold.
+TEST(Sampler, ChainsThatAgreeMayHaveTooFewIndependentDraws) {
+    SamplerSettings settings;
+    settings.most_draws = settings.draws;
+    settings.least_ess = 1e6;
+    Sample const s = sample([](std::span<double const>) { return 0.0; }, {{0, 1}}, settings);
+    ASSERT_LE(s.rhat[0], settings.largest_rhat);
+    EXPECT_FALSE(s.converged);
+    settings.least_ess = 1;
+    EXPECT_TRUE(sample([](std::span<double const>) { return 0.0; }, {{0, 1}}, settings).converged);
+}
+
 }  // namespace
 }  // namespace vibrotrough::inference

@@ -69,5 +69,18 @@ TEST(PreparedCase, CasesShareTheirClump) {
     EXPECT_EQ(first.clump, second.clump);
 }
 
+// What is taken out of an open trough has left it: a grain whose centre is at out_x lies as a whole beyond
+// the edge, wherever the trough is, and one at out_near_x still rests on it.
+TEST(PreparedCase, AnOpenTroughKeepsTheGrainsThatAreStillOverIt) {
+    std::string const text =
+        with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
+    PreparedCase const c =
+        prepare_case(scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+    OpenTrough const& open = c.domain.open.value();
+    double const edge = c.scenario.layer.length, excursion = largest_excursion(c.motion);
+    EXPECT_GE(open.out_x - c.largest_extent / 2, edge + excursion);
+    EXPECT_LE(open.out_near_x + c.largest_extent / 2, edge - excursion);
+}
+
 }  // namespace
 }  // namespace vibrotrough::prepare

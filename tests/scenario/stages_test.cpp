@@ -1,5 +1,6 @@
 #include "scenario/model/stages.hpp"
 
+#include "core/error.hpp"
 #include "example_campaign.hpp"
 #include "scenario/model/stage_motion.hpp"
 #include "scenario/reader/written_campaign.hpp"
@@ -118,6 +119,14 @@ TEST(Stages, TheTimeOfAStepFollowsFromItsCycle) {
     auto const parts = drive_parts(stages(single_case(with_stages(up_and_down))));
     EXPECT_NEAR(time_of_step(parts, 100, 350), 0.35, 1e-12);
     EXPECT_NEAR(time_of_step(parts, 100, 1550), 1.4 + 1.5 / 15, 1e-12);
+}
+
+TEST(Stages, ARampMayTakeTheWholeStage) {
+    auto const text = [](int ramp) {
+        return with_stages(fmt::format("[[stages]]\nramp_cycles = {}\ncycles = 5\n", ramp));
+    };
+    EXPECT_EQ(stages(single_case(text(5))).front().ramp_cycles, 5);
+    EXPECT_THROW(single_case(text(6)), core::InputError);
 }
 
 }  // namespace
