@@ -1,5 +1,6 @@
 #include "deck/check.hpp"
 
+#include "deck/campaign_check.hpp"
 #include "deck/deck.hpp"
 #include "deck/estimates.hpp"
 #include "scenario/example_campaign.hpp"
@@ -228,6 +229,24 @@ TEST(Check, AContactMustBeShortAgainstTheFlight) {
             std::out_of_range)
             << gamma;
     }
+}
+
+// The trough's speed is omega r where its motion has no harmonics; an impact takes twice that speed at most.
+TEST(Check, ContactTimesAreThoseAtTheTroughsSpeed) {
+    scenario::Scenario const s = scenario();
+    double const speed = 2 * pi * s.trough.frequency * s.trough.amplitude;
+    EXPECT_NEAR(finding(s, "contact time at the trough's speed / cycle").measured,
+                impact_duration(prepared(s), speed) * s.trough.frequency, 1e-12);
+}
+
+TEST(CampaignCheck, KnowsTheSoftestAndTheStiffestGrains) {
+    scenario::Campaign campaign = scenario::parse_campaign(example_campaign, "test.toml");
+    campaign.cases = {campaign.cases.front(), campaign.cases.front(), campaign.cases.front()};
+    for (auto const& [i, modulus] : {std::pair{0, 6e6}, {1, 5e6}, {2, 7e6}})
+        campaign.cases[static_cast<std::size_t>(i)].grains.youngs_modulus = modulus;
+    CampaignCheck const total = check_campaign(campaign);
+    EXPECT_EQ(total.least_modulus, 5e6);
+    EXPECT_EQ(total.most_modulus, 7e6);
 }
 
 }  // namespace

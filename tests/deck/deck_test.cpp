@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "deck/atom_types.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
@@ -273,6 +274,39 @@ TEST(Deck, IsTheGoldDeck) {
     Deck const deck =
         make_deck(prepare::prepare_case(scenario::read_campaign(gold / "campaign.toml").cases.front()), {2});
     for (auto const& [name, content] : deck.files) EXPECT_EQ(content, core::read_file(gold / name)) << name;
+}
+
+// The angle of the drive in a ramp is 2 pi n (a u + b u^2) at the share u of its time: a + b = 1, so that it
+// ends after n whole cycles, and the frequencies at its ends, a and a + 2 b, are those of the stages.
+TEST(Deck, ARampEndsAfterWholeCyclesAtTheNewFrequency) {
+    std::string const stages =
+        "[[stages]]\ncycles = 4\n[[stages]]\nramp_cycles = 3\ncycles = 9\nfrequency = \"20 Hz\"\n";
+    std::string const text =
+        with("throw_number = 2.0", "frequency = \"10 Hz\"", with("max_cycles = 200\n", ""));
+    std::string const deck = decks(scenario(text + stages));
+    std::regex const angle(R"(2\*PI\*3\*v_\w+\*\(([-+.e\d]+)\+\(([-+.e\d]+)\)\*v_)");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(deck, found, angle));
+    double const a = std::stod(found[1]), b = std::stod(found[2]);
+    EXPECT_NEAR(a + b, 1, 1e-12);
+    EXPECT_NEAR((a + 2 * b) / a, 2, 1e-12);
+}
+
+// The table of types and the number of a material's type agree, with side walls and without.
+TEST(Deck, MaterialsHaveTheTypesOfTheTable) {
+    for (std::string const walls : {"", "\nside_wall_friction = 0.3"}) {
+        std::string text = with("restitution = 0.5", "restitution = 0.5" + walls);
+        for (char const* name : {"fines", "coarse"})
+            text += fmt::format("\n[[materials]]\nname = \"{}\"\nmass_fraction = 0.2\n", name);
+        prepare::PreparedCase const prepared = prepare::prepare_case(scenario(text));
+        std::vector<AtomType> const types = atom_types(prepared);
+        ASSERT_EQ(prepared.materials.size(), 3u);
+        for (int material = 0; material < 3; ++material) {
+            auto const type = static_cast<std::size_t>(atom_type_of(prepared, material));
+            ASSERT_LE(type, types.size());
+            EXPECT_EQ(types[type - 1].material, &prepared.materials[static_cast<std::size_t>(material)]);
+        }
+    }
 }
 
 }  // namespace
