@@ -146,5 +146,18 @@ TEST(CaseEstimate, SaysHowManyPackingsAreNeeded) {
     EXPECT_NEAR(*packings_needed(estimate, {0.95, 0.002}), 1133, 10);  // (2.244 x 15)^2: normal
 }
 
+// Two packings of each start: Student's t with two degrees of freedom at the level 0.99 is 9.925
+// (scipy.stats.t.ppf(0.995, 2)). The means below and above scatter by 0.005 sqrt(2) each, so that the starts
+// differ by 8.5 and by 11.3 standard deviations.
+TEST(CaseEstimate, FewPackingsShowBranchesOnlyWhereTheyAreFarApart) {
+    auto const steadiness = [](double above) {
+        return Case{{around(0.20, 1e-4), around(above, 1e-4), around(0.21, 1e-4), around(above + 0.01, 1e-4)}}
+            .estimate()
+            .steadiness;
+    };
+    EXPECT_EQ(steadiness(0.26), Steadiness::steady);
+    EXPECT_EQ(steadiness(0.28), Steadiness::branching);
+}
+
 }  // namespace
 }  // namespace vibrotrough::measure
