@@ -2,8 +2,12 @@
 
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
+#include "engine/folder_watch.hpp"
 #include "engine/run_report.hpp"
+#include "engine/sole_writer.hpp"
+#include "engine/stop_signals.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -160,6 +164,75 @@ TEST_F(EngineTest, DestructionKillsAndCallsNobody) {
     context.run_for(patience);
     EXPECT_FALSE(called);
     EXPECT_TRUE(context.stopped()) << "the context is still waiting for the engine";
+}
+
+// The engine holds its folder's lock as long as it lives, also when the driver has closed its own end.
+// Killed, it has ended before the destructor gives up waiting for it, which takes two seconds.
+TEST_F(EngineTest, HoldsItsFolderUntilItIsKilled) {
+    fs::path const script = folder / "script";
+    std::ofstream(script) << "#!/bin/sh\nexec sleep 1000\n";
+    fs::permissions(script, fs::perms::owner_all);
+    auto process = std::make_unique<EngineProcess>(context, Engine{script, "any"}, folder, [](ExitStatus) {});
+    EXPECT_TRUE(has_writer(folder));
+    auto const start = std::chrono::steady_clock::now();
+    process.reset();
+    EXPECT_FALSE(has_writer(folder));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1900));
+}
+
+// The processor times of engines that ran one after the other add up to that of all processes that have
+// ended.
+TEST_F(EngineTest, EachHasItsOwnProcessorTime) {
+    fs::path const script = folder / "script";
+    std::ofstream(script) << "#!/bin/sh\ni=0; while [ $i -lt 20000 ]; do i=$((i+1)); done\n";
+    fs::permissions(script, fs::perms::owner_all);
+    double sum = 0;
+    for (int run = 0; run < 3; ++run) {
+        EngineProcess const process(context, {script, "any"}, folder, [&](ExitStatus status) {
+            EXPECT_GT(status.core_time, 0);
+            sum += status.core_time;
+        });
+        context.restart();
+        context.run();
+    }
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    EXPECT_NEAR(sum,
+                static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                    1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec),
+                1e-9);
+}
+
+// A user who starts the program with nohup asks it not to stop.
+TEST(StopSignals, WhatIsIgnoredStaysIgnored) {
+    auto* const before = std::signal(SIGHUP, SIG_IGN);
+    boost::asio::io_context context;
+    boost::asio::signal_set signals(context);
+    add_stop_signals(signals);
+    int received = 0;
+    signals.async_wait([&](boost::system::error_code const& failure, int number) {
+        if (!failure) received = number;
+    });
+    std::raise(SIGHUP);
+    context.poll();
+    EXPECT_EQ(received, 0);
+    std::raise(SIGTERM);
+    context.run_for(patience);
+    EXPECT_EQ(received, SIGTERM);
+    signals.clear();
+    std::signal(SIGHUP, before);
+}
+
+TEST(FolderWatch, NoticesThatItsFolderIsAnotherOne) {
+    core::TemporaryFolder const temporary;
+    fs::path const folder = temporary.path() / "run";
+    fs::create_directory(folder);
+    FolderWatch const watch(folder);
+    EXPECT_NO_THROW(watch.check());
+    fs::rename(folder, temporary.path() / "renamed");
+    EXPECT_THROW(watch.check(), core::MissingError);
+    fs::create_directory(folder);
+    EXPECT_THROW(watch.check(), core::MissingError) << "another folder of the same name";
 }
 
 TEST_F(EngineTest, AMissingFolderIsAnError) {

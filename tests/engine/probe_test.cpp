@@ -5,10 +5,12 @@
 #include "deck/deck.hpp"
 #include "engine/certificate_cache.hpp"
 #include "engine/probe_decks.hpp"
+#include "engine/probe_verdicts.hpp"
 #include "engine/three_grains.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -197,6 +199,25 @@ TEST_F(Probe, TheDecksUseWhatIsProbed) {
                 << probe.name;
         }
     }
+}
+
+// A grain that only rotates after its impact, and has all of the energy: a solid sphere with 2/5 m R^2.
+TEST_F(Probe, TheEnergyOfAnImpactHoldsThatOfRotation) {
+    auto const& impacts = fine_impacts();
+    double const radius = probe_material(0.5, impact_friction).radius;
+    std::ofstream file(folder / "grains.dump");
+    for (int time = 0; time < 2; ++time) {
+        file << "ITEM: ATOMS\n";
+        for (std::size_t i = 0; i < impacts.size(); ++i) {
+            double const speed = std::hypot(impacts[i].normal_speed, impacts[i].tangential_speed);
+            file << fmt::format("{} 0 0 0 0 {}\n", i + 1, std::sqrt(5.0 / 2) * speed / radius);
+        }
+    }
+    file.close();
+    auto const probes = judge_fine_impacts(folder, "");
+    auto const energy = std::ranges::find(probes, "energy", &ProbeResult::name);
+    ASSERT_NE(energy, probes.end());
+    EXPECT_NEAR(energy->measured, 1, 1e-12);
 }
 
 }  // namespace

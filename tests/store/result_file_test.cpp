@@ -8,8 +8,11 @@
 #include "store/hdf5_memory_file.hpp"
 #include "store/impact_quantities.hpp"
 #include "store/material_quantities.hpp"
+#include "store/schema.hpp"
+#include "store/summary.hpp"
 #include "store/wear_quantities.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -351,6 +354,36 @@ TEST_F(ResultFile, FullDiskLeavesTheOldFile) {
 
     expect_equal(read_result(path), sample_record());
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+// Packings have numbers from 1, also in the names of their tables: other programs read these.
+TEST_F(ResultFile, TablesOfPackingsAreNumberedFromOne) {
+    write_result(path, sample_record());
+    Hdf5MemoryFileReader const file(core::read_file(path));
+    EXPECT_NO_THROW(file.table("series/1", Rank::array));
+    EXPECT_NO_THROW(file.table("series/2", Rank::array));
+    EXPECT_THROW(file.table("series/3", Rank::array), Hdf5Error);
+}
+
+// What each packing costs adds up; a number of one packing that belongs to its motion does not.
+TEST(Quantities, TimesOfPackingsAddUp) {
+    CaseRecord record = sample_record();
+    ASSERT_EQ(record.packings.size(), 2u);
+    record.packings[0].core_time = 3;
+    record.packings[1].core_time = 4;
+    auto const core_time = std::ranges::find(quantities(), "core_time", &Quantity::name);
+    ASSERT_NE(core_time, quantities().end());
+    EXPECT_EQ(std::get<std::optional<double>>(core_time->of_case(record)), 7);
+}
+
+TEST(Quantities, ASummaryKeepsEveryVerdict) {
+    CaseRecord record = sample_record();
+    for (auto const verdict :
+         {measure::Verdict::precise, measure::Verdict::not_precise, measure::Verdict::not_steady}) {
+        record.packings[0].estimate.verdict = verdict;
+        CaseRecord const read = unpack_summary(pack_summary(record), record.scenario);
+        EXPECT_EQ(read.packings[0].estimate.verdict, verdict);
+    }
 }
 
 }  // namespace
