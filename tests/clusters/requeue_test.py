@@ -90,7 +90,7 @@ class Requeue(EndToEndTest):
         wait_until(lambda: not slurm.command("squeue", "-h").stdout.strip(), "Slurm has ended the task")
         kept = self.checkpoint()
         self.assertGreater(kept, 0)
-        self.assertEqual(self.outcome(), "time-limit")
+        wait_until(lambda: self.outcome() == "time-limit", "Slurm said how the task ended")
 
         self.run_campaign(self.campaign)
         self.assertGreaterEqual(wait_until(self.continued_engine, "the packing went on"), kept)
