@@ -56,7 +56,7 @@ def segregation_index(packing):
 
 
 @vibrotrough.observable(unit="m2/s2")
-def granular_temperature(cycle):
+def granular_temperature_of_frames(cycle):
     """A third of the mean square of the grains' velocities relative to the mean at their height (slabs of one diameter)."""
     edges = bins_over_height(cycle.packing)
     squares, freedom = 0.0, 0

@@ -135,7 +135,7 @@ class Impacts(EndToEndTest):
         discarded, steps = int(result["packings/cycles_discarded"][0]), packing.steps_per_cycle
         seen = [SimpleNamespace(packing=packing, frames=[one]) for one in packing.frames if one.step > discarded * steps and one.step % (3 * steps // 10) == 0]
         self.assertGreater(len(seen), 30)
-        squares = np.mean([observables.granular_temperature(cycle) for cycle in seen])
+        squares = np.mean([observables.granular_temperature_of_frames(cycle) for cycle in seen])
         about_centre = np.mean([one.frames[0].velocities.var(axis=0).mean() for one in seen])
         measured = result["packings/granular_temperature"][0]
         self.assertAlmostEqual(measured / squares, 1, delta=0.06)

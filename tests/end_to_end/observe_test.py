@@ -98,13 +98,13 @@ class Observe(EndToEndTest):
         bundle = self.folder / "bundle.zip"
         self.assertEqual(self.call("archive", self.output, "--output", bundle).returncode, 0)
         self.assertEqual(json.loads(self.call("compare", bundle, "--json").stdout), self.table())
-        self.assertIn("granular_temperature", self.call("compare", self.output).stdout)
+        self.assertIn("granular_temperature_of_frames", self.call("compare", self.output).stdout)
         self.assertIn(",dispersion_m2_per_s,", self.call("compare", self.output, "--csv").stdout)
         done = self.call("plot", self.output, "--x", "throw_number", "--y", "speed_of_grains", "--output", self.folder / "figures")
         self.assertEqual(done.returncode, 0, done.stderr)
         # The report, whose Python reads campaign.h5, is drawn as before.
         self.assertEqual(self.call("report", self.output).returncode, 0)
-        self.assertIn("granular_temperature", (self.output / "report" / "report.html").read_text())
+        self.assertIn("granular_temperature_of_frames", (self.output / "report" / "report.html").read_text())
         with h5py.File(self.results()[0]) as file:
             self.assertEqual(cycles, len(file["series/1"]))
 

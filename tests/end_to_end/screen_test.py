@@ -41,7 +41,7 @@ class Screen(EndToEndTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("speed_of_grains", "dispersion", "mean_squared_displacement"):
             self.assertIn(f"{name} is not measured: it has no value in any packing: it returned None, grains come or go", done.stderr)
-        for name in ("granular_temperature [m2/s2]", "segregation_index [1]"):
+        for name in ("granular_temperature_of_frames [m2/s2]", "segregation_index [1]"):
             self.assertIn(name, done.stdout)
 
     def test_the_numbers_are_those_of_the_engine(self):

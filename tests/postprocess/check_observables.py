@@ -120,10 +120,10 @@ def check_temperature(folder):
     velocities[:, 0] += 30 * places[:, 2]
     made = Maker(folder, 2, 2, np.full(len(places), DIAMETER / 2), lambda t: (places, velocities))
     for cycle in made.open().cycles("frames"):
-        assert math.isclose(observables.granular_temperature(cycle), c**2 * count / (count - 1), rel_tol=1e-12)
+        assert math.isclose(observables.granular_temperature_of_frames(cycle), c**2 * count / (count - 1), rel_tol=1e-12)
     # Slabs are those above the trough: where it is by a diameter higher, so are the grains.
     made = Maker(folder, 2, 2, np.full(len(places), DIAMETER / 2), lambda t: (places + [0, 0, DIAMETER], velocities), trough=lambda t: (0.0, DIAMETER))
-    assert math.isclose(observables.granular_temperature(made.open().cycles("frames")[0]), c**2 * count / (count - 1), rel_tol=1e-12)
+    assert math.isclose(observables.granular_temperature_of_frames(made.open().cycles("frames")[0]), c**2 * count / (count - 1), rel_tol=1e-12)
 
 
 def check_displacement(folder):

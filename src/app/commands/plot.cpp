@@ -185,8 +185,10 @@ void add_plot(CLI::App& program, int& exit_code) {
     auto const options = add_common(*command);
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
+        // The kinds are named below, with what each shows.
         ->check(CLI::IsMember({"efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling",
-                               "profiles", "impacts", "partition", "segregation"}))
+                               "profiles", "impacts", "partition", "segregation"})
+                    .description(""))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
