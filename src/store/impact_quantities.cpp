@@ -117,7 +117,7 @@ std::vector<Quantity> impact_quantities() {
         "m* v^2 / 2 with the speed v along the normal at the first touch; NaN without measure.impacts",
         {.place = 1200,
          .format = "{:.3g}",
-         .position = 310,
+         .position = 181,
          .terminal = terminal_when_known("impacts", "W/kg"),
          .report = ReportView{"impacts of grains"}});
     add.operator()<&impact_number<&Impacts::energy>>(
@@ -127,7 +127,7 @@ std::vector<Quantity> impact_quantities() {
          .unit = "uJ",
          .factor = 1e6,
          .format = "{:.3g}",
-         .position = 312,
+         .position = 183,
          .terminal = terminal_when_known("impact", "uJ"),
          .report = ReportView{"energy of impacts"}});
     add.operator()<&impact_number<&Impacts::trough_power>>(
@@ -136,7 +136,7 @@ std::vector<Quantity> impact_quantities() {
         "relative to the trough; a grain that touches the trough already does not hit it again",
         {.place = 1208,
          .format = "{:.3g}",
-         .position = 314,
+         .position = 185,
          .report = ReportView{"impacts with the trough"}});
     add.operator()<&impact_number<&Impacts::trough_energy>>(
         "trough_impact_energy", "trough_impact_energy_half_width", "J",
@@ -145,7 +145,7 @@ std::vector<Quantity> impact_quantities() {
          .unit = "uJ",
          .factor = 1e6,
          .format = "{:.3g}",
-         .position = 316,
+         .position = 187,
          .report = ReportView{"energy of impacts with the trough"}});
     rows.push_back(
         {"brief_impacts", "1",

@@ -145,14 +145,14 @@ std::vector<Quantity> motion_quantities() {
                      "as much; NaN with clumps and several materials",
                      granular_temperature(),
                      mean,
-                     {{.place = 1230, .format = "{:.3g}", .position = 320}}}),
+                     {{.place = 1230, .format = "{:.3g}", .position = 191}}}),
         {"granular_temperature_half_width",
          "m2/s2",
          "Half-width of the interval of granular_temperature at measure.confidence, Student's t over the "
          "packings; NaN with one packing",
          Real([](Case c) { return half_width_over_packings(c, granular_temperature()); }),
          nothing,
-         {{.place = 1232, .format = "{:.2g}", .position = 321}}},
+         {{.place = 1232, .format = "{:.2g}", .position = 192}}},
         added_later({"coordination_number", "1",
                      "Mean contacts per grain, with other grains (counted for both) and with the floor, over "
                      "the cycle; "
