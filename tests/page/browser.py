@@ -7,10 +7,13 @@ writes to its console is kept.
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
+import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import time
 import urllib.request
@@ -53,13 +56,13 @@ class Browser:
         (self.profile / "user.js").write_text(lines, encoding="utf-8")
         program = shutil.which("firefox-esr") or "firefox"
         self.process = subprocess.Popen([program, "--headless", "--no-remote", "--profile", self.profile, "--remote-debugging-port", "0"],
-                                        stdout=self.log, stderr=self.log)
+                                        stdout=self.log, stderr=self.log, start_new_session=True)
         address = self._waited(lambda: re.search(r"WebDriver BiDi listening on (ws://\S+)", self._log_text()))[1]
         self.socket = websocket.create_connection(address + "/session", timeout=SECONDS, suppress_origin=True)
         self.call("session.new", capabilities={})
 
     def _start_chromium(self) -> None:
-        self.process = subprocess.Popen(["chromedriver", "--port=0"], stdout=self.log, stderr=self.log)
+        self.process = subprocess.Popen(["chromedriver", "--port=0"], stdout=self.log, stderr=self.log, start_new_session=True)
         port = self._waited(lambda: re.search(r"started successfully on port (\d+)", self._log_text()))[1]
         arguments = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars", "--force-prefers-reduced-motion", "--lang=en-US", "--disable-gpu",
                      f"--user-data-dir={self.profile.resolve()}"] + (["--blink-settings=preferredColorScheme=0"] if self.dark else [])
@@ -169,6 +172,8 @@ class Browser:
             pass
         self.process.terminate()
         self.process.wait(timeout=SECONDS)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)  # a browser that did not end by itself
         self.log.close()
 
 
