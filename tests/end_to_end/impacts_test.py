@@ -142,12 +142,7 @@ class Impacts(EndToEndTest):
         self.assertGreater(about_centre / measured, 1.1)
 
     def test_the_motion_is_that_without_it(self):
-        lines = []
-        for impacts in (True, False):
-            output = self.folder / f"impacts {impacts}"
-            self.run_campaign(self.write_campaign(SHORT | {"measure.packings": 1, "measure.impacts": impacts}), output, wanted=None)
-            lines.append([next(iter(output.glob(f"cases/*/packing-1/{name}.csv"))).read_bytes() for name in ("cycles", "phases")])
-        self.assertEqual(*lines)
+        self.assert_motion_does_not_depend_on("measure.impacts", SHORT)
 
     def test_a_killed_run_gives_the_same_numbers(self):
         campaign = self.write_campaign(SHORT | {"measure.packings": 1})

@@ -238,6 +238,15 @@ class EndToEndTest(unittest.TestCase):
         self.assertEqual(without_wall_time(self.table()), without_wall_time(self.table(undisturbed)))
         return [next(iter(folder.glob("cases/*/result.h5"))) for folder in (self.output, undisturbed)]
 
+    def assert_motion_does_not_depend_on(self, key, changes):
+        """The engine writes the same cycles with and without what `key` asks for."""
+        lines = []
+        for asked in (True, False):
+            output = self.folder / f"{key} {asked}"
+            self.run_campaign(self.write_campaign(changes | {"measure.packings": 1, key: asked}), output, wanted=None)
+            lines.append([next(iter(output.glob(f"cases/*/packing-1/{name}.csv"))).read_bytes() for name in ("cycles", "phases")])
+        self.assertEqual(*lines)
+
     def ask_json(self, command, output=None):
         answer = self.call(command, output or self.output, "--json")
         self.assertEqual(answer.returncode, 0, answer.stderr)
