@@ -78,12 +78,12 @@ ExcitedMachine excited(DesignTask const& t, RiskDesign const& d) {
 std::string budget_text(RiskDesign const& d) {
     auto const least = std::ranges::min_element(d.forecasts, {}, &ModelForecast::probability);
     if (d.untested || least->budget.empty()) return "";
-    constexpr char const* line = "{:<52} {:>9} {:>9} {:>14}\n";
+    constexpr char const* line = "{:<48} {:>9} {:>11} {:>14}\n";
     std::string text =
         fmt::format("\nWhat to measure first, by {} (mass flow +- {:.3g} t/h, one standard deviation):\n",
                     least->model, tonnes_per_hour * least->flow_sd);
-    text += fmt::format(fmt::runtime(line), "", "alone", "of the", "if known, more");
-    text += fmt::format(fmt::runtime(line), "", "+- t/h", "variance", "is sure, t/h");
+    text += fmt::format(fmt::runtime(line), "", "alone", "share of", "sure if known");
+    text += fmt::format(fmt::runtime(line), "", "+- t/h", "variance", "+ t/h");
     for (BudgetShare const& one : least->budget)
         text += fmt::format(fmt::runtime(line), one.source, fmt::format("{:.2g}", tonnes_per_hour * one.sd),
                             fmt::format("{:.0f} %", 100 * share_of(one, *least)),
