@@ -98,7 +98,7 @@ Row row_of(Layer const& layer, PartlyKnown const& atlas) {
         else
             value = atlas(numbers);
     } catch (theory::PhaseError const&) {
-        // There is no mean speed.
+        // The layer has no mean speed.
     }
     if (value) {
         row.efficiency = value->efficiency;

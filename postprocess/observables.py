@@ -15,7 +15,7 @@ def bins_over_height(packing):
     """Edges of slabs of one mean diameter, m, up to twice the height of the layer at rest: the same for all packings of a case."""
     diameter = packing.value("grain_diameter")
     height = packing.value("mass_per_area") / packing.value("grain_density") / SETTLED
-    if not np.isfinite(height):  # grains leave, so that there is no mass at rest: that of the first frame
+    if not np.isfinite(height):  # grains leave, and the mass at rest is unknown: that of the first frame
         height = packing.frames[0].volumes.sum() / packing.frames[0].floor_area / SETTLED
     return diameter * np.arange(int(np.ceil(2 * height / diameter)) + 1)
 

@@ -86,7 +86,7 @@ class Surface {
     double efficiency_at(Place const& place, double theory) const;
 
     /// What the surface says of the efficiency at one place minus that at another, of which it knows more
-    /// than of either: what both have in common is no part of the interval.
+    /// than of either: what both have in common does not widen the interval.
     SurfaceValue difference(Place const& place, double theory, Place const& other, double theory_there) const;
 
     /// By how much a further value at `where`, with so wide a 95 % interval, would lower the variance of the

@@ -39,8 +39,7 @@ std::optional<SurfaceValue> value_at(Place const& place);
 std::optional<double> efficiency_at(Place const& place);
 
 /// What the atlas says of the efficiency at one place minus that at another. The half-width is that of the
-/// surface alone: numerical errors are common to both places, and the scatter of layers is no part of a
-/// trend.
+/// surface alone: numerical errors are common to both places, and a trend does not scatter as layers do.
 std::optional<SurfaceValue> difference_between(Place const& place, Place const& other);
 
 /// The numbers of a place that lie outside of the ranges of the atlas.

@@ -1,6 +1,7 @@
 #include "learn/driven_design.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace vibrotrough::learn {
 namespace {
@@ -19,19 +20,20 @@ ChosenDesign design_with_exciter(DesignTask const& task,
     MovedMachine const& machine = *task.machine;
     DesignTask one = task;
     double depth = 0;
-    ChosenDesign found;
     for (int i = 0; i < most_repetitions; ++i) {
         double const material = material_on(task, depth);
         double const amplitude = amplitude_of(machine, task.space.frequency.low, material);
-        bool const is_same = i > 0 && std::abs(amplitude / one.space.amplitude.low - 1) < same_stroke;
-        if (is_same) return found;
         one.space.amplitude = {amplitude, amplitude};
         double const by_mass = amplitude * machine.added_mass.sd * material / machine.moving_mass(material);
         one.errors.amplitude = std::hypot(task.errors.amplitude, by_mass);
-        found = find(one);
+        ChosenDesign found = find(one);
         depth = found.design.depth;
+        double const under_it = amplitude_of(machine, task.space.frequency.low, material_on(task, depth));
+        if (std::abs(under_it / amplitude - 1) < same_stroke) return found;
     }
-    return found;
+    throw std::invalid_argument(
+        "the stroke and the depth of the layer change each other without an end; give the stroke by "
+        "--stroke");
 }
 
 }  // namespace vibrotrough::learn

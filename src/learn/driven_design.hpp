@@ -16,7 +16,7 @@ double material_on(DesignTask const& task, double depth);
 /// @param task  with a machine that has an exciter, the length of the trough, and, where the machine has
 ///   springs, one frequency
 /// @param find  searches for a machine
-/// @throws as `find` and amplitude_of() do
+/// @throws as `find` and amplitude_of() do, and std::invalid_argument when the stroke does not settle
 ChosenDesign design_with_exciter(DesignTask const& task,
                                  std::function<ChosenDesign(DesignTask const&)> const& find);
 

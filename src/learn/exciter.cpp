@@ -42,7 +42,7 @@ double resonance_of(MovedMachine const& machine, double material) {
 }
 
 double amplitude_of(MovedMachine const& machine, double frequency, double material) {
-    if (!machine.exciter) throw std::invalid_argument("there is no exciter");
+    if (!machine.exciter) throw std::invalid_argument("the machine has no exciter");
     return machine.exciter->static_moment / effective_mass(machine, frequency, material);
 }
 

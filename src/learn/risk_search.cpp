@@ -33,21 +33,27 @@ std::optional<theory::PlasticQuantities> quantities_of(theory::Drive const& d, d
     return theory::plastic_quantities(motion, point, {d.amplitude});
 }
 
-/// m/s, standard deviation of a model's speed when one number of a drive is not exact.
+/// m/s, standard deviation of a model's speed when one number of a drive is not exact; beside the end of what
+/// the model knows, from the slope on the other side.
 double spread_by(DesignModel const& model, theory::Drive const& drive, double theory::Drive::*number,
                  double sd, double friction) {
     if (sd <= 0) return 0;
-    double sum = 0, squares = 0;
+    double known = 0, sum = 0, squares = 0;
+    std::vector<double> places, speeds;
     for (UncertainNode const& node : nodes_of({drive.*number, sd})) {
         theory::Drive other = drive;
         other.*number = std::max(1e-6, node.value);
         auto const value = model.at(other, friction);
-        if (!value) return 0;
+        if (!value) continue;
         double const speed = value->efficiency * other.trough_speed();
+        known += node.share;
         sum += node.share * speed;
         squares += node.share * speed * speed;
+        places.push_back(other.*number);
+        speeds.push_back(speed);
     }
-    return std::sqrt(std::max(0.0, squares - sum * sum));
+    if (places.size() == 2) return sd * std::abs((speeds[1] - speeds[0]) / (places[1] - places[0]));
+    return known > 0 ? std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known))) : 0;
 }
 
 SettingSpread spread_of(DesignTask const& task, DesignModel const& model, theory::Drive const& drive) {

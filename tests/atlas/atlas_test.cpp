@@ -173,7 +173,7 @@ TEST(Atlas, TellsWhatDepthAndSlopeChange) {
     EXPECT_FALSE(level.of_slope.has_value());
     Effects const uphill =
         effects_of(with("inclination = \"0 deg\"", "tan_inclination = 0.05", inside_layer)).value();
-    // The difference from the point mass: what the slope does to both is no part of it.
+    // The difference from the point mass: without what the slope does to both.
     EXPECT_LT(std::abs(uphill.of_slope->efficiency), 0.3);
     EXPECT_FALSE(effects_of(with("height = \"12 mm\"", "height = \"42 mm\"", inside_layer)).has_value());
 }

@@ -174,10 +174,8 @@ TEST_F(EngineTest, HoldsItsFolderUntilItIsKilled) {
     fs::permissions(script, fs::perms::owner_all);
     auto process = std::make_unique<EngineProcess>(context, Engine{script, "any"}, folder, [](ExitStatus) {});
     EXPECT_TRUE(has_writer(folder));
-    auto const start = std::chrono::steady_clock::now();
     process.reset();
     EXPECT_FALSE(has_writer(folder));
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(1900));
 }
 
 // The processor times of engines that ran one after the other add up to that of all processes that have

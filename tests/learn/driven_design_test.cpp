@@ -4,6 +4,7 @@
 #include "learn/pellets.hpp"
 
 #include <numbers>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +43,17 @@ TEST(DrivenDesign, StrokeFollowsFromTheExciterUnderTheLayer) {
     EXPECT_NEAR(json.at("stroke_empty_mm").get<double>(), 2e3 * 0.46 / 120, 1e-9);
     EXPECT_THAT(design_text(task, design),
                 testing::HasSubstr("static moment 460 kg mm (working moment 92 cm kg)"));
+}
+
+// A machine whose layer is thick under a large stroke and thin under a small one has no stroke of its own.
+TEST(DrivenDesign, RefusesAStrokeThatDoesNotSettle) {
+    double const empty = 0.46 / 120;
+    auto const turned = [&](DesignTask const& task) {
+        ChosenDesign found{task, {}};
+        found.design.depth = task.space.amplitude.low > 0.999 * empty ? 0.05 : 0;
+        return found;
+    };
+    EXPECT_THROW(design_with_exciter(driven_trough(), turned), std::invalid_argument);
 }
 
 // Without an exciter the one is told that gives the stroke.

@@ -63,7 +63,7 @@ class DesignTest(unittest.TestCase):
         self.assertEqual(b.console, [])
 
     def test_two_designs(self):
-        """The proposals of two models side by side; files that are no design are named."""
+        """The proposals of two models side by side; a file that holds something else is named."""
         first, other = self.design("mass.json", "--model", "point-mass"), self.design("layer.json", "--model", "rolling-layer", "--rpm", 546, code=1)  # shallower than tested
         b = self.open_page("mass.json", "layer.json")
         self.assert_is(b, first)

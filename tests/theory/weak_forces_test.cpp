@@ -56,9 +56,9 @@ TEST(WeakForces, FrictionThatVanishesHasALimit) {
     }
 }
 
-// Above Gamma = 2.4 several parts of the cycle hold the slip. The derivative of the map of the velocity is 1
-// but for rounding then, of which Newton's step must not be made: it was 1e7 and seemed to be a fixed point.
-// A friction of mu changes the limit by about mu.
+// Where so weak a friction does not stop the mass in a cycle, the derivative of the map of the velocity is 1
+// but for rounding. A step of Newton's method was made of that: it was 1e7 and seemed to be a fixed point. A
+// friction of mu changes the limit by about mu.
 TEST(WeakForces, TheLimitDoesNotDependOnTheFriction) {
     for (double tangent = 0.3; tangent < 1.2; tangent += 0.0371) {
         auto const efficiency = [&](double friction) {

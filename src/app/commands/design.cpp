@@ -20,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace vibrotrough::app {
 namespace {
@@ -44,9 +45,8 @@ learn::DesignTask read_task(DesignArguments const& options) {
     if (!options.verify) return task;
     if (task.machine && task.machine->exciter)
         throw core::InputError(
-            "--verify: proposes machines with other strokes than the exciter gives; verify the machine that "
-            "it "
-            "gives by --stroke");
+            "--verify: proposes machines with other strokes than the exciter gives; leave --exciter out and "
+            "give its stroke by --stroke");
     if (!task.grain_diameter)
         throw core::InputError(
             "--verify: simulates the layer and needs the size of its grains; write "
@@ -73,7 +73,12 @@ learn::DesignTask read_task(DesignArguments const& options) {
 /// The machine that the models propose, whose stroke follows from the exciter if there is one.
 learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTask const& task) {
     auto const models = options.task.models_to_choose(task);
+    int round = 0;
     auto const find = [&](learn::DesignTask const& one) {
+        ++round;
+        if (::isatty(STDERR_FILENO) == 1 && !options.verification.quiet)
+            fmt::print(stderr, "looking for the machine{}; this takes some seconds\n",
+                       round == 1 ? "" : fmt::format(", with the stroke under its layer, {}", round));
         return models ? choose_machine(one, *models) : learn::ChosenDesign{one, propose_machine(one)};
     };
     if (!task.machine || !task.machine->exciter) return find(task);
@@ -147,7 +152,7 @@ void add_verification(CLI::App& command, DesignArguments& options) {
             .add_option("--liggghts", options.verification.engine,
                         "The LIGGGHTS program; default: liggghts on the PATH")
             ->type_name("PATH"));
-    add(command.add_flag("--quiet", options.verification.quiet, "Show no progress of the simulations"));
+    add(command.add_flag("--quiet", options.verification.quiet, "Show no progress"));
 }
 
 constexpr char const* help =

@@ -42,9 +42,9 @@ void ExciterOptions::add_to(CLI::App& command) {
         "Of all that moves, with the motors and without material, for example \"180 kg\"; with --length, the "
         "exciter that the stroke needs is told");
     add("--exciter", exciter_,
-        "Unbalanced motors, all together, from which the stroke follows: their static moment, \"static 840 "
-        "kg "
-        "mm\", working moment, \"working 168 kg cm\", or centrifugal force, \"8.5 kN at 960 rpm\"");
+        "Unbalanced motors, all together, from which the stroke follows: their static moment, "
+        "\"static 840 kg mm\", working moment, \"working 168 kg cm\", or centrifugal force, "
+        "\"8.5 kN at 960 rpm\"");
     add("--spring", spring_,
         "Stiffness of all springs in the direction of vibration, for example \"200 N/mm\"; default: so soft "
         "that it does not count");

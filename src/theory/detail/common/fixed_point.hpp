@@ -22,9 +22,9 @@ struct FixedPoint {
 
 /// The fixed point of a map v -> (f(v), f'(v)) with 0 <= f' <= 1, by Newton within a bracket.
 ///
-/// f(v) - v never increases, so that every evaluation shows on which side the fixed point is. Where f' = 1
-/// the velocity drifts by the same amount in every period; the step is then doubled until that region is
-/// left. The fixed point must exist (|tan(alpha)| <= mu); otherwise PhaseError is thrown.
+/// f(v) - v never increases, so that every evaluation shows on which side the fixed point is. Where f' = 1 to
+/// within rounding the velocity drifts by the same amount in every period; the step is then doubled until
+/// that region is left. The fixed point must exist (|tan(alpha)| <= mu); otherwise PhaseError is thrown.
 /// @param tolerance  stops when the estimated error of v is below tolerance (1 + |v|)
 template <class Map>
 FixedPoint fixed_point(Map const& map, double v, double tolerance) {
