@@ -99,6 +99,21 @@ TEST(Budget, OfALinearModelAddsUpInSquares) {
     EXPECT_THAT(design_text(task, design), testing::HasSubstr("What to measure first, by a line"));
 }
 
+// A model that ends just above the machine's stroke knows the speed on one side of it alone; the speed is
+// proportional to the stroke, so that this side tells the same standard deviation q/r times that of the
+// amplitude.
+TEST(Budget, KnowsASettingBesideTheEndOfTheModel) {
+    DesignModel model = linear_model();
+    theory::Drive const drive = drive_of_960();
+    auto const whole = model.at;
+    model.at = [&](theory::Drive const& other, double friction) {
+        return other.amplitude > drive.amplitude * 1.001 ? std::nullopt : whole(other, friction);
+    };
+    auto const sds = deviations(judge_machine(uncertain_task(model), drive, 0.02).forecasts.front());
+    double const q = 600 * 0.4 * 0.02 * 0.8 * drive.trough_speed();
+    EXPECT_NEAR(sds.at("stroke"), q * 0.0001 / 0.004, 1e-9);
+}
+
 // 20,000 tries of friction, stroke, angle, density and the error of the point mass. They know a standard
 // deviation to 0.5 % and a probability to 0.003; settings count as linear, which adds at most as much here.
 TEST(Budget, IsThatOfAMonteCarlo) {
