@@ -6,11 +6,12 @@
     print(campaign.plan())                                      # the cases and what they will cost
     campaign.run(jobs=2)                                        # simulates what is missing; shows how far it is
     print(campaign.table()[["throw_number", "conveying_speed_m_per_s"]])
-    case = campaign.case(campaign.table().index[0])
+    case = campaign.cases()[0]                                  # or campaign.case(ID)
     print(case.result["packings/efficiency"], case.phases(1)["velocity_x"])
     print(case.frames(1)[-1].positions)                         # where the campaign keeps frames; see help(vibrotrough_frames)
 
-    vibrotrough.table([campaign, "runs/demo"])                  # the rows of several campaigns, with their names
+    demo = vibrotrough.Campaign("runs/demo")                    # a campaign that was run before, by its folder
+    vibrotrough.table([campaign, demo])                         # the rows of several campaigns, with their names
 
 Tables are pandas.DataFrame where pandas is installed, else lists of dicts.
 """
@@ -99,6 +100,10 @@ class Case:
         """result.h5, with the series of cycles of each packing. @raises OSError when the case has none yet"""
         return vibrotrough.open_result(self.folder)
 
+    def packings(self) -> list[vibrotrough_frames.Packing]:
+        """What each packing of its result wrote. @raises OSError when the case has none yet"""
+        return [self.packing(1 + place) for place in range(len(self.result["packings/seed"]))]
+
     def packing(self, packing: int) -> vibrotrough_frames.Packing:
         """What one of its packings wrote; packings count from 1. @raises KeyError when the result has none of this number"""
         return vibrotrough_frames.Packing(self, packing)
@@ -123,11 +128,13 @@ class Case:
 
 
 class Campaign:
-    """A campaign file and the folder of its results."""
+    """A campaign file and the folder of its results; or, in place of the file, the folder of a campaign that was run before."""
 
     def __init__(self, file: str | os.PathLike[str], output: str | os.PathLike[str] | None = None,
                  program: str | os.PathLike[str] | None = None) -> None:  # fmt: skip
         self.file, self.program = pathlib.Path(file), find_program(program)
+        if (self.file / "campaign.toml").is_file():
+            self.file, output = self.file / "campaign.toml", output or self.file
         name = ask(self.program, "plan", self.file)["campaign"]  # which also says what is wrong with the file
         self.folder = pathlib.Path(output) if output else pathlib.Path("runs") / str(name)
 
@@ -186,6 +193,10 @@ class Campaign:
     def results(self) -> vibrotrough.CampaignFile:
         """campaign.h5: all cases with results, with units. @raises OSError when there are none"""
         return vibrotrough.open_campaign(self.folder)
+
+    def cases(self) -> list[Case]:
+        """Its cases that have results, in the order of its table. @raises OSError when there are none"""
+        return [self.case(case) for case in self.results()["case"]]
 
     def case(self, case: object) -> Case:
         """A case by its id. @raises KeyError when the campaign has none of this id"""

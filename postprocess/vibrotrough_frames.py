@@ -3,7 +3,7 @@
     import vibrotrough
 
     campaign = vibrotrough.Campaign("pellets.toml")
-    case = campaign.case(campaign.results()["case"][0])
+    case = campaign.cases()[0]
     frames = case.frames(1)                                 # of packing 1; read one by one as they are asked for
     frame = frames[-1]
     print(frame.cycle, frame.positions[:, 2].mean() - frame.trough[1])
@@ -215,10 +215,14 @@ class Frames(Sequence[Frame]):
     def unwrapped(self) -> Iterator[Floats]:
         """The positions in each frame, m, (grains, 3), as if the box did not repeat itself: a grain that leaves at one end goes on beyond it.
 
-        Between two frames a grain may move by half the box relative to the layer's centre of mass, whose way the engine knows.
+        Between two frames a grain may move by half the box relative to the layer, which moves at its mean velocity in each cycle: the
+        engine knows that of every layer, but wraps the centre of mass of rigid clumps.
         @raises GrainsChangeError when grains come or go
         """
-        way = self._packing.table("cycles.csv") if not self._packing.file("phases.csv").is_file() else self._packing.table("phases.csv")
+        series, known = self._packing.table("cycles.csv"), np.diff(self._packing.times)
+        lengths = np.resize(known, len(series["step"]) - 1)  # of the cycles, s
+        lengths[len(known) :] = known[-1]  # those behind the result
+        way = np.append(0, np.cumsum(series["mean_vx"][1:] * lengths))
         places, before = np.empty((0, 3)), None
         for frame in self:
             if before is None:
@@ -227,7 +231,7 @@ class Frames(Sequence[Frame]):
                 raise GrainsChangeError("grains come or go, so that they have no way through all frames")
             else:
                 carried = np.zeros(3)
-                carried[0] = np.diff(np.interp([before.step, frame.step], way["step"], way["x_com"]))[0]
+                carried[0] = np.diff(np.interp([before.step, frame.step], series["step"], way))[0]
                 moved = frame.positions - before.positions - carried
                 box = frame.box[:, 1] - frame.box[:, 0]
                 moved[:, :2] -= box[:2] * np.round(moved[:, :2] / box[:2])

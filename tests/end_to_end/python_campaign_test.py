@@ -37,7 +37,11 @@ class PythonCampaign(EndToEndTest):
         self.assertEqual(campaign.status()["finished"], 2)
         self.assertEqual(set(campaign.results()["case"]), set(table.index))
 
+        again = vibrotrough.Campaign(self.output, program=PROGRAM)
+        self.assertEqual(again.folder, campaign.folder)
+        self.assertEqual([case.folder.name for case in again.cases()], list(table.index))
         case = campaign.case(table.index[0])
+        self.assertEqual([packing.number for packing in case.packings()], [1, 2])
         self.assertEqual(len(case.result["packings/efficiency"]), 2)
         phases = case.phases(1)
         self.assertEqual(len(phases["velocity_x"]), 100)

@@ -52,7 +52,7 @@ class Maker:
         (self.packing / "dump").mkdir(parents=True)
         self.case = Case(folder, cycles)
         types = np.ones(len(radii)) if types is None else types
-        positions, way = [], ["step,x_com,z_com"]
+        positions, way, last = [], ["step,x_com,z_com,mean_vx"], 0.0
         for frame in range(cycles * per_cycle + 1):
             step = frame * STEPS // per_cycle
             at, velocities = grains(step * TIME_STEP)
@@ -64,7 +64,10 @@ class Maker:
             self.write(f"dump/frames.{step}.dump", dump("id type x y z vx vy vz radius omegax omegay omegaz", rows, "ATOMS", step))
             x, z = trough(step * TIME_STEP)
             positions.append(f"{step},{x!r},{z!r}")
-            way.append(f"{step},{float(np.average(at[:, 0], weights=np.asarray(radii)**3))!r},0")
+            if step % STEPS == 0:  # as of clumps: the velocity is right, and the centre of mass starts again at the end of the box
+                mean = float(np.average(at[:, 0], weights=np.asarray(radii) ** 3))
+                way.append(f"{step},{mean % LENGTH!r},0,{(mean - last) / PERIOD!r}")
+                last = mean
         self.write("dump/frames.csv", "# SI units\nstep,trough_x,trough_z\n" + "\n".join(positions) + "\n")
         self.write("cycles.csv", "\n".join(way) + "\n")
 
