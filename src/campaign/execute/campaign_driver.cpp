@@ -242,7 +242,7 @@ class Driver {
         one.in_hand.erase(ended.id.packing);
         progress_.core_time += ended.core_time;
         if (!ended.failure) {
-            remaining_time_.done(planned.prepared->work(ended.cycles));
+            remaining_time_.done(planned.prepared->work(ended.cycles), ended.time);
             take_in(one, ended);
             if (!one.has_ended) decide(one);
         } else if (!one.has_ended && may_retry(ended)) {
@@ -337,13 +337,16 @@ class Driver {
         progress_.running = static_cast<int>(progress_.engines.size());
         progress_.elapsed = remaining_time_.elapsed();
         double under_way = 0, core_time = 0;
+        PackingTime taken;
         int cores = 0;
         for (RunningPacking const& one : progress_.engines) {
             under_way += one.planned->prepared->work(one.cycles);
+            taken += one.time;
             core_time += one.elapsed * one.ranks;
             cores += one.ranks;
         }
-        progress_.time_to_go = remaining_time_.seconds(under_way);
+        int const not_started = std::max(0, progress_.packings - progress_.packings_done - progress_.running);
+        progress_.time_to_go = remaining_time_.seconds(under_way, taken, not_started);
         progress_.core_time_to_go = progress_.time_to_go < 0 ? -1 : progress_.time_to_go * cores;
         Progress shown = progress_;
         shown.core_time += core_time;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "campaign/schedule/remaining_time.hpp"
 #include "campaign/state/overview.hpp"
 #include "campaign/state/plan.hpp"
 #include "core/outcome.hpp"
@@ -29,6 +30,7 @@ struct EndedPacking {
     std::string message;                   ///< why it failed
     int cycles = 0;                        ///< simulated
     double core_time = 0;                  ///< s, processor time of the engine in this run, all ranks
+    PackingTime time = {};                 ///< of this run, where the executor knows it
     /// What was measured, when this process measured it; otherwise it is read from the packing's folder.
     std::optional<evaluate::EvaluatedPacking> evaluated = {};
     bool is_recorded = false;  ///< failure.json was written already, by the process that ran the packing
@@ -44,6 +46,7 @@ struct RunningPacking {
     double elapsed;                                    ///< s
     double time_to_go;                                 ///< s, negative while unknown
     int ranks;                                         ///< MPI ranks of its engine
+    PackingTime time = {};                             ///< what `elapsed` consists of
     double silent_for = 0;  ///< s without a new cycle, when that is far more than a cycle took; else 0
 };
 

@@ -87,9 +87,9 @@ class LocalExecutor : public Executor {
         std::vector<RunningPacking> shown;
         for (Running const& one : running_) {
             int const cycles = one.run->cycles(), wanted = one.order.packing.cycles;
-            double const to_go = cycles > 0 ? one.elapsed() / cycles * (wanted - cycles) : -1;
+            double const to_go = cycles > 0 ? one.run->seconds_per_cycle() * (wanted - cycles) : -1;
             shown.push_back({one.order.planned, one.order.packing.number, cycles, wanted, one.run->estimate(),
-                             one.elapsed(), to_go, one.ranks, one.run->silent_for()});
+                             one.elapsed(), to_go, one.ranks, one.run->time(), one.run->silent_for()});
         }
         return shown;
     }
@@ -161,8 +161,9 @@ class LocalExecutor : public Executor {
         }
         end = find_cause(*order.planned, order.packing.number, end, place->memory_kills,
                          inputs_.engine.scratch);
-        EndedPacking result{order.id(), end.failure, end.message, place->run->cycles(),
-                            place->run->core_time()};
+        EndedPacking result{
+            order.id(),        end.failure, end.message, place->run->cycles(), place->run->core_time(),
+            place->run->time()};
         if (!end.failure) result.evaluated = place->run->take_evaluated();
         // The run is in the middle of its own call: it is destroyed after it has returned.
         boost::asio::post(context_, [run = std::shared_ptr<PackingRun>(std::move(place->run))] {});

@@ -119,6 +119,7 @@ void PackingRun::start_on(Settled const& settled) {
     deck::write_deck(deck_, folder_, engine_.ranks);
     // The packing's folder holds its settled packing, so that the deck can be run there by hand.
     core::link_or_copy(settled.restart, folder_ / deck::settled_file);
+    has_settled_ = true;
     start_engine({});
 }
 
@@ -136,6 +137,7 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
     stop_ = packing_.next_stop(sealed_cycle_);
     core::replace_file(engine_folder() / deck::control_file, deck::control_until(stop_));
     start_ = std::chrono::steady_clock::now();
+    settled_at_ = settled_at_.value_or(start_);
     last_cycle_at_ = earlier_wall_time_;
     watch_.emplace(folder_);
     process_ = std::make_unique<engine::EngineProcess>(
@@ -149,6 +151,17 @@ void PackingRun::start_engine(std::optional<Checkpoint> const& checkpoint) {
 double PackingRun::wall_time() const {
     return earlier_wall_time_ +
            std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+double PackingRun::seconds_per_cycle() const {
+    return process_ && cycles_ > 0 ? wall_time() / cycles_ : 0;
+}
+
+PackingTime PackingRun::time() const {
+    auto const now = std::chrono::steady_clock::now();
+    auto const settled_at = settled_at_.value_or(now);
+    return {std::chrono::duration<double>(settled_at - created_).count(),
+            std::chrono::duration<double>(now - settled_at).count(), has_settled_ ? 1 : 0};
 }
 
 void PackingRun::seal() {

@@ -56,6 +56,11 @@ class PackingRun {
     /// s since the last cycle, when that is more than a minute and more than 20 times what a cycle took: the
     /// engine is stopped, or the machine does something else. 0 otherwise, and before a cycle is known.
     double silent_for() const;
+    /// s on the moving trough, also before the last checkpoint, over the cycles seen so far; 0 before the
+    /// first.
+    double seconds_per_cycle() const;
+    /// What this run has taken.
+    PackingTime time() const;
     /// s, processor time of the engine in this run, all ranks.
     double core_time() const { return core_time_of_pauses_ + core_time_; }
 
@@ -87,6 +92,9 @@ class PackingRun {
     std::function<void(PackingEnd const&)> on_end_;
     std::filesystem::path folder_;
     deck::Deck deck_;
+    std::chrono::steady_clock::time_point const created_ = std::chrono::steady_clock::now();
+    std::optional<std::chrono::steady_clock::time_point> settled_at_;  ///< when the trough first moved
+    bool has_settled_ = false;  ///< in this run, and not before its checkpoint
     std::chrono::steady_clock::time_point start_;
     double earlier_wall_time_ = 0;    ///< s, of the engine before the checkpoint
     double earlier_core_time_ = 0;    ///< s, the same of its processor time
