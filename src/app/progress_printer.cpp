@@ -39,8 +39,9 @@ std::string describe(campaign::Progress const& progress) {
 
 /// "  throw_number 2, packing 2: cycle 21 of 24, eta 0.793 +- 0.051, 0:12 elapsed, about 0:04 to go"
 std::string describe(campaign::RunningPacking const& one) {
-    std::string text = fmt::format("  {}, packing {}: cycle {} of {}", name_of(*one.planned), one.packing,
-                                   one.cycles, one.cycles_wanted);
+    std::string text = fmt::format("  {}, packing {}: ", name_of(*one.planned), one.packing);
+    text += one.time.moving > 0 ? fmt::format("cycle {} of {}", one.cycles, one.cycles_wanted)
+                                : "settling, before the trough moves";
     // One efficiency says nothing of a drive that changes in stages.
     bool const is_steady = one.planned->scenario().stages.empty();
     if (is_steady && one.estimate && std::isfinite(one.estimate->mean)) {
