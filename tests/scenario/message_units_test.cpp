@@ -29,6 +29,12 @@ TEST(MessageUnits, AreThoseOfTheFile) {
                       HasSubstr("write at least \"0.3 cm\"")));
 }
 
+TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
+    EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8 d\"")),
+                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains; write it without a "
+                          "unit as layer.diameters"));
+}
+
 // A swept value has the unit of the section's own value, and mm without one.
 TEST(MessageUnits, HoldForSweptValues) {
     std::string const sweep = "\n[sweep]\n\"layer.length\" = [\"36 mm\", \"9 mm\"]\n";

@@ -48,6 +48,10 @@ TEST(TheoryPoint, TakesWhatPeopleWrite) {
     Answer const comma = run_program("theory point --rpm 960 --friction 0,3" + rest);
     EXPECT_EQ(comma.exit_code, 2);
     EXPECT_NE(comma.text.find("has a decimal comma; write 0.3"), std::string::npos) << comma.text;
+    Answer const range =
+        run_program("theory point --rpm 960 --friction 0.3 --amplitude \"4 mm\" --vibration-angle 25-35deg");
+    EXPECT_EQ(range.exit_code, 2);
+    EXPECT_NE(range.text.find("is a range, and here one value is needed"), std::string::npos) << range.text;
 }
 
 // Possible, but hardly any machine: a warning says what is usual and which slip would explain it.

@@ -189,7 +189,7 @@ void DesignOptions::add_to(CLI::App& command) {
             "--model", models,
             "By which model: point-mass, rolling-layer, atlas, surface, or several, separated by "
             "commas, which must then all reach the mass flow; default: with --grain-diameter the atlas where "
-            "it knows the layer, otherwise the point mass")
+            "it knows the layer, else the rolling-layer law up to throw number 1.9; else the point mass")
         ->delimiter(',')
         ->expected(1)
         ->type_name("MODEL[,MODEL...]")

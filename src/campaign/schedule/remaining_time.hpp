@@ -10,7 +10,7 @@ struct PackingTime {
     double moving = 0;    ///< since then
     int settled = 0;      ///< packings that `settling` was enough for
 
-    PackingTime& operator+=(PackingTime const& other);
+    PackingTime& operator+=(PackingTime const& other);  ///< adds what other packings have taken
 };
 
 /// Estimates how long the rest of a campaign takes, from the work done so far and how fast it went. Work is

@@ -15,6 +15,11 @@
 namespace vibrotrough::scenario {
 namespace {
 
+/// "8 d"
+bool is_in_diameters(std::string_view text) {
+    return text.ends_with(" d") || text.ends_with(" D") || text.find("diameter") != std::string_view::npos;
+}
+
 /// Reads the value of one key.
 class ValueReader {
   public:
@@ -125,6 +130,9 @@ class ValueReader {
         try {
             return core::parse_quantity(**node.as_string(), std::string(key_.unit));
         } catch (core::QuantityError const& error) {
+            if (key_.path == "layer.height" && is_in_diameters(**node.as_string()))
+                fail(node, fmt::format("{} is a depth in diameters of the grains", written(node)),
+                     "write it without a unit as layer.diameters");
             fail(node, core::printable(error.what(), 300), write_instead(key_));
         }
     }

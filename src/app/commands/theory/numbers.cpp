@@ -10,13 +10,27 @@
 namespace vibrotrough::app {
 namespace {
 
+// "25 deg to 35 deg", "25 to 35 deg" and "25-35 deg". A minus is a separator between plain numbers only:
+// "-5 deg" and "25 s^-1" are single values.
+bool is_range(std::string const& text, std::smatch& ends) {
+    static std::regex const with_word(R"((.+?) (?:to|bis) (.+))");
+    static std::regex const with_dash(R"(\s*(\d[\d.,]*)\s*(?:-|\xE2\x80\x93)\s*(\d.*))");
+    return std::regex_match(text, ends, with_word) || std::regex_match(text, ends, with_dash);
+}
+
+/// What is wrong with a value.
+std::string problem_of(std::string const& text, core::QuantityError const& error) {
+    std::smatch ends;
+    return is_range(text, ends) ? "is a range, and here one value is needed" : error.what();
+}
+
 double read_quantity(std::string const& option, std::string const& text, std::string const& unit,
                      std::string const& example) {
     try {
         return core::parse_quantity(text, unit);
     } catch (core::QuantityError const& error) {
         throw core::InputError(fmt::format("{} {}: {}; write a number with its unit, for example {} \"{}\"",
-                                           option, text, error.what(), option, example));
+                                           option, text, problem_of(text, error), option, example));
     }
 }
 
@@ -33,8 +47,8 @@ double read_number(std::string const& option, std::string const& text, std::stri
     try {
         return core::parse_number(text);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(
-            fmt::format("{} {}: {}; write for example {} {}", option, text, error.what(), option, example));
+        throw core::InputError(fmt::format("{} {}: {}; write for example {} {}", option, text,
+                                           problem_of(text, error), option, example));
     }
 }
 
@@ -92,13 +106,9 @@ double read_turns(std::string const& option, std::string const& text) {
 
 theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
                          std::function<double(std::string const&)> const& read_one) {
-    // "25 deg to 35 deg", "25 to 35 deg" and "25-35 deg". A minus is a separator between plain numbers only:
-    // "-5 deg" and "25 s^-1" are single values.
-    static std::regex const with_word(R"((.+?) (?:to|bis) (.+))");
-    static std::regex const with_dash(R"(\s*(\d[\d.,]*)\s*(?:-|\xE2\x80\x93)\s*(\d.*))");
     static std::regex const number_and_unit(R"(\s*[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*(.*))");
     std::smatch ends, first, second;
-    if (!std::regex_match(text, ends, with_word) && !std::regex_match(text, ends, with_dash)) {
+    if (!is_range(text, ends)) {
         double const value = read_one(text);
         return {value, value};
     }
