@@ -10,6 +10,7 @@
 #include "deck/deck_folder.hpp"
 #include "engine/certificate.hpp"
 #include "evaluate/packing_files.hpp"
+#include "learn/design_file.hpp"
 #include "learn/notes.hpp"
 
 #include <cmath>
@@ -33,6 +34,14 @@ void require_line(std::string_view text) {
 
 void require_number(std::optional<double> value, double least) {
     require(!value || (std::isfinite(*value) && *value >= least));
+}
+
+/// All numbers are finite, and all texts are harmless lines.
+void require_plain_values(core::note::Json const& json) {
+    if (json.is_number()) require(std::isfinite(json.get<double>()));
+    if (json.is_string()) require_line(json.get_ref<std::string const&>());
+    if (json.is_structured())
+        for (auto const& value : json) require_plain_values(value);
 }
 
 /// What a reader believes; none when it names a fault. Any other error ends the process.
@@ -143,6 +152,10 @@ void check_learned(std::string_view text) {
         require(known->low <= known->median && known->median <= known->high);
         for (double const value : known->draws) require(std::isfinite(value));
         for (double const value : known->discrepancies) require(std::isfinite(value));
+    }
+    if (auto const page = believed([&] { return learn::proposed_machines(text); })) {
+        require_plain_values(*page);
+        require(!page->at("machines").empty());
     }
     if (auto const facts = believed([&] { return archive::parse_facts(text); })) {
         require_line(facts->program_version);
