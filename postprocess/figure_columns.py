@@ -168,6 +168,17 @@ def series_of(tables: list[Table], x: Shown, by: str | None) -> dict[str, list[R
     return found
 
 
+def why_nothing(tables: list[Table], x: Shown, y: Shown) -> str:
+    """Why no case can be drawn."""
+    rows = [row for table in tables for row in table.rows]
+    for one in (y, x):
+        if not any(math.isfinite(one.of(row)) for row in rows):
+            if base_name(one.column) == "mass_flow":
+                return f"no case has {one.name}, because the campaign does not say how wide the trough is (trough.width); draw mass_flow_per_width"
+            return f"no case has {one.name}"
+    return f"no case has both {x.name} and {y.name}"
+
+
 def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str, y_name: str, by: str | None,
                  unit: str | None, factor: float) -> list[pathlib.Path]:
     """Draws the figure; returns the files. @raises Problem when a column is not there or holds no numbers"""
@@ -190,7 +201,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         if base_name(y.column) in OF_EFFICIENCY:
             models |= draw_models(axes, x, y, rows, colour, DASHES[number % len(DASHES)])
     if not drawn:
-        raise Problem(f"no case has both {x.name} and {y.name}")
+        raise Problem(why_nothing(tables, x, y))
     axes.set_xlabel(x.title)
     axes.set_ylabel(y.title)
     lines = "; ".join(f"{words if len(models) > 1 else 'thin lines'}: {name}" for name, (_, _, words) in MODELS.items() if name in models)

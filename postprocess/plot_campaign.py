@@ -42,6 +42,7 @@ LineKey = tuple[float, float | None, float | None]  # vibration angle and inclin
 UNCERTAIN = "not precise or not steady"
 BISTABLE = "bistable-or-slow"  # the outcome
 MOST_PANELS = 6
+APART = 0.015  # of the axis: from series to series where several have a point at one place
 
 
 def read_campaign(path: pathlib.Path) -> tuple[Columns, dict[str, str], dict[str, Any]]:
@@ -140,6 +141,17 @@ class Series:
         self.colours = self.colour_by.groups() if self.colour_by else none
         self.markers = self.marker_by.groups() if self.marker_by else none
 
+    def drawn_places(self) -> NDArray[np.float64]:
+        """Where the points are drawn: beside one another where series have the same place, so that none hides another."""
+        places, _ = self.over.places()
+        kinds = sorted(set(zip(self.colours.tolist(), self.markers.tolist())))
+        kind = np.array([kinds.index(one) for one in zip(self.colours.tolist(), self.markers.tolist())])
+        values = np.unique(places)
+        if len(values) == self.count:
+            return np.asarray(places, dtype=float)
+        step = min(APART * (np.ptp(places) or 1.0), 0.6 * np.diff(values).min(initial=np.inf) / len(kinds))
+        return np.asarray(places + step * (kind - (len(kinds) - 1) / 2), dtype=float)
+
     def name(self, row: int) -> str:
         inputs = [one for one in (self.colour_by, self.marker_by) if one]
         if inputs:
@@ -194,7 +206,7 @@ def draw_theory_at_cases(axes: Axes, series: Series, rows: list[int], theory: di
 
 def draw(axes: Axes, series: Series, rows: list[int]) -> None:
     columns = series.columns
-    places, names = series.over.places()
+    places, (_, names) = series.drawn_places(), series.over.places()
     for colour, marker in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
         members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == (colour, marker)),
                          key=lambda row: places[row])
@@ -208,8 +220,7 @@ def draw(axes: Axes, series: Series, rows: list[int]) -> None:
 
 def draw_branches(axes: Axes, series: Series, members: list[int]) -> list[tuple[float, float]]:
     """Both branches of the cases that are bistable or slow; returns their points. Older campaigns have none."""
-    columns, points = series.columns, []
-    places, _ = series.over.places()
+    columns, points, places = series.columns, [], series.drawn_places()
     for side, marker in (("below", "v"), ("above", "^")):
         efficiency = columns.get(f"efficiency_{side}", np.full(series.count, np.nan))
         rows = [row for row in members if columns["outcome"][row] == BISTABLE and np.isfinite(efficiency[row])]
@@ -224,7 +235,7 @@ def draw_branches(axes: Axes, series: Series, members: list[int]) -> list[tuple[
 
 def mark_uncertain(axes: Axes, series: Series, members: list[int], branches: list[tuple[float, float]]) -> None:
     """A ring around every point that is less certain than asked for; cases without a value are counted, not hidden."""
-    columns, (places, _) = series.columns, series.over.places()
+    columns, places = series.columns, series.drawn_places()
     drawn = np.isfinite(columns["efficiency"])
     rows = [row for row in members if columns["outcome"][row] != "finished" and drawn[row]]
     points = [(places[row], columns["efficiency"][row]) for row in rows] + branches

@@ -130,13 +130,19 @@ class Figures:
         return [figure for figure in (self.get(*one, data) for one in names) if figure]
 
 
+# Before the efficiencies, because a screen is narrower than the table.
+WHAT_A_MACHINE_DOES = ("conveying_speed_m_per_s", "mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")
+
+
 def report_columns(overview: dict[str, Any]) -> list[Column]:
     """The columns that the report shows, from left to right, as campaign.json describes them."""
     shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
     for column in shown:
         column["heading"] = plain(column["heading"])
         column["unit"] = UNIT_SIGNS.get(column["shown_unit"], column["shown_unit"])
-    return sorted(shown, key=lambda column: column["position"])
+    inputs_end = min((column["position"] for column in shown if column["name"] == "efficiency"), default=0)
+    return sorted(shown, key=lambda column: (column["position"] >= inputs_end and column["name"] not in WHAT_A_MACHINE_DOES,
+                                             column["position"] >= inputs_end, column["position"]))
 
 
 def written(value: Any, column: Column) -> str:

@@ -110,6 +110,31 @@ bool holds(Condition const& condition, Row const& row) {
     return false;
 }
 
+/// What to write instead: the columns that have a word of the name, else all.
+std::string advice_of(std::span<Column const> columns, std::string_view name) {
+    constexpr std::string_view separators = "_. ";
+    constexpr std::size_t shortest = 4;
+    std::string all, similar;
+    auto const add = [](std::string& list, std::string_view one) {
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", one);
+    };
+    for (Column const& column : columns) {
+        add(all, column.name);
+        if (column.name.find("half_width") != std::string_view::npos) continue;
+        for (std::size_t begin = 0; begin < name.size();) {
+            std::size_t const end = std::min(name.find_first_of(separators, begin), name.size());
+            std::string_view const word = name.substr(begin, end - begin);
+            if (word.size() >= shortest && column.name.find(word) != std::string_view::npos) {
+                add(similar, column.name);
+                break;
+            }
+            begin = end + 1;
+        }
+    }
+    if (similar.empty()) return "the columns are " + all;
+    return fmt::format("similar ones are {}; 'vibrotrough quantities' describes all", similar);
+}
+
 }  // namespace
 
 Column const& column_named(std::span<Column const> columns, std::string_view option, std::string_view name) {
@@ -128,10 +153,8 @@ Column const& column_named(std::span<Column const> columns, std::string_view opt
         return column.swept >= 0 && column.key.substr(column.key.find('.') + 1) == name;
     };
     if (std::ranges::count_if(columns, is_short) == 1) return *std::ranges::find_if(columns, is_short);
-    std::string names;
-    for (Column const& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ", ", column.name);
-    throw core::InputError(fmt::format("{}: there is no column '{}'; the columns are {}", option,
-                                       core::printable(name, longest_shown), names));
+    throw core::InputError(fmt::format("{}: there is no column '{}'; {}", option,
+                                       core::printable(name, longest_shown), advice_of(columns, name)));
 }
 
 std::vector<Row> filtered(std::vector<Row> const& rows, std::string_view condition,

@@ -65,6 +65,8 @@ TEST(Filter, SaysWhatIsWrong) {
     };
     EXPECT_NE(said("gamma>1").find("there is no column 'gamma'; the columns are case, throw_number,"),
               std::string::npos);
+    EXPECT_NE(said("flow_speed>1").find("similar ones are conveying_speed_m_per_s, mass_flow_t_per_h,"),
+              std::string::npos);
     EXPECT_NE(said("throw_number").find("is not a condition; write a column"), std::string::npos);
     EXPECT_NE(said("throw_number>").find("is not a condition"), std::string::npos);
     EXPECT_NE(said("throw_number=>1").find("is not a condition"), std::string::npos);

@@ -61,6 +61,11 @@ class Archive(EndToEndTest):
         done = self.call("plot", self.output, "--with", self.output, "--x", "throw_number", "--y", "speed", "--unit", "m/min")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("conveying_speed-over-throw_number.png", done.stdout)
+        # A key is an axis where the campaign does not vary it, too; what is kept of the campaign stays as it is.
+        kept = (self.output / "campaign.h5").read_bytes()
+        done = self.call("plot", self.output, "--with", self.output, "--x", "layer.height", "--y", "speed")
+        self.assertIn("conveying_speed-over-height.png", done.stdout, done.stderr)
+        self.assertEqual((self.output / "campaign.h5").read_bytes(), kept)
         for words, said in ((("--x", "friction", "--y", "nonsense"), "there is no column 'nonsense'"), (("--x", "outcome", "--y", "speed"), "is not a number"),
                             (("--x", "friction", "--y", "speed", "--unit", "kg/s"), "conveying_speed_m_per_s is in m/s"),
                             (("--x", "friction"), "--y is missing"), (("--by", "friction"), "belong to the figure of two columns"),

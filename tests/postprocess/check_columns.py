@@ -80,7 +80,7 @@ def check_that_only_speeds_have_a_theory(scripts, outputs):
 
 def check_mistakes(scripts, outputs):
     for asked, said in {("nonsense", "efficiency"): "no campaign has a column nonsense",
-                        ("layer.height", "mass_flow_t_per_h"): "no case has both"}.items():  # fmt: skip
+                        ("layer.height", "mass_flow_t_per_h"): "how wide the trough is (trough.width); draw mass_flow_per_width"}.items():  # fmt: skip
         x, y = asked
         done = subprocess.run(["/usr/bin/python3", "-B", scripts / "figures.py", outputs[0], "--output", outputs[0], "--x", x, "--y", y],
                               capture_output=True, text=True)
