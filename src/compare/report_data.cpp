@@ -66,7 +66,6 @@ Json cases_with_effects(ComparedCases const& compared) {
 std::vector<campaign::CaseOverview> write_report_data(campaign::Plan const& plan,
                                                       campaign::Activity const& activity,
                                                       fs::path const& folder) {
-    if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
     ComparedCases compared = compared_cases(plan, activity);
     auto const& cases = compared.cases;
     core::make_folder(folder / "point_mass");

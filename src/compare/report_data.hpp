@@ -17,7 +17,6 @@ namespace vibrotrough::compare {
 /// when
 ///   its motion has no period.
 ///
-/// When the campaign.h5 of the campaign's folder lacks a finished case, it is written again.
 /// @param activity  what the executors know of the campaign, for cases without a result
 /// @returns what is known of the cases
 /// @throws core::MissingError when a file cannot be written

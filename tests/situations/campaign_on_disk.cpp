@@ -170,6 +170,7 @@ Answer ask(CampaignOnDisk const& campaign, Depth depth, fs::path const& scratch)
         if (!nlohmann::json::accept(compare::to_json(compared.rows, compared.columns))) return {"no JSON"};
         if (std::string fault = fault_of(campaign, plan, compared); !fault.empty()) return {fault};
         if (depth == Depth::shown) return {};
+        if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
         compare::write_report_data(plan, activity, scratch / "data");
         archive::write_bundle(plan, activity, scratch / "bundle.zip", {{}, {}, true});
     } catch (core::Error const& error) {

@@ -96,19 +96,22 @@ double factor_to(std::string const& unit, compare::Column const& column) {
     }
 }
 
-/// A key of the campaign file that is an axis has its column, also where this campaign does not vary it.
-void take_as_swept(campaign::Plan& plan, PlotArguments const& options) {
+/// The campaign, with its campaign.h5 renewed where results came in by hand. A key of the campaign file that
+/// is an axis then has its column, also where this campaign does not vary it.
+campaign::Plan open_for_figures(std::string const& folder, PlotArguments const& options) {
+    campaign::Plan plan = campaign::open_plan(folder);
     if (campaign::is_campaign_file_outdated(plan)) campaign::write_campaign_file(plan);
     for (std::string const& name : {options.x, options.y, options.by}) {
         scenario::Key const* const key = scenario::find_key(name);
         if (key != nullptr && std::ranges::find(plan.swept, key) == plan.swept.end())
             plan.swept.push_back(key);
     }
+    return plan;
 }
 
 /// The figure of any two columns, for figures.py: its options, and what the program knows of the other
 /// campaigns, which is written into their folders as for their own figures.
-std::vector<std::string> words_for_columns(PlotArguments const& options, campaign::Plan& plan) {
+std::vector<std::string> words_for_columns(PlotArguments const& options, campaign::Plan const& plan) {
     bool const is_asked = !options.x.empty() || !options.y.empty();
     if (!is_asked && (!options.by.empty() || !options.unit.empty() || !options.others.empty()))
         throw core::InputError(
@@ -120,7 +123,6 @@ std::vector<std::string> words_for_columns(PlotArguments const& options, campaig
     if (!options.only.empty() || !options.cases.empty())
         throw core::InputError(
             "--only and --case choose among the other figures; leave them out with --x and --y");
-    take_as_swept(plan, options);
     auto const columns = compare::columns_of(plan);
     compare::Column const& y = number_named(columns, "--y", options.y);
     std::vector<std::string> words{"--x", std::string(number_named(columns, "--x", options.x).name), "--y",
@@ -133,8 +135,7 @@ std::vector<std::string> words_for_columns(PlotArguments const& options, campaig
                      {"--unit", options.unit, "--factor", fmt::format("{}", factor_to(options.unit, y))});
     }
     for (std::string const& folder : options.others) {
-        campaign::Plan other = campaign::open_plan(folder);
-        take_as_swept(other, options);
+        campaign::Plan const other = open_for_figures(folder, options);
         fs::path const output = fs::path(folder) / "report";
         core::make_folder(output);
         core::OwnFolder const own(output);
@@ -147,7 +148,7 @@ std::vector<std::string> words_for_columns(PlotArguments const& options, campaig
 
 int run_plot(PlotArguments const& options) {
     std::vector<std::string> const print = words_for_print(options);
-    campaign::Plan plan = campaign::open_plan(options.folder);
+    campaign::Plan const plan = open_for_figures(options.folder, options);
     std::vector<std::string> const columns = words_for_columns(options, plan);
     check_cases(options, plan);
     fs::path const output = output_folder(options);
