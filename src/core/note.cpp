@@ -52,9 +52,9 @@ Json parse(std::string_view text) {
     }
 }
 
-Json const& object(Json const& note, std::string const& key) {
-    Json const& value = member(note, key);
-    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", shown(key)));
+Json const& object(Json const& note, std::string_view key) {
+    Json const& value = member(note, std::string(key));
+    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", shown(std::string(key))));
     return value;
 }
 
@@ -63,9 +63,9 @@ Json const& elements(Json const& note) {
     return note;
 }
 
-Json const& list(Json const& note, std::string const& key) {
-    Json const& value = member(note, key);
-    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", shown(key)));
+Json const& list(Json const& note, std::string_view key) {
+    Json const& value = member(note, std::string(key));
+    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", shown(std::string(key))));
     return value;
 }
 

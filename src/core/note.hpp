@@ -32,9 +32,9 @@ constexpr int deepest = 100;
 Json parse(std::string_view text);
 
 /// A member that is an object. @throws Fault when it is missing or something else
-Json const& object(Json const& note, std::string const& key);
+Json const& object(Json const& note, std::string_view key);
 /// A member that is a list. @throws Fault when it is missing or something else
-Json const& list(Json const& note, std::string const& key);
+Json const& list(Json const& note, std::string_view key);
 
 /// The values of a list. @throws Fault when the note is something else
 Json const& elements(Json const& note);

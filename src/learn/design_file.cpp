@@ -1,6 +1,7 @@
 #include "learn/design_file.hpp"
 
 #include "core/note.hpp"
+#include "learn/uncertain.hpp"
 
 #include <cmath>
 #include <optional>
@@ -17,7 +18,7 @@ using note::Json;
 constexpr double share_of_ends = 1.96 / 3;
 
 /// What the page shows where the design knows nothing of the grains.
-constexpr double usual_diameter_mm = 3, usual_rolling_friction = 0;
+constexpr double usual_diameter_mm = 3;
 
 Json or_null(std::optional<double> value) {
     return value ? Json(*value) : Json(nullptr);
@@ -43,7 +44,7 @@ Json settings_of(Json const& design, Json const& drive) {
     settings["grain_mm"] =
         rounded(note::known_number(task, "grain_diameter_mm", 0).value_or(usual_diameter_mm));
     settings["rolling_friction"] =
-        rounded(note::known_number(task, "rolling_friction", 0).value_or(usual_rolling_friction));
+        rounded(note::known_number(task, "rolling_friction", 0).value_or(unknown_rolling_friction().mean));
     return settings;
 }
 

@@ -21,6 +21,62 @@ theory::PointMass point_of(theory::Drive const& d, double friction) {
             friction};
 }
 
+/// The law for grains whose rolling friction is not known exactly.
+class LawOfGrains {
+  public:
+    /// @param friction  on the trough, at which spread() is looked at
+    LawOfGrains(Uncertain const& rolling_friction, double friction)
+        : nodes_(nodes_of(rolling_friction)), friction_(friction), is_exact_(rolling_friction.sd <= 0) {
+        for (UncertainNode const& node : nodes_) {
+            theory::RollingLaw law;
+            law.dry_torque += std::max(0.0, node.value);
+            solvers_.emplace_back(law);
+        }
+    }
+
+    /// With the mean of the rolling friction; nothing without a mean speed.
+    std::optional<double> efficiency(theory::Drive const& d, double friction) {
+        return solved(middle, point_of(d, friction));
+    }
+
+    /// Its standard deviation by the rolling friction. A design asks for many frictions at one drive.
+    double spread(theory::Drive const& d) {
+        if (is_exact_) return 0;
+        theory::PointMass const point = point_of(d, friction_);
+        std::array<double, 3> const place{point.throw_number, point.tan_vibration_angle,
+                                          point.tan_inclination};
+        if (place == last_place_) return last_spread_;
+        double known = 0, sum = 0, squares = 0;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            auto const eta = solved(i, point);
+            if (!eta) continue;
+            known += nodes_[i].share;
+            sum += nodes_[i].share * *eta;
+            squares += nodes_[i].share * *eta * *eta;
+        }
+        last_place_ = place;
+        last_spread_ =
+            known > 0 ? std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known))) : 0;
+        return last_spread_;
+    }
+
+  private:
+    static constexpr std::size_t middle = 1;
+
+    std::optional<double> solved(std::size_t node, theory::PointMass const& point) {
+        double const eta = solvers_[node](point).motion.velocity_efficiency;
+        if (!std::isfinite(eta)) return {};
+        return eta;
+    }
+
+    std::array<UncertainNode, 3> nodes_;
+    double friction_;
+    bool is_exact_;
+    std::vector<theory::RollingLayerSolver> solvers_;
+    std::array<double, 3> last_place_{};
+    double last_spread_ = 0;
+};
+
 }  // namespace
 
 double DesignModel::missed(theory::Drive const& drive, std::optional<double> depth) const {
@@ -64,17 +120,26 @@ DesignModel point_mass_design_model(std::optional<double> discrepancy) {
     return model;
 }
 
-DesignModel rolling_layer_design_model(theory::RollingLaw const& law, std::optional<double> discrepancy) {
-    auto const solver = std::make_shared<theory::RollingLayerSolver>(law);
+DesignModel rolling_layer_design_model(std::optional<Uncertain> const& rolling_friction,
+                                       std::optional<double> discrepancy, double friction_looked_at) {
+    Uncertain const known = rolling_friction.value_or(unknown_rolling_friction());
+    auto const law = std::make_shared<LawOfGrains>(known, friction_looked_at);
     DesignModel model{.name = "the rolling-layer law",
                       .discrepancy = discrepancy,
                       .errors = rolling_layer_errors(),
                       .is_slow = true};
-    model.at = [solver](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
-        double const eta = (*solver)(point_of(d, friction)).motion.velocity_efficiency;
-        if (!std::isfinite(eta)) return {};
-        return ModelEfficiency{eta, 0};
+    model.at = [law](theory::Drive const& d, double friction) -> std::optional<ModelEfficiency> {
+        auto const eta = law->efficiency(d, friction);
+        if (!eta) return {};
+        return ModelEfficiency{*eta, law->spread(d)};
     };
+    std::string const name = rolling_friction ? "rolling friction"
+                                              : fmt::format("rolling friction (not given: {:.3g} to {:.3g})",
+                                                            known.low(), known.high());
+    if (known.sd > 0)
+        model.sources = [law, name](theory::Drive const& d) {
+            return std::vector<OwnSource>{{name, law->spread(d)}};
+        };
     model.outside = [](theory::Drive const& d, double friction, std::optional<double> depth) {
         return theory::outside_tested_range(point_of(d, friction), depth);
     };

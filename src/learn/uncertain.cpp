@@ -19,6 +19,10 @@ Uncertain between_ends(double low, double high) {
     return {(low + high) / 2, (high - low) / (2 * std::numbers::sqrt3), Shape::uniform};
 }
 
+Uncertain unknown_rolling_friction() {
+    return between_ends(0, 0.2);
+}
+
 std::array<UncertainNode, 3> nodes_of(Uncertain const& number) {
     bool const is_normal = number.shape == Shape::normal;
     double const outer = is_normal ? 1.0 / 6 : 5.0 / 18;

@@ -23,6 +23,10 @@ struct Uncertain {
 /// Anything between two ends. @throws std::invalid_argument when low > high
 Uncertain between_ends(double low, double high);
 
+/// What the rolling friction of grains is where nobody knows it: anything up to 0.2, as far as layers were
+/// simulated (validation/atlas).
+Uncertain unknown_rolling_friction();
+
 /// A value of a distribution and its share.
 struct UncertainNode {
     double share;  ///< of the distribution

@@ -208,7 +208,7 @@ class Engineer(EndToEndTest):
             (["--friction", "0.3", "--verify"], "write --grain-diameter"),
             (["--friction", "0.3", "--verify", "--grain-diameter", "3 mm"], "write --rolling-friction 0.1, or 0"),
             (["--friction", "0.3", "--budget", "1 core-hours"], "--budget requires --verify"),
-            (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1", "--model", "point-mass"], "neither the point mass"),
+            (["--friction", "0.3", "--grain-diameter", "3 mm", "--rolling-friction", "0.1", "--model", "point-mass"], "the point mass does not know it"),
         ):
             answer = self.call(*task, *words)
             self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)

@@ -166,5 +166,37 @@ TEST(Budget, SaysWhatAnUnknownRollingFrictionCosts) {
     EXPECT_NEAR(per_speed * (known.sure_speed - unknown.sure_speed), share->gained, 1e-9);
 }
 
+// The rolling friction of the grains adds to the dry torque of the law, mu_i + mu_r.
+TEST(Budget, TheLawKnowsTheRollingFrictionOfTheGrains) {
+    theory::Drive const drive = drive_of_960();
+    auto const law = [&](double rolling_friction) {
+        theory::RollingLayer layer{
+            {drive.throw_number(), std::tan(drive.vibration_angle), std::tan(drive.inclination), 0.3}, {}};
+        layer.law.dry_torque += rolling_friction;
+        return solve(layer).motion.velocity_efficiency;
+    };
+    EXPECT_EQ(rolling_layer_design_model().at(drive, 0.3)->efficiency, law(0));
+    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->efficiency, law(0.1));
+    EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->sd(), 0);
+
+    // Nobody gave it: anything between 0 and 0.2, as the standard deviation of 200 equal parts of that.
+    // Tolerance: 3 %, because three nodes stand for the distribution.
+    DesignModel const unknown = rolling_layer_design_model({});
+    double sum = 0, squares = 0;
+    constexpr int parts = 200;
+    for (int i = 0; i < parts; ++i) {
+        double const eta = law(0.2 * (i + 0.5) / parts);
+        sum += eta / parts;
+        squares += eta * eta / parts;
+    }
+    double const sd = std::sqrt(squares - sum * sum);
+    ASSERT_GT(sd, 0.02);
+    EXPECT_NEAR(unknown.at(drive, 0.3)->sd(), sd, 0.03 * sd);
+    auto const sources = unknown.sources(drive);
+    ASSERT_EQ(sources.size(), 1U);
+    EXPECT_EQ(sources.front().name, "rolling friction (not given: 0 to 0.2)");
+    EXPECT_EQ(sources.front().sd, unknown.at(drive, 0.3)->sd());
+}
+
 }  // namespace
 }  // namespace vibrotrough::learn

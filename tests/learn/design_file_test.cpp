@@ -46,8 +46,9 @@ TEST(DesignFile, GivesThePageTheSettingsOfTheMachine) {
     // The page's band is half of the central 95 %; a design's ends are those of the central 99.7 %: 0.09
     // * 1.96 / 3. Tolerance: rounding to six digits.
     EXPECT_NEAR(settings.at("friction_band").get<double>(), 0.0588, 1e-6);
-    // A rolling friction that the design does not know is shown as 0, and said to be assumed.
-    EXPECT_EQ(settings.at("rolling_friction"), 0);
+    // A rolling friction that the design does not know is shown as the middle of what it can be, and said to
+    // be assumed.
+    EXPECT_EQ(settings.at("rolling_friction"), 0.1);
     EXPECT_EQ(page.at("assumed"), Json::array({"rolling_friction"}));
 }
 

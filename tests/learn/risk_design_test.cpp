@@ -296,7 +296,7 @@ TEST(RiskDesign, AStatedDiscrepancyIsTheUsersOwn) {
     task.grain_diameter = 0.001;
     task.models = {point_mass_design_model(0.05)};
     EXPECT_FALSE(design_with_risk(task).untested);
-    task.models = {rolling_layer_design_model({}, 0.05)};
+    task.models = {rolling_layer_design_model(Uncertain{0}, 0.05)};
     EXPECT_TRUE(design_with_risk(task).untested);
 }
 

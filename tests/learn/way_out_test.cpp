@@ -50,7 +50,7 @@ std::string refusal(DesignTask const& task) {
 // throw number of 1.25 and ends at tan(beta) = 0.75, sin(beta) = 0.6: a machine number of 1.25 / 0.6 = 2.083.
 TEST(WayOut, TheLimitInTheWayIsNamed) {
     DesignTask task = pellets();
-    task.models = {rolling_layer_design_model({}, 0.05)};
+    task.models = {rolling_layer_design_model(Uncertain{0}, 0.05)};
     task.space.max_machine_number = 1.5;
     EXPECT_THAT(refusal(task), testing::AllOf(testing::HasSubstr("throw numbers of 1.25 to 2.6"),
                                               testing::HasSubstr("a machine number of 2.09 or more")));

@@ -36,12 +36,15 @@ struct DesignArguments {
 learn::DesignTask read_task(DesignArguments const& options) {
     learn::DesignTask task = options.task.task();
     bool const is_simulated = options.verify || !options.campaign.empty();
-    bool const asks_atlas = std::ranges::find(options.task.models, "atlas") != options.task.models.end() ||
-                            options.task.models_to_choose(task);
-    if (task.rolling_friction && !is_simulated && !asks_atlas)
+    auto const asks = [&](std::string const& model) {
+        return std::ranges::find(options.task.models, model) != options.task.models.end();
+    };
+    bool const matters =
+        is_simulated || asks("atlas") || asks("rolling-layer") || options.task.models_to_choose(task);
+    if (task.rolling_friction && !matters)
         throw core::InputError(
-            "--rolling-friction: neither the point mass nor the rolling-layer law knows it; write --model "
-            "atlas, --verify or --campaign as well, or leave it out");
+            "--rolling-friction: the point mass does not know it; write --model rolling-layer, --verify or "
+            "--campaign as well, or leave it out");
     if (!options.verify) return task;
     if (task.machine && task.machine->exciter)
         throw core::InputError(
@@ -173,8 +176,8 @@ every friction in the central 99.7 % of its distribution (three standard deviati
 4. Four models can be asked. The point mass is the theory of Sloot and Kruyt. Between throw numbers 1.2 and
 2.3, layers of grains that roll are conveyed up to twice as fast as it says: the rolling-layer law describes
 these. The atlas is what simulated layers of spheres say, with an interval (see 'vibrotrough predict'); what
-it does not know of the grains (rolling friction, friction, restitution) is part of its uncertainty. A surface
-is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
+it does not know of the grains (rolling friction, friction, restitution) is part of its uncertainty, as the
+rolling friction is of the law's. A surface is what your own simulated campaign says. Landing speed, power and mode are always those of the point mass.
 With --grain-diameter and without --model the atlas decides where it knows the layer, otherwise the law or the
 point mass, and the others stand beside it.
 

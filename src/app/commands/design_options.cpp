@@ -234,9 +234,8 @@ void DesignOptions::add_material(CLI::App& command) {
         "Of the grains: for the depth of the layer in grains, for the atlas, and for the campaign, whose "
         "default is \"3 mm\"");
     add("--rolling-friction", rolling_friction,
-        "Of the grains, for the atlas and for layers that are simulated, written like --friction; default: "
-        "not "
-        "known, for the atlas anything between 0 and 0.2, and 0 in the campaign");
+        "Of the grains, for the atlas, the rolling-layer law and layers that are simulated, written like "
+        "--friction; default: not known, anything between 0 and 0.2, and 0.1 in the campaign");
     add("--grain-friction", grain_friction,
         "Friction between the grains, for the atlas, written like --friction; default: not known, anything "
         "between 0.3 and 0.8");
@@ -291,15 +290,16 @@ learn::KnownFriction DesignOptions::read_friction(std::string& calibrated_model)
                                                 : learn::normal_friction(known.mean, known.sd);
 }
 
+std::optional<learn::Uncertain> DesignOptions::read_rolling_friction() const {
+    if (!rolling_friction) return {};
+    return read_uncertain_number("--rolling-friction", *rolling_friction, "0.05", 0, 1);
+}
+
 learn::KnownGrains DesignOptions::read_grains() const {
     if (!grain_diameter)
-        throw core::InputError(
-            "--model atlas, --rolling-friction and --verify need the size of the grains; write "
-            "--grain-diameter \"3 mm\"");
-    learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm")};
-    if (rolling_friction)
-        grains.rolling_friction =
-            read_uncertain_number("--rolling-friction", *rolling_friction, "0.05", 0, 1);
+        throw core::InputError("--model atlas needs the size of the grains; write --grain-diameter \"3 mm\"");
+    learn::KnownGrains grains{read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm"),
+                              read_rolling_friction()};
     if (grain_friction)
         grains.friction = read_uncertain_number("--grain-friction", *grain_friction, "0.5", 0, 10);
     return grains;
@@ -315,7 +315,10 @@ std::optional<learn::ModelsToChoose> DesignOptions::models_to_choose(learn::Desi
     if (is_named || !task.grain_diameter) return {};
     auto const missed = read_discrepancy();
     learn::ModelsToChoose choice{
-        {}, "", learn::rolling_layer_design_model({}, missed), learn::point_mass_design_model(missed)};
+        {},
+        "",
+        learn::rolling_layer_design_model(read_rolling_friction(), missed, task.friction.median),
+        learn::point_mass_design_model(missed)};
     try {
         choice.atlas = learn::atlas_design_model(read_grains(), missed.value_or(0), task.friction.median);
     } catch (core::InputError const& error) {
@@ -340,7 +343,7 @@ std::vector<learn::DesignModel> DesignOptions::read_models(learn::KnownFriction 
         if (name == "point-mass")
             all.push_back(learn::point_mass_design_model(missed));
         else if (name == "rolling-layer")
-            all.push_back(learn::rolling_layer_design_model({}, missed));
+            all.push_back(learn::rolling_layer_design_model(read_rolling_friction(), missed, known.median));
         else if (name == "atlas")
             all.push_back(learn::atlas_design_model(read_grains(), missed.value_or(0), known.median));
         else
@@ -376,7 +379,7 @@ learn::DesignTask DesignOptions::task() const {
         });
     if (grain_diameter)
         task.grain_diameter = read_positive_quantity("--grain-diameter", *grain_diameter, "m", "3 mm");
-    if (rolling_friction) task.rolling_friction = read_grains().rolling_friction->mean;
+    if (rolling_friction) task.rolling_friction = read_rolling_friction()->mean;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
     task.models = read_models(task.friction);

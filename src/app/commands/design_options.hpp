@@ -42,6 +42,7 @@ struct DesignOptions {
   private:
     void add_material(CLI::App& command);
     void add_limits(CLI::App& command);
+    std::optional<learn::Uncertain> read_rolling_friction() const;  ///< nothing: not known
     learn::KnownGrains read_grains() const;
     std::optional<double> read_discrepancy() const;
     learn::KnownFriction read_friction(std::string& calibrated_model) const;
