@@ -2,6 +2,7 @@
 
 #include "campaign/campaign_folder.hpp"
 #include "core/error.hpp"
+#include "evaluate/open_trough.hpp"
 #include "scenario/reader/written_campaign.hpp"
 #include "store/result_file.hpp"
 
@@ -195,6 +196,39 @@ TEST_F(Assemble, ARunThatDivergedIsSeen) {
     overwrite(planned.packing_folder(1) / "cycles.csv", cycles(5, around(0.5)) + "9,1,nan,0,0,0,0,0,0\n");
     extent = evaluate::extent_of_run(*planned.prepared, planned.packing_folder(1));
     EXPECT_TRUE(extent.diverged);
+}
+
+// The engine says at which step it ended: a table with fewer cycles, or with more, is not what it wrote.
+TEST_F(Assemble, ATableThatDoesNotEndWithTheEngineIsIncomplete) {
+    write_packing(1, cycles(60, around(0.5)));
+    auto const files = evaluate::read_packing_files(planned.packing_folder(1));
+    auto const is_incomplete = [&](long last_cycle) {
+        auto const found = evaluate::evaluate_outputs(*planned.prepared, 1, files,
+                                                      last_cycle * planned.prepared->time.steps_per_cycle);
+        auto const* const unusable = std::get_if<evaluate::UnusableOutputs>(&found);
+        return unusable != nullptr && unusable->outcome == core::Outcome::outputs_incomplete;
+    };
+    EXPECT_TRUE(is_incomplete(59));
+    EXPECT_FALSE(is_incomplete(60)) << "what these files lack is weight";
+    EXPECT_TRUE(is_incomplete(61));
+}
+
+// What leaves an open trough is compared with what comes: 2 % and the interval of the packings are allowed.
+TEST(OpenTrough, IsSteadyWhereAsMuchLeavesAsComes) {
+    store::CaseRecord record{};
+    record.scenario.measure.confidence = 0.95;
+    record.packings.resize(2);
+    auto const message = [&](double outflow) {
+        for (store::PackingRecord& packing : record.packings) {
+            packing.open.inflow = 2;
+            packing.open.outflow = outflow;
+        }
+        return evaluate::unsteady_flow(record);
+    };
+    EXPECT_EQ(message(2), "");
+    EXPECT_EQ(message(2.03), "");
+    EXPECT_EQ(message(1.8).substr(0, 38), "the outflow is 10 % less than the infl");
+    EXPECT_EQ(message(2.2).substr(0, 38), "the outflow is 10 % more than the infl");
 }
 
 }  // namespace

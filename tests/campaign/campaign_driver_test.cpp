@@ -1,0 +1,117 @@
+#include "campaign/execute/campaign_driver.hpp"
+
+#include "campaign_folder.hpp"
+
+#include <deque>
+
+namespace vibrotrough::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ends packings in the order in which they were submitted, as the test says.
+class ScriptedExecutor : public Executor {
+  public:
+    using Script = std::function<EndedPacking(PackingOrder const&)>;
+    /// What makes an executor can capture nothing.
+    static inline Script script;           ///< how a packing ends
+    static inline std::vector<int> begun;  ///< numbers of the packings that were run
+    static inline bool is_a_cluster;       ///< whose tasks go on without the driver
+
+    std::vector<PackingActivity> given_before() override { return {}; }
+    std::string submit(std::vector<PackingOrder> const& orders) override {
+        queue_.insert(queue_.end(), orders.begin(), orders.end());
+        return {};
+    }
+    void adopt(PackingOrder const&) override {}
+    void withdraw(PlannedCase const& planned) override {
+        std::erase_if(queue_, [&](PackingOrder const& order) { return order.planned == &planned; });
+    }
+    std::vector<EndedPacking> wait() override {
+        if (queue_.empty()) return {};
+        PackingOrder const order = queue_.front();
+        queue_.pop_front();
+        begun.push_back(order.packing.number);
+        return {script(order)};
+    }
+    bool is_idle() const override { return queue_.empty(); }
+    void interrupt() override {}
+    std::vector<RunningPacking> running() const override { return {}; }
+    bool outlives_driver() const override { return is_a_cluster; }
+
+  private:
+    std::deque<PackingOrder> queue_;
+};
+
+class Silent : public Observer {
+  public:
+    void progressed(Progress const&) override {}
+    void case_ended(PlannedCase const&, core::Outcome, std::string const&) override {}
+};
+
+/// A campaign of one case with two packings.
+class CampaignDriver : public CampaignFolder {
+  protected:
+    CampaignDriver() { overwrite(campaign_file, campaign_text); }
+
+    Summary run(ScriptedExecutor::Script script, int retries = 0, bool is_a_cluster = false) {
+        ScriptedExecutor::script = std::move(script);
+        ScriptedExecutor::is_a_cluster = is_a_cluster;
+        ScriptedExecutor::begun.clear();
+        ExecutorInputs inputs{folder, {"liggghts", "LIGGGHTS 3.8.0"}, {}, 1, {}};
+        inputs.settings.retries = retries;
+        ExecutorKind const kind{"local", "a test",
+                                [](ExecutorInputs const&) -> std::unique_ptr<Executor> {
+                                    return std::make_unique<ScriptedExecutor>();
+                                },
+                                [](fs::path const&) { return std::vector<PackingActivity>(); }};
+        Silent observer;
+        return run_campaign(plan, campaign_file, *make_policy(), kind, inputs, Until::done, observer);
+    }
+
+    static auto failing(core::Outcome outcome) {
+        return [=](PackingOrder const& order) { return EndedPacking{order.id(), outcome, "as it was told"}; };
+    }
+
+    fs::path campaign_file = own_folder.path() / "campaign.toml";
+};
+
+// A packing whose engine crashed is run again as often as run.retries says, and not once more.
+TEST_F(CampaignDriver, TriesAgainAsOftenAsAsked) {
+    for (int const retries : {0, 2}) {
+        fs::remove_all(folder);
+        EXPECT_EQ(run(failing(core::Outcome::engine_crashed), retries).failed, 1);
+        auto const tried = std::ranges::count(ScriptedExecutor::begun, ScriptedExecutor::begun.front());
+        EXPECT_EQ(tried, 1 + retries);
+    }
+}
+
+// One packing that cannot succeed decides about its case: the others of it are not begun.
+TEST_F(CampaignDriver, GivesUpTheOtherPackingsOfACaseThatFailed) {
+    EXPECT_EQ(run(failing(core::Outcome::lost_grains)).failed, 1);
+    EXPECT_EQ(ScriptedExecutor::begun, (std::vector<int>{1}));
+}
+
+// Files that are damaged are found when the result is made. Their packings are then unfinished again, and are
+// run once more: were their markers left, a task of a cluster, which empties no folder, would not run what is
+// marked as finished.
+TEST_F(CampaignDriver, RunsDamagedPackingsAgainWithoutTheirMarkers) {
+    int marked = 0;
+    auto const damaged = [&](PackingOrder const& order) {
+        fs::path const packing = planned.packing_folder(order.packing.number);
+        marked += evaluate::has_marker(packing) ? 1 : 0;
+        overwrite(packing / "in.liggghts", "# deck\n");
+        overwrite(packing / "cycles.csv",
+                  cycles_text(scenario, order.packing.cycles, [](int k) { return 0.5 + 0.01 * (k % 2); }));
+        overwrite(packing / "phases.csv", "no table\n");
+        evaluate::write_marker(evaluate::read_packing_files(packing), {});
+        return EndedPacking{order.id(), {}, "", order.packing.cycles};
+    };
+    EXPECT_THROW(run(damaged, 0, true), core::InputError) << "damaged a second time";
+    std::vector<int> const& begun = ScriptedExecutor::begun;
+    EXPECT_EQ(std::ranges::count(begun, begun.front()), 2);
+    EXPECT_EQ(marked, 0);
+}
+
+}  // namespace
+}  // namespace vibrotrough::campaign
