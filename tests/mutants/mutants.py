@@ -1,10 +1,11 @@
 """What the tests are worth: makes the small mistakes (mutants) of mutants.toml and notes which test finds each.
 
-usage: mutants.py WORK [--only TEXT] [--rooms | --then] [--built] [--jobs N] [--table FILE]
+usage: mutants.py WORK [--only TEXT] [--numbers N,...] [--rooms | --then] [--built] [--jobs N] [--table FILE]
        mutants.py --check
 
 WORK      a folder for a copy of the sources, its build and the answers so far; a second call goes on where the first one stopped
 --only    mutants whose file contains TEXT
+--numbers these mutants, from 0 in the order of the file; they are run again, whatever the answer was
 --rooms   runs the tests of the mutant's room alone; by default the tests of `then` follow where these find nothing
 --then    runs the tests of `then` alone: what they are worth by themselves
 --built   takes the build that is in WORK as it is, though the sources may have changed since
@@ -31,6 +32,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 # The room app has no tests of its own: `then` names those of its commands.
 WITHOUT_TESTS = {"app"}
+# Their tests are in Python, and need nothing but the program.
+IN_PYTHON = {"end_to_end", "clusters"}
 # Tests of a room that compare pages or start ParaView find no mistake of arithmetic, and take long.
 LEFT_OUT = "InTheDocs|InParaView|RenderCase"
 
@@ -195,11 +198,19 @@ def check_table(path: pathlib.Path, mutants: list[dict[str, Any]]) -> int:
     return len(wrong) if rows else 1
 
 
+def targets(mutants: list[dict[str, Any]], stages: set[str]) -> list[str]:
+    """What has to be built for the tests of these stages."""
+    rooms = {mutant["file"].split("/")[0] for mutant in mutants} - WITHOUT_TESTS if "rooms" in stages else set()
+    named = {name.split(".")[0] for mutant in mutants for name in mutant.get("then", [])} - IN_PYTHON if "then" in stages else set()
+    return ["vibrotrough", *(f"{room}_tests" for room in sorted(rooms | named))]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("work", type=pathlib.Path, nargs="?")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--only", default="")
+    parser.add_argument("--numbers", type=lambda text: {int(one) for one in text.split(",")})
     parser.add_argument("--rooms", action="store_true")
     parser.add_argument("--then", action="store_true")
     parser.add_argument("--built", action="store_true")
@@ -215,17 +226,17 @@ def main() -> int:
     os.nice(max(0, 10 - os.nice(0)))
     work = chosen.work.resolve()
     folder = work / "build"
+    wanted = {number: mutant for number, mutant in enumerate(mutants)
+              if chosen.only in mutant["file"] and (chosen.numbers is None or number in chosen.numbers)
+              and "equivalent" not in mutant and not (chosen.then and "then" not in mutant)}
     if not chosen.built:
         copy_sources(work / "source", mutants)
-        rooms = sorted({mutant["file"].split("/")[0] for mutant in mutants if chosen.only in mutant["file"]} - WITHOUT_TESTS)
-        folder = build(work, chosen.jobs, ["vibrotrough", *(f"{room}_tests" for room in rooms)] if stages == {"rooms"} else ["all"])
+        folder = build(work, chosen.jobs, targets(list(wanted.values()), stages))
     notes = work / f"answers-{'-'.join(sorted(stages))}.json"
     answers = read_answers(notes)
     missed = []
-    for number, mutant in enumerate(mutants):
-        if chosen.only not in mutant["file"] or "equivalent" in mutant or (chosen.then and "then" not in mutant):
-            continue
-        if key(mutant) not in answers:
+    for number, mutant in wanted.items():
+        if key(mutant) not in answers or chosen.numbers is not None:
             answers[key(mutant)] = examine(folder, chosen.jobs, number, mutant, stages)
             notes.write_text(json.dumps(answers, indent=1) + "\n")
             print(f"{number} {mutant['file']}: {mutant['expression']} -> {mutant['becomes']}: {answers[key(mutant)]}", flush=True)
