@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -66,11 +67,14 @@ std::string find_python(std::string const& python, std::vector<std::string> cons
     ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
     core::require_processes(2, "Python needs");
     std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
+    static std::map<std::string, std::string> known;  // by what it must import: a command may run two scripts
+    if (auto const found = known.find(imports); found != known.end()) return found->second;
     std::vector<std::string> const candidates = python.empty()
                                                     ? std::vector<std::string>{"/usr/bin/python3", "python3"}
                                                     : std::vector{absolute_program(python)};
     for (std::string const& candidate : candidates) {
-        if (run_program({candidate, "-c", imports}, script_folder(), true) == 0) return candidate;
+        if (run_program({candidate, "-c", imports}, script_folder(), true) == 0)
+            return known[imports] = candidate;
     }
     std::string packages;
     for (std::string const& module : modules) packages += " python3-" + module;

@@ -15,6 +15,7 @@ from trough_program import EndToEndTest
 SPHERE = {
     "layer.grains": 1,
     "grains.diameter_spread": None,
+    "grains.youngs_modulus": "1 MPa",
     "trough.throw_number": 0.6,
     "measure.packings": 4,
     "measure.max_packings": 8,

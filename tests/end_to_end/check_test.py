@@ -9,7 +9,7 @@ import unittest
 from trough_program import EndToEndTest, sample
 
 # A box wide and long enough that nothing is to be said against it.
-SOUND = {"layer.length": "27 mm", "layer.width": "18 mm", "layer.grains": 150, "measure.packings": 1}
+SOUND = {"grains.youngs_modulus": "1 MPa", "layer.length": "27 mm", "layer.width": "18 mm", "layer.grains": 150, "measure.packings": 1}
 
 
 class Check(EndToEndTest):
@@ -134,7 +134,7 @@ class Check(EndToEndTest):
         self.assertNotIn("warning", done.stdout)
 
     def test_warnings_are_shown_and_errors_refused(self):
-        warned = self.write_campaign({"measure.packings": 1, "measure.max_cycles": 24})
+        warned = self.write_campaign({"grains.youngs_modulus": "1 MPa", "measure.packings": 1, "measure.max_cycles": 24})
         done = self.run_campaign(warned, wanted=None)
         self.assertRegex(done.stderr, r"(?m)^check: \d findings? .*\n  warning: layer.length: periodic length / diameter is 5, at least 8; lengthen")
 

@@ -20,7 +20,7 @@ from trough_program import EndToEndTest
 KRAKOW = Path(__file__).parent.parent.parent / "validation" / "krakow" / "reference.csv"
 # Six cases: two inputs, and each packing short.
 PLAN = {"trough.amplitude": "6 mm", "grains.rotation": "rolling", "grains.rolling_friction": 0.1, "measure.packings": 3,
-        "measure.half_width": 0.15, "measure.max_cycles": 40, "measure.max_packings": 4}
+        "measure.half_width": 0.15, "measure.max_cycles": 40, "measure.max_packings": 3}
 SWEEP = {"trough.throw_number": [1.5, 1.75, 2.0], "grains.rolling_friction": [0.02, 0.25]}
 TROUGH = ["--bulk-density", "600 kg/m3", "--width", "300 mm", "--length", "3 m", "--layer-depth", "5 mm to 60 mm"]
 
@@ -151,36 +151,13 @@ class Engineer(EndToEndTest):
             self.assertIn(message, answer.stderr)
 
     def verify(self, *words, flow="6 t/h", wanted=0):
-        """`design --verify` of a thin layer of large grains, whose simulation takes 15 s of processor time."""
+        """`design --verify` where nothing is simulated; tutorial_test.py has a machine that is."""
         answer = self.call("design", "--mass-flow", flow, "--bulk-density", "600 kg/m3", "--width", "400 mm", "--friction", "0.3", "--rpm", "960",
                            "--machine-number", "4", "--layer-depth", "10 mm to 40 mm", "--grain-diameter", "12 mm", "--rolling-friction", "0.1",
                            "--model", "rolling-layer", "--objective", "least-machine-number", "--verify", "--quiet", "--json", *words,
                            cwd=self.folder)
         self.assertEqual(answer.returncode, wanted, answer.stderr)
         return json.loads(answer.stdout)
-
-    def test_a_machine_is_verified_by_its_own_layer(self):
-        design = self.verify()
-        found = design["verification"]
-        self.assertEqual(found["verdict"], "verified", found)
-        machine = found["machines"][-1]
-        self.assertTrue(all(layer["agrees"] for layer in machine["layers"]))
-        self.assertGreaterEqual(machine["probability"], 0.95)
-        # The answer is the machine that was simulated, and its model is what the layer was.
-        for key in ("stroke_mm", "rpm", "vibration_angle_deg", "layer_depth_mm"):
-            self.assertAlmostEqual(design[key], machine[key], 9)
-        campaign = self.folder / machine["campaign"]
-        layer = tomllib.loads(campaign.read_text(encoding="utf-8"))["layer"]
-        self.assertAlmostEqual(float(layer["height"].split()[0]), machine["layer_depth_mm"], 6)
-        rows = json.loads(self.call("compare", campaign.with_suffix(""), "--json").stdout)
-        self.assertAlmostEqual(rows[0]["efficiency"], machine["layers"][0]["simulated"], 9)
-        # Called again it simulates nothing, and what was simulated is what is promised now.
-        (result,) = campaign.with_suffix("").rglob("result.h5")
-        stamp = result.stat().st_mtime_ns
-        again = self.verify()["verification"]["machines"]
-        self.assertEqual(len(again), len(found["machines"]))
-        self.assertEqual(again[-1]["layers"], machine["layers"])
-        self.assertEqual(result.stat().st_mtime_ns, stamp)
 
     def test_a_verification_begins_no_machine_that_exceeds_its_budget(self):
         design = self.verify("--budget", "1 s", wanted=1)
@@ -283,6 +260,7 @@ class Researcher(EndToEndTest):
         self.assertEqual(answer.returncode, 0, answer.stderr)
         found = json.loads(answer.stdout)["parameters"][0]
         self.assertEqual(found["name"], "grains.rolling_friction")
+        self.assertGreaterEqual(found["low"], 0.02)
         self.assertLessEqual(found["low"], 0.05)
         self.assertGreaterEqual(found["high"], 0.05)
         self.assertLessEqual(found["high"], 0.25)

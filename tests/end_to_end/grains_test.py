@@ -21,7 +21,7 @@ class Grains(EndToEndTest):
 
     def test_rotation(self):
         rows = self.run_cases(
-            {"grains.rolling_friction": 0.1, "measure.max_cycles": 60},
+            {"grains.youngs_modulus": "1 MPa", "grains.rolling_friction": 0.1, "measure.max_cycles": 60},
             {"grains.rotation": ["free", "rolling", "blocked"], "layer.grains": [100]},
         )
         free, rolling, blocked = (row["efficiency"] for row in rows)
@@ -43,8 +43,8 @@ class Grains(EndToEndTest):
         self.assertEqual(len(self.table()), len(rows))
 
     def test_clumps_pass_checkpoints(self):
-        changes = {"grains.diameter_spread": None, "grains.shape": "cube", "layer.grains": 30, "output.checkpoint_cycles": 2,
-                   "output.frames_per_cycle": 1}  # fmt: skip
+        changes = {"grains.youngs_modulus": "1 MPa", "grains.diameter_spread": None, "grains.shape": "cube", "layer.grains": 30,
+                   "output.checkpoint_cycles": 2, "output.frames_per_cycle": 1}  # fmt: skip
         self.run_cases(changes)
         # In a cycle the layer moves by more than half the box. The frames have the spheres of the clumps: their mean speed is that of the layer. Tolerance: six digits of places below 0.1 m.
         done = self.call("observe", self.output)

@@ -17,7 +17,7 @@ import observables  # noqa: E402
 import vibrotrough  # noqa: E402
 import vibrotrough_frames  # noqa: E402
 
-SHORT = {"measure.impacts": True, "measure.min_cycles": 24, "measure.max_cycles": 24, "output.checkpoint_cycles": 8}
+SHORT = {"grains.youngs_modulus": "1 MPa", "measure.impacts": True, "measure.min_cycles": 24, "measure.max_cycles": 24, "output.checkpoint_cycles": 8}
 GRAVITY = 9.81
 
 

@@ -201,7 +201,7 @@ def energy(packing):
         self.assert_one_line_error(self.observe("--only", "yours", file=self.folder / "mine.py"), 2, "has no observable yours; it has mine")
 
     def test_without_frames_the_key_is_named(self):
-        self.run_campaign(self.write_campaign({"measure.packings": 1}), wanted=None)
+        self.finished_campaign({"measure.packings": 1})
         own = self.write(HEAD + '@vibrotrough.observable()\ndef mine(cycle):\n    """Mine."""\n    return 1.0\n')
         self.assert_one_line_error(self.observe(file=own), 2, "mine cannot be measured: no packing keeps frames",
                                    "write frames_per_cycle = 20 under [output] in the campaign file", 'frame_packings = "all"')  # fmt: skip
@@ -212,7 +212,8 @@ def energy(packing):
         compile(examples.stdout, "examples", "exec")
 
     def test_what_belongs_to_an_earlier_result_is_left_aside(self):
-        changes = {"measure.packings": 2, "measure.half_width": 0.25, "measure.max_cycles": 20}  # more than the numerical errors of these grains
+        changes = {"grains.youngs_modulus": "1 MPa", "measure.packings": 2, "measure.half_width": 0.25,  # more than the numerical errors of these grains
+                   "measure.max_cycles": 20}  # fmt: skip
         self.run_campaign(self.write_campaign(changes), wanted=None)
         self.assertEqual(self.observe(file=self.write(AGAIN)).returncode, 0)
         self.assertIsNotNone(self.row()["efficiency_again"])
@@ -230,7 +231,7 @@ def energy(packing):
         self.assertEqual(self.call("compare", self.output).stderr, "")
 
     def test_a_file_that_is_not_allowed_is_not_run(self):
-        self.run_campaign(self.write_campaign({"measure.packings": 1}), wanted=None)
+        self.finished_campaign({"measure.packings": 1})
         proof = self.folder / "ran"
         mine = self.write(f"open({str(proof)!r}, 'w').close()\n" + AGAIN)
         other = self.write(AGAIN, "other.py")

@@ -43,8 +43,7 @@ class PersonsFiles(EndToEndTest):
         """When a packing is repeated, only the files are removed that the program and the engine write there, by list; of temporary files only those with the
         name of a process that nobody holds locked.
         """
-        campaign = self.write_campaign(ONE | {"output.frames_per_cycle": 4})
-        self.run_campaign(campaign, wanted=None)
+        campaign = self.finished_campaign(ONE | {"output.frames_per_cycle": 4})
         case, (settled,) = self.only_case(), (self.output / "packings").iterdir()
         packing = case / "packing-1"
         names = sorted(path.name for path in packing.rglob("*"))
@@ -68,8 +67,7 @@ class PersonsFiles(EndToEndTest):
 
     def test_the_deck_that_ran_is_stored(self):
         """The deck that ran is stored and archived, whatever lies in its place since."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        campaign = self.finished_campaign(ONE)
         (result,) = self.results()
         before = str(vibrotrough.open_result(result)["packings/deck"][0])
         deck = result.parent / "packing-1" / "in.liggghts"
@@ -90,8 +88,7 @@ class PersonsFiles(EndToEndTest):
 
     def test_a_damaged_result_that_is_replaced_is_said(self):
         """A damaged result that `run` replaces is named on standard error and in `campaign.log`."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        campaign = self.finished_campaign(ONE)
         (result,) = self.results()
         result.write_bytes(result.read_bytes()[:-3])
         done = self.run_campaign(campaign, wanted=None)
@@ -102,8 +99,7 @@ class PersonsFiles(EndToEndTest):
 
     def test_no_pipe_is_waited_for(self):
         """A pipe in place of any file of a campaign, or of what its link leads to, is not waited for."""
-        campaign = self.write_campaign(ONE | {"output.frames_per_cycle": 4})
-        self.run_campaign(campaign, wanted=None)
+        campaign = self.finished_campaign(ONE | {"output.frames_per_cycle": 4})
         case = self.only_case()
         packing, (settled,) = case / "packing-1", (self.output / "packings").iterdir()
         pipe, kept = self.folder / "pipe", self.folder / "kept"
@@ -187,8 +183,7 @@ class PersonsFiles(EndToEndTest):
         """Where a limit of file size or a signal ends a command, no half-written file and no unpacked bundle stays, or the next command of the same name removes
         it.
         """
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         temporary = self.folder / "tmp"
         temporary.mkdir()
         limit = {"env": dict(os.environ, TMPDIR=str(temporary)), "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))}
@@ -252,7 +247,7 @@ class PersonsFiles(EndToEndTest):
 
         With the sample of the store, tests/postprocess/check_damage.py does the same to every value that is drawn.
         """
-        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        self.finished_campaign(ONE)
         page, certificate = self.output / "report" / "report.html", self.output / "certificate.json"
         whole = certificate.read_bytes()
         for damaged in sample((b"[]", b'{"probes": [{"a": 1}, 2, [3]]}', b"[" * 100_000, b'{"a": ' * 5000, b"", b"{", b"\xff\xfe", whole[: len(whole) // 2]), 3):
@@ -271,7 +266,7 @@ class PersonsFiles(EndToEndTest):
         """Control characters, marks that change the direction of writing and bytes that are not UTF-8 in names of files and folders are shown escaped; a command
         that is shown for copying still means the file.
         """
-        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        self.finished_campaign(ONE)
         for number, name in enumerate(("gnp\u202eexe.", "red\x1b[31m", "title\x1b]0;x\x07 100%\\n'", "two\nlines", os.fsdecode(b"byte\xff"))):
             place = self.folder / name
             shutil.copytree(self.output, place)

@@ -16,7 +16,7 @@ FRICTION = 0.23
 class Phases(EndToEndTest):
     def run_case(self, changes):
         """(result.h5, phases.csv as an array by name) of the case's first packing."""
-        self.run_campaign(self.write_campaign({"measure.packings": 1, "measure.half_width": 0.5} | changes))
+        self.run_campaign(self.write_campaign({"grains.youngs_modulus": "1 MPa", "measure.packings": 1, "measure.half_width": 0.5} | changes))
         (result,) = self.results()
         text = (result.parent / "packing-1" / "phases.csv").read_text()
         table = [line for line in text.splitlines() if not line.startswith("#")]

@@ -95,6 +95,8 @@ class Run(EndToEndTest):
             self.assertEqual(file["packings"]["deck"][0].decode(), deck)
 
     def test_a_whole_campaign(self):
+        # check_result_file() looks at what the integrator misses, which grows with the time step.
+        self.campaign = self.write_campaign({"grains.youngs_modulus": "1 MPa"}, SWEEP)
         done = self.run_campaign(self.campaign)
         self.assertIn("2 of 2 cases finished", done.stdout)
         self.assertIn(f"vibrotrough compare {shlex.quote(str(self.output))}", done.stdout)
@@ -183,7 +185,7 @@ class Run(EndToEndTest):
 
     def test_relative_paths_and_the_folder_of_the_name(self):
         self.write_campaign({"measure.packings": 1})
-        done = self.call("run", "campaign.toml", "--liggghts", f"./{self.engine.name}", cwd=self.folder)
+        done = self.call("run", "campaign.toml", "--liggghts", os.path.relpath(self.engine, self.folder), cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("results in runs/small", done.stdout)
         shown = self.call("compare", "runs/small", cwd=self.folder)

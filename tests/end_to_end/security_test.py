@@ -48,8 +48,7 @@ class Security(EndToEndTest):
 
     def test_no_python_module_of_a_folder_is_loaded(self):
         """No Python module and no setting of the current folder or of a campaign's folder is loaded."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         proof = self.folder / "executed"
         harm = f"open({str(proof)!r}, 'a').write(__name__ + '\\n')\n"
         for place in (self.output, self.output / "report", self.folder / "elsewhere"):
@@ -73,7 +72,7 @@ class Security(EndToEndTest):
 
     def test_no_function_runs_unless_its_file_is_allowed(self):
         """`observe` runs a person's file only when `--allow-python` names that very file, and what it measures is stored with its text and SHA-256."""
-        self.run_campaign(self.write_campaign(ONE), wanted=None)
+        self.finished_campaign(ONE)
         proof = self.folder / "executed"
         mine = self.write_observable(f"open({str(proof)!r}, 'w').close()\n")
         other = self.folder / "other.py"
@@ -94,8 +93,7 @@ class Security(EndToEndTest):
 
     def test_nothing_is_written_or_removed_through_a_link(self):
         """Below a campaign's folder nothing is written or removed through a symbolic link."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        campaign = self.finished_campaign(ONE)
         case = self.only_case()
         # A packing's folder that leads elsewhere, with what makes a run believe that it has to be continued or repeated.
         for note in ("failure.json", "packing-1/checkpoint.json"):
@@ -215,8 +213,7 @@ class Security(EndToEndTest):
 
     def test_only_regular_files_of_bounded_size_are_read(self):
         """Only regular files of bounded size are read from a campaign's folder."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         batch = self.output / "slurm" / "0001"
         batch.mkdir(parents=True)
         case = self.only_case()
@@ -244,8 +241,7 @@ class Security(EndToEndTest):
 
     def test_text_from_files_steers_nothing(self):
         """Text from files cannot steer the terminal, a spreadsheet or a browser."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         case = self.only_case()
         (case / "result.h5").unlink()
         message = "\x1b]0;owned\x07\x1b[2J\u202egnp.exe \u00b5m"
@@ -267,8 +263,7 @@ class Security(EndToEndTest):
 
     def test_a_marker_of_a_task_cannot_claim_a_result(self):
         """A marker of a cluster's task cannot claim a result."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         case = self.only_case()
         (case / "result.h5").unlink()
         shutil.rmtree(case / "packing-1")
@@ -357,8 +352,7 @@ class Security(EndToEndTest):
 
     def test_work_says_which_engine_it_starts(self):
         """`work` prints the program that `engine.json` names before it starts it, and refuses another binary than that of the campaign."""
-        campaign = self.write_campaign(ONE)
-        self.run_campaign(campaign, wanted=None)
+        self.finished_campaign(ONE)
         case = self.only_case()
         (case / "result.h5").unlink()
         shutil.rmtree(case / "packing-1")

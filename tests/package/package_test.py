@@ -21,13 +21,20 @@ def call(*command, **settings):
 
 
 class Unpacked(unittest.TestCase):
-    """The package, unpacked once for the tests of a class."""
+    """The package, made and unpacked once for all tests."""
+
+    folder = None
 
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-package-")
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = Path(temporary.name)
+        if Unpacked.folder is None:
+            temporary = tempfile.TemporaryDirectory(prefix="vibrotrough-package-")
+            unittest.addModuleCleanup(temporary.cleanup)
+            Unpacked.folder = Path(temporary.name)
+            Unpacked.make()
+
+    @classmethod
+    def make(cls):
         cls.folder.chmod(0o755)
         made = call(CPACK, "-G", "DEB", "--config", f"{BUILD}/CPackConfig.cmake", "-B", cls.folder / "made", cwd=cls.folder)
         if made.returncode != 0:

@@ -1,9 +1,9 @@
 // All functions of the page, compiled for browsers, against the same functions compiled for this machine.
-// usage: node compare_native.js THEORY_JS NATIVE_ANSWERS WORK PARTS
+// usage: node compare_native.js THEORY_JS NATIVE_ANSWERS WORK PARTS COUNT
 "use strict";
 const fs = require("fs"), path = require("path"), vm = require("vm"), assert = require("assert"), { execFileSync } = require("child_process");
-const [script, native, work, parts] = process.argv.slice(2);
-const COUNT = 10000, FRAMES = 9, ROW = 20, CURVE = 10, EVERY = 100;
+const [script, native, work, parts, number] = process.argv.slice(2);
+const COUNT = Number(number), FRAMES = 9, ROW = 20, CURVE = 10, EVERY = 100;
 // musl and glibc round sines, tangents and square roots of sums differently in the last bit, and the solver's Newton steps
 // carry that on: its own error is below 1e-9 (src/theory/point_mass.hpp) of velocity efficiency, and so of the mass flow at
 // an efficiency of 1.

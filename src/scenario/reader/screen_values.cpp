@@ -47,7 +47,7 @@ void check_side(Scenario const& s, char const* key, double side, GivenKeys const
 
 /// The sheet is made of triangles that are about twice as long as the bars are wide.
 void check_holes(Scenario const& s, GivenKeys const& given) {
-    constexpr double widest = 20, most_triangles = 1e6;
+    constexpr double widest = 20, most_hole_triangles = 1e6;
     double const opening = *s.screen.opening, wire = *s.screen.wire;
     if (wire < opening / widest)
         given.fail("screen.wire",
@@ -58,11 +58,11 @@ void check_holes(Scenario const& s, GivenKeys const& given) {
     check_side(s, "layer.width", s.layer.width, given);
     double const pitch = hole_pitch(s.screen);
     double const triangles = s.layer.length * s.layer.width / (pitch * pitch) * 4 * (opening / wire + 4);
-    if (triangles > most_triangles)
-        given.fail(
-            "screen.opening",
-            fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles, most_triangles),
-            "make the box smaller, or are the units right?");
+    if (triangles > most_hole_triangles)
+        given.fail("screen.opening",
+                   fmt::format("the screen would have {:.3g} triangles, more than {:g}", triangles,
+                               most_hole_triangles),
+                   "make the box smaller, or are the units right?");
 }
 
 }  // namespace
