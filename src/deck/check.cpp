@@ -251,6 +251,7 @@ void check_screen(std::vector<Finding>& findings, prepare::PreparedCase const& c
         nearest * mean_diameter(c.scenario) / overlap_at_impact(c, c.time.impact_speed / 2), 1, 0,
         "stiffen the grains, or move the size or the opening: grains that are pressed together by so much "
         "can be pushed through holes that are too small for them"));
+    if (is_open(c.scenario)) return;
     findings.push_back(least("holes of the screen along the box", "layer.length", c.domain.screen->along, 3,
                              0, "lengthen the box, so that a grain does not meet the same hole again"));
     findings.push_back(least("holes of the screen across the box", "layer.width", c.domain.screen->across, 3,

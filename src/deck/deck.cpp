@@ -75,7 +75,7 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
         files["right.stl"] = side_wall_stl(length, prepared.wall_height, width, coarse);
-        if (domain.open) files["back.stl"] = back_wall_stl(width, prepared.wall_height, coarse);
+        if (domain.open) files["back.stl"] = cross_wall_stl(width, 0, prepared.wall_height, 0, coarse);
     }
     return files;
 }
@@ -124,9 +124,12 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);
+    if (is_fed_screen(prepared.scenario)) add_fed_screen(deck.settle_files, prepared);
     // The spring of contact = "hooke" is as stiff as a Hertz contact at the fastest impact of the deck.
     data.set("characteristic_speed", fmt::format("{}", prepared.settle_speed));
+    describe_settling_gravity(data, prepared.scenario);
     deck.settle_files[settle_file] = tidy(render_template(settle_file, data, replaced));
+    describe_gravity(data, prepared.scenario);
     describe_rolling(data, prepared);
     describe_impacts(data, prepared);
     deck.files = deck.settle_files;

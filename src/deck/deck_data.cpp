@@ -101,9 +101,7 @@ void describe_inputs(core::TemplateData& data, scenario::Scenario const& s) {
     data.set("rotation", std::string(name_of(s.grains.rotation)));
     data.set("length", text(s.layer.length));
     data.set("width", text(s.layer.width));
-    data.set("gravity", text(scenario::gravity));
-    data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
-    data.set("gravity_z", text(-std::cos(s.trough.inclination)));
+    describe_gravity(data, s);
 }
 
 std::string repeated(int times, double value) {
@@ -319,6 +317,19 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
 }
 
 }  // namespace
+
+void describe_gravity(core::TemplateData& data, scenario::Scenario const& s) {
+    data.set("gravity", text(scenario::gravity));
+    data.set("gravity_x", text(0 - std::sin(s.trough.inclination)));
+    data.set("gravity_z", text(-std::cos(s.trough.inclination)));
+}
+
+void describe_settling_gravity(core::TemplateData& data, scenario::Scenario const& s) {
+    if (!is_open(s) || s.trough.inclination >= 0) return;
+    data.set("gravity", text(scenario::gravity * std::cos(s.trough.inclination)));
+    data.set("gravity_x", std::string("0"));
+    data.set("gravity_z", std::string("-1"));
+}
 
 int seed_number(int index) {
     // boost counts primes from 0: prime(1229) = 10007.

@@ -3,6 +3,7 @@
 #include "core/template.hpp"
 #include "prepare/prepared_case.hpp"
 
+#include <map>
 #include <string>
 
 namespace vibrotrough::deck {
@@ -13,6 +14,10 @@ std::string settling_floor(scenario::Scenario const& scenario);
 
 /// The STL text of a screen. @pre has_holes()
 std::string screen_mesh(prepare::PreparedCase const& prepared);
+
+/// The meshes of a screen that is fed, on which the first grains settle as well: the sheet, and the wall
+/// below its edge.
+void add_fed_screen(std::map<std::string, std::string>& files, prepare::PreparedCase const& prepared);
 
 /// What the templates say about a screen, as the settling deck has it. Behind describe_open().
 void describe_screen(core::TemplateData& data, prepare::PreparedCase const& prepared);

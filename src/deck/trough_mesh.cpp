@@ -40,27 +40,30 @@ struct ScreenNodes {
     std::vector<bool> open;  ///< one fewer
 };
 
-ScreenNodes screen_nodes(double side, double opening, int holes) {
-    double const pitch = side / holes, bar = pitch - opening;
+ScreenNodes screen_nodes(double side, double opening, int holes, double plate) {
+    double const pitch = (side - plate) / holes, bar = pitch - opening;
     int const parts = std::max(1, static_cast<int>(std::lround(opening / (2 * bar))));
     ScreenNodes nodes{{0}, {}};
     auto const add = [&nodes](double to, bool open) {
         nodes.at.push_back(to);
         nodes.open.push_back(open);
     };
+    int const closed = static_cast<int>(std::ceil(plate / (2 * bar)));
+    for (int part = 1; part <= closed; ++part) add(plate * part / closed, false);
     for (int hole = 0; hole < holes; ++hole) {
-        double const start = hole * pitch + bar / 2;
+        double const start = plate + hole * pitch + bar / 2;
         add(start, false);
         for (int part = 1; part <= parts; ++part) add(start + opening * part / parts, true);
-        add(hole + 1 == holes ? side : (hole + 1) * pitch, false);
+        add(hole + 1 == holes ? side : plate + (hole + 1) * pitch, false);
     }
     return nodes;
 }
 
 }  // namespace
 
-std::string screen_stl(double length, double width, double opening, int along, int across) {
-    ScreenNodes const x = screen_nodes(length, opening, along), y = screen_nodes(width, opening, across);
+std::string screen_stl(double length, double width, double opening, int along, int across, double plate) {
+    ScreenNodes const x = screen_nodes(length, opening, along, plate),
+                      y = screen_nodes(width, opening, across, 0);
     std::string text = "solid trough\n";
     for (std::size_t i = 0; i + 1 < x.at.size(); ++i) {
         for (std::size_t j = 0; j + 1 < y.at.size(); ++j) {
@@ -85,9 +88,9 @@ std::string side_wall_stl(double length, double height, double y, double edge) {
     });
 }
 
-std::string back_wall_stl(double width, double height, double edge) {
-    return rectangle("wall", width, height, edge, {1, 0, 0}, [](double y, double z) {
-        return Node{0, y, z};
+std::string cross_wall_stl(double width, double bottom, double top, double x, double edge) {
+    return rectangle("wall", width, top - bottom, edge, {1, 0, 0}, [=](double y, double z) {
+        return Node{x, y, bottom + z};
     });
 }
 

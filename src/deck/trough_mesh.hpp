@@ -13,13 +13,15 @@ std::string flat_trough_stl(double length, double width, double edge);
 /// Bars of half their width are at its ends, so that the ends of the periodic box run along the middle of
 /// bars. The legs of the triangles are about twice as long as the bars are wide at most.
 /// @param opening  m, side of the holes
-std::string screen_stl(double length, double width, double opening, int along, int across);
+/// @param plate    m, length of a closed part before the first bars
+std::string screen_stl(double length, double width, double opening, int along, int across, double plate = 0);
 
 /// The STL text of a side wall 0 <= x <= length, 0 <= z <= height at this y (m), with triangles of the same
 /// kind.
 std::string side_wall_stl(double length, double height, double y, double edge);
 
-/// The STL text of a back wall x = 0, 0 <= y <= width, 0 <= z <= height (m), with triangles of the same kind.
-std::string back_wall_stl(double width, double height, double edge);
+/// The STL text of a wall across the trough at this x, 0 <= y <= width, bottom <= z <= top (m), with
+/// triangles of the same kind.
+std::string cross_wall_stl(double width, double bottom, double top, double x, double edge);
 
 }  // namespace vibrotrough::deck

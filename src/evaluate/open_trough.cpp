@@ -34,7 +34,8 @@ std::string unsteady_flow(store::CaseRecord const& record) {
     std::vector<double> differences;
     for (store::PackingRecord const& packing : record.packings) {
         if (packing.open.inflow && *packing.open.inflow > 0)
-            differences.push_back(*packing.open.outflow / *packing.open.inflow - 1);
+            differences.push_back(
+                (*packing.open.outflow + packing.screening.underflow.value_or(0)) / *packing.open.inflow - 1);
     }
     if (differences.empty()) return {};
     double mean = 0;

@@ -57,7 +57,9 @@ measure::Precision wanted(prepare::PreparedCase const& prepared) {
 
 measure::CycleSeries parse(prepare::PreparedCase const& prepared, core::TextFile const& cycles) {
     if (prepared.domain.loses_grains())
-        return measure::parse_open_cycles(cycles, prepared.time.steps_per_cycle);
+        return measure::parse_open_cycles(
+            cycles, prepared.time.steps_per_cycle,
+            is_fed_screen(prepared.scenario) ? static_cast<int>(prepared.classes.size()) : 0);
     return measure::parse_cycles(cycles, prepared.time.steps_per_cycle, prepared.scenario.layer.grains,
                                  static_cast<int>(prepared.materials.size()));
 }
@@ -85,6 +87,7 @@ store::PackingRecord measure_packing(prepare::PreparedCase const& prepared, int 
     record.estimate = measure::estimate_packing(record.efficiency, wanted(prepared));
     if (prepared.domain.open) {
         measure_open(record, prepared, files);
+        if (prepared.domain.screen) measure_fed_screen(record, prepared, files);
     } else if (prepared.domain.screen) {
         measure_screen(record, prepared, files);
     } else {

@@ -1,7 +1,10 @@
 #include "evaluate/screen.hpp"
 
+#include "measure/open_flow.hpp"
 #include "measure/screening.hpp"
+#include "measure/size_flows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,7 +20,23 @@ std::vector<measure::ScreenedSize> sizes_of(prepare::PreparedCase const& prepare
     return sizes;
 }
 
+std::vector<measure::SizeFlow> flows_of(prepare::PreparedCase const& prepared, PackingFiles const& files,
+                                        measure::CycleSeries const& series) {
+    int const steps = prepared.time.steps_per_cycle;
+    return measure::size_flows(series, measure::parse_left_sizes(files.snapshots, steps),
+                               measure::parse_passed(files.snapshots, steps), sizes_of(prepared));
+}
+
 }  // namespace
+
+void measure_fed_screen(store::PackingRecord& record, prepare::PreparedCase const& prepared,
+                        PackingFiles const& files) {
+    scenario::Scenario const& s = prepared.scenario;
+    int const from = std::max(record.estimate.discarded, measure::cycles_to_fill(record.series));
+    record.screening =
+        measure::screening_of_flows(flows_of(prepared, files, record.series), *s.screen.opening, from,
+                                    record.series.cycles(), 1 / s.trough.frequency);
+}
 
 void measure_screen(store::PackingRecord& record, prepare::PreparedCase const& prepared,
                     PackingFiles const& files) {
@@ -30,6 +49,8 @@ void measure_screen(store::PackingRecord& record, prepare::PreparedCase const& p
 std::optional<std::string> missing_on_screen(prepare::PreparedCase const& prepared, PackingFiles const& files,
                                              measure::CycleSeries const& series) {
     if (!prepared.domain.screen) return {};
+    if (is_fed_screen(prepared.scenario))
+        return measure::flow_imbalance(series, flows_of(prepared, files, series));
     return measure::size_imbalance(
         series, measure::parse_passed(files.snapshots, prepared.time.steps_per_cycle), sizes_of(prepared));
 }

@@ -61,9 +61,19 @@ CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int gr
     return series;
 }
 
-CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle) {
+std::vector<std::vector<double>*> OpenSeries::lists() {
+    std::vector<std::vector<double>*> all{&fed,       &fed_mass,    &left,   &left_mass,  &held,
+                                          &held_mass, &window_mass, &passed, &passed_mass};
+    for (std::vector<double>& one : of_size) all.push_back(&one);
+    return all;
+}
+
+CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle, int sizes) {
     CycleSeries series;
-    std::string const columns = std::string(header).append(open_header);
+    std::string columns = std::string(header).append(open_header);
+    if (sizes > 0) columns += ",passed,passed_mass";
+    for (int size = 1; size <= sizes; ++size) columns += fmt::format(",size_{}", size);
+    series.open.of_size.resize(static_cast<std::size_t>(sizes));
     parse_table(file, {"cycles of an open trough", columns, 0, steps_per_cycle},
                 [&](int, std::span<double const> row) {
                     append(series, row.first(9));
@@ -75,6 +85,11 @@ CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle) {
                     open.left_mass.push_back(row[12]);
                     open.held_mass.push_back(row[13]);
                     open.window_mass.push_back(row[14]);
+                    if (sizes == 0) return;
+                    open.passed.push_back(row[15]);
+                    open.passed_mass.push_back(row[16]);
+                    for (std::size_t i = 0; i < open.of_size.size(); ++i)
+                        open.of_size[i].push_back(row[17 + i]);
                 });
     return series;
 }
@@ -90,9 +105,7 @@ CycleSeries first_cycles(CycleSeries const& series, int cycles) {
         cut(one.x, cycles + 1);
         cut(one.z, cycles + 1);
     }
-    OpenSeries& open = result.open;
-    for (auto* const at_ends : {&open.fed, &open.fed_mass, &open.left, &open.left_mass, &open.held,
-                                &open.held_mass, &open.window_mass})
+    for (auto* const at_ends : result.open.lists())
         if (!at_ends->empty()) cut(*at_ends, cycles + 1);
     for (auto* const over_cycles :
          {&result.normal_force, &result.tangential_force, &result.flight_fraction, &result.mean_velocity}) {

@@ -21,6 +21,13 @@ struct OpenSeries {
     std::vector<double> left, left_mass;  ///< grains and kg that left in the cycle
     std::vector<double> held, held_mass;  ///< grains and kg in the trough
     std::vector<double> window_mass;      ///< kg, in the window, mean over the cycle
+    std::vector<double> passed = {};      ///< grains that passed a screen in the cycle; none of other troughs
+    std::vector<double> passed_mass = {};  ///< kg, of these grains
+    /// Grains of each size of a screen at the end of the cycle, with those that left and passed in it.
+    std::vector<std::vector<double>> of_size = {};
+
+    /// All lists of a value for each cycle.
+    std::vector<std::vector<double>*> lists();
 };
 
 /// How many materials a layer can have.
@@ -61,7 +68,8 @@ CycleSeries parse_cycles(core::TextFile const& file, int steps_per_cycle, int gr
 
 /// The same of an open trough, in which the number of grains is not the same in all lines. Its mean velocity
 /// is that of the grains in the window. @throws InputError
-CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle);
+/// @param sizes  of the grains on a screen; none when grains leave only at one place
+CycleSeries parse_open_cycles(core::TextFile const& file, int steps_per_cycle, int sizes = 0);
 
 /// The first `cycles` cycles of a series that has at least that many.
 CycleSeries first_cycles(CycleSeries const& series, int cycles);

@@ -113,8 +113,8 @@ std::optional<std::string> imbalance(CycleSeries const& series) {
     OpenSeries const& open = series.open;
     double left = 0, left_mass = 0;
     for (std::size_t k = 1; k < open.held.size(); ++k) {
-        left += open.left[k];
-        left_mass += open.left_mass[k];
+        left += open.left[k] + (open.passed.empty() ? 0 : open.passed[k]);
+        left_mass += open.left_mass[k] + (open.passed_mass.empty() ? 0 : open.passed_mass[k]);
         double const lost = open.held[0] + open.fed[k] - open.held[k] - left;
         double const lost_mass = open.held_mass[0] + open.fed_mass[k] - open.held_mass[k] - left_mass;
         bool const is_whole =

@@ -12,12 +12,10 @@
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double size_rounding = 1e-5;  // of a diameter: the engine writes six digits
-
 /// The index of the size that a grain has.
 std::optional<std::size_t> size_of(double diameter, std::vector<double> const& diameters) {
     for (std::size_t i = 0; i < diameters.size(); ++i)
-        if (std::abs(diameter - diameters[i]) <= size_rounding * diameters[i]) return i;
+        if (is_same_size(diameter, diameters[i])) return i;
     return {};
 }
 
@@ -33,6 +31,11 @@ double total_mass(Screening const& s) {
 }
 
 }  // namespace
+
+bool is_same_size(double diameter, double size) {
+    constexpr double rounding = 1e-5;  // of a diameter: the engine writes six digits
+    return std::abs(diameter - size) <= rounding * size;
+}
 
 std::vector<PassedGrain> parse_passed(std::vector<core::TextFile> const& files, int steps_per_cycle) {
     std::vector<PassedGrain> passed;

@@ -37,19 +37,34 @@ std::vector<PassedGrain> parse_passed(std::vector<core::TextFile> const& files, 
 std::optional<std::string> size_imbalance(CycleSeries const& series, std::vector<PassedGrain> const& passed,
                                           std::vector<ScreenedSize> const& sizes);
 
+/// Whether a diameter in a file of the engine, which has six digits, is that of a size.
+bool is_same_size(double diameter, double size);
+
+/// The grains on a screen that is fed: one row for each size and the end of each cycle 0 ... n.
+struct SizeTable {
+    std::vector<double> diameter;      ///< m
+    std::vector<double> cycle;         ///< number of the cycle
+    std::vector<double> fed, held;     ///< grains that were fed until then, and that are on the screen
+    std::vector<double> left, passed;  ///< grains that left over the edge and passed the screen in the cycle
+};
+
 /// What was measured in one packing on a screen. The lists have one value for each size, from the smallest.
+/// With a feed they are of the grains that left over the edge or passed the screen in the cycles that count,
+/// with a batch of the grains that were there at first.
 struct Screening {
     std::vector<double> diameter;             ///< m
-    std::vector<double> number;               ///< of grains at first
+    std::vector<double> number;               ///< of grains
     std::vector<double> mass;                 ///< kg, of one grain
-    std::vector<double> passed;               ///< number of grains that passed until the end
+    std::vector<double> passed;               ///< number of these grains that passed
     std::vector<double> passed_cycle;         ///< of each grain that passed, in their order: the cycle
     std::vector<double> passed_diameter;      ///< m, of the same grains
-    std::optional<double> efficiency = {};    ///< mass of undersize that passed over that at first
-    std::optional<double> passed_share = {};  ///< mass that passed over that at first
-    std::optional<double> undersize = {};     ///< mass share of undersize in what is still on the screen
+    std::optional<double> efficiency = {};    ///< mass of undersize that passed over all of it
+    std::optional<double> passed_share = {};  ///< mass that passed over all mass
+    std::optional<double> undersize = {};     ///< mass share of undersize in what did not pass
     std::optional<double> cut_size = {};      ///< m, see cut_size()
-    std::optional<double> distance = {};      ///< m, that the layer was conveyed
+    std::optional<double> distance = {};      ///< m, that the layer of a batch was conveyed
+    std::optional<double> underflow = {};     ///< kg/s, that pass a screen with a feed
+    SizeTable by_size = {};                   ///< of a screen with a feed
 };
 
 /// Measures a packing, of whose grains the balance is known to hold. Grains smaller than the opening are

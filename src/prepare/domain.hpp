@@ -2,6 +2,7 @@
 
 #include "scenario/model/scenario.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,11 +27,15 @@ struct OpenTrough {
     double box_start, box_end;        ///< ends of the box along the trough
     double box_side;                  ///< of the box beyond each side wall
     double box_bottom;                ///< lower end of the box
+    /// Of a screen: upper and lower end of the wall that hangs below the edge and separates what passed from
+    /// what left over the edge.
+    std::optional<std::array<double, 2>> end_wall = {};
 };
 
 /// A floor with holes, and what is below it. m; z from the floor at rest.
 struct ScreenFloor {
     int along, across;  ///< numbers of holes in the two directions; 0 without holes
+    double plate;       ///< length of the closed sheet before the first row of holes and bars
     double out_z;       ///< grains with their centres below it at the end of a cycle have passed
     double catch_z;     ///< a plane on which grains come to rest if they are not taken out before
 };

@@ -1,8 +1,27 @@
 #include "prepare/open_trough.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vibrotrough::prepare {
+namespace {
+
+/// What has passed a screen falls below it, up to a cycle long, in all directions, and is as fast as the
+/// trough throws it or as the feed has become at the screen. The wall below the edge leaves a gap that no
+/// grain fits through, so that no grain touches both meshes at once.
+void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
+    scenario::Scenario const& s = c.scenario;
+    double const grain = c.largest_extent, excursion = c.largest_excursion, period = 1 / s.trough.frequency;
+    double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * open.feed_top);
+    double const flight = std::max(2 * c.largest_speed, fed) * period + 2 * grain;
+    open.box_bottom = -(grain + flight + fall + 3 * excursion);
+    open.box_start -= open.bin * std::ceil(flight / open.bin);
+    open.box_side = std::max(open.box_side, flight);
+    open.out_near_x = s.layer.length;
+    open.end_wall = {-smallest_diameter(s) / 4, open.box_bottom + excursion + grain / 2};
+}
+
+}  // namespace
 
 OpenTrough open_trough(PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
@@ -28,6 +47,7 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.box_end = open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination));
     open.box_side = flight / 2;
     open.box_bottom = open.out_z - flight - fall;
+    if (is_screen(s)) add_screen(open, c, fall);
     return open;
 }
 

@@ -31,14 +31,17 @@ std::vector<int> count_parts(std::vector<Part> const& parts, int count) {
     return counts;
 }
 
-std::vector<ClassCount> count_classes(std::vector<scenario::Material> const& materials, int grains) {
+/// @param all  also those sizes that the layer has less than one grain of, with one
+std::vector<ClassCount> count_classes(std::vector<scenario::Material> const& materials, int grains,
+                                      bool all) {
     std::vector<ClassCount> classes;
     std::vector<int> const of_material = count_parts(materials, grains);
     for (std::size_t m = 0; m < materials.size(); ++m) {
         auto const sizes = size_classes(materials[m].grains);
         std::vector<int> const of_size = count_parts(sizes, of_material[m]);
         for (std::size_t i = 0; i < sizes.size(); ++i)
-            if (of_size[i] > 0) classes.push_back({sizes[i].diameter, of_size[i], static_cast<int>(m)});
+            if (all || of_size[i] > 0)
+                classes.push_back({sizes[i].diameter, std::max(1, of_size[i]), static_cast<int>(m)});
     }
     std::ranges::stable_sort(classes, std::greater(), &ClassCount::diameter);
     return classes;
@@ -108,7 +111,7 @@ double modulus_for(PreparedCase const& c, double error) {
 void prepare_grains(PreparedCase& c, ClumpMaker& clumps) {
     scenario::Scenario const& s = c.scenario;
     c.materials = materials(s);
-    c.classes = count_classes(c.materials, s.layer.grains);
+    c.classes = count_classes(c.materials, s.layer.grains, is_fed_screen(s));
     if (s.layer.block == scenario::Block::plate) c.clump = clumps.plate(s.grains.diameter);
     if (is_clump(s.grains)) c.clump = clumps.clump(s.grains);
     c.spheres_per_grain = c.clump ? static_cast<int>(c.clump->spheres.size()) : 1;
@@ -185,7 +188,7 @@ void prepare_box(PreparedCase& c) {
     if (is_screen(c.scenario)) {
         c.domain.screen = screen_floor(c);
         // Without holes the box is that of the plain floor, so that the motion is the same, digit for digit.
-        if (has_holes(c.scenario))
+        if (has_holes(c.scenario) && !is_open(c.scenario))
             c.box_bottom = std::min(c.box_bottom, c.domain.screen->catch_z - c.largest_extent);
     }
     if (!is_open(c.scenario)) return;

@@ -11,8 +11,9 @@ ScreenFloor screen_floor(PreparedCase const& c) {
     ScreenFloor floor{};
     if (has_holes(s)) {
         double const pitch = hole_pitch(s.screen);
-        floor.along = static_cast<int>(std::lround(s.layer.length / pitch));
+        floor.along = holes_along(s);
         floor.across = static_cast<int>(std::lround(s.layer.width / pitch));
+        if (is_open(s)) floor.plate = s.layer.length - floor.along * pitch;
     }
     floor.out_z = -grain / 2;
     // What falls in a cycle, all grains at most, must find room there without reaching up to the screen,

@@ -86,12 +86,15 @@ void add_packings(std::vector<NameInFile>& names) {
                                      : "101",
             table.entry);
     }
-    for (PackingTable const& table : screen_tables())
-        add(names, std::string(table.group) + "/<packing>/", real_type,
-            table.group == "screen"  ? "cycles + 1"
-            : table.group == "sizes" ? "sizes"
-                                     : "grains",
-            table.entry);
+    for (auto const* const tables : {&size_tables(), &batch_tables(), &fed_screen_tables()}) {
+        for (PackingTable const& table : *tables)
+            add(names, std::string(table.group) + "/<packing>/", real_type,
+                table.group == "sizes"         ? "sizes"
+                : table.group == "passed"      ? "grains"
+                : table.group == "size_cycles" ? "sizes * (cycles + 1)"
+                                               : "cycles + 1",
+                table.entry);
+    }
     for (Entry const& entry : materials_entries())
         add(names, "materials/", entry.name == "name" ? word_type : real_type, "materials", entry);
     for (Entry const& entry : segregation_entries())

@@ -91,6 +91,15 @@ void read_tables(Hdf5MemoryFileReader const& file, std::size_t number, PackingRe
     }
 }
 
+/// The tables of the packings on a screen. A batch has a time.
+std::vector<std::vector<PackingTable> const*> tables_of_screen(scenario::Scenario const& scenario) {
+    std::vector<std::vector<PackingTable> const*> tables;
+    if (is_screen(scenario)) tables.push_back(&size_tables());
+    if (scenario.screen.time) tables.push_back(&batch_tables());
+    if (is_fed_screen(scenario)) tables.push_back(&fed_screen_tables());
+    return tables;
+}
+
 void check_series(PackingRecord const& packing, std::size_t number) {
     if (packing.series.x.size() != packing.series.normal_force.size() + 1)
         throw Hdf5Error("use the table " + packing_path("cycle_ends", number) + ", its length is wrong");
@@ -214,8 +223,9 @@ CaseRecord read_record(Hdf5MemoryFileReader const& file, std::filesystem::path c
         read_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
     for (std::size_t i = 0; is_open(record.scenario) && i < record.packings.size(); ++i)
         read_tables(file, i, record.packings[i], open_tables());
-    for (std::size_t i = 0; is_screen(record.scenario) && i < record.packings.size(); ++i)
-        read_tables(file, i, record.packings[i], screen_tables());
+    for (auto const* const tables : tables_of_screen(record.scenario))
+        for (std::size_t i = 0; i < record.packings.size(); ++i)
+            read_tables(file, i, record.packings[i], *tables);
     for (PackingRecord& packing : record.packings) {  // older files do not have the reaction, but its curves
         if (!packing.motion.added_mass)
             measure::add_reaction(packing.motion, record.scenario.trough.frequency);
@@ -289,7 +299,8 @@ std::string result_bytes(CaseRecord const& record) {
         if (record.scenario.measure.impacts) add_tables(file, i, record.packings[i], impact_tables());
         add_tables(file, i, record.packings[i], material_tables(record.scenario.materials.size() + 1));
         if (is_open(record.scenario)) add_tables(file, i, record.packings[i], open_tables());
-        if (is_screen(record.scenario)) add_tables(file, i, record.packings[i], screen_tables());
+        for (auto const* const tables : tables_of_screen(record.scenario))
+            add_tables(file, i, record.packings[i], *tables);
     }
     return file.bytes();
 }

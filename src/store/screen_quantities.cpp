@@ -21,24 +21,13 @@ bool has_screen(Case record) {
     return is_screen(record.scenario) && !record.packings.empty();
 }
 
+bool has_batch(Case record) {
+    return has_screen(record) && record.scenario.screen.time.has_value();
+}
+
 template <std::optional<double> Screening::*member>
 MeasuredNumber screening_number() {
     return packing_field([](auto& packing) -> auto& { return packing.screening.*member; });
-}
-
-/// A column of the table `screen`, one value for the end of each cycle.
-template <std::vector<double> measure::OpenSeries::*member>
-PackingTable of_cycles(std::string_view name, std::string_view units, std::string_view meaning) {
-    return {"screen", {name, units, meaning}, packing_field([](auto& p) -> auto& {
-                return p.series.open.*member;
-            })};
-}
-
-template <std::vector<double> Screening::*member>
-PackingTable of_screening(std::string_view group, std::string_view name, std::string_view units,
-                          std::string_view meaning) {
-    return {
-        group, {name, units, meaning}, packing_field([](auto& p) -> auto& { return p.screening.*member; })};
 }
 
 /// Cycles that all packings have.
@@ -94,6 +83,15 @@ class MeasuredShare : public MeasuredColumn {
     }
 };
 
+/// In how many cycles grains can fall through: all of a batch, and with a feed those that the layer needs
+/// along the holes. NaN when its speed is not known.
+double cycles_over_holes(Case record) {
+    scenario::Scenario const& s = record.scenario;
+    if (has_batch(record)) return cycles_of(record);
+    double const speed = record.estimate.mean.value_or(not_known) * velocity_scale(s.trough);
+    return speed > 0 ? holes_along(s) * hole_pitch(s.screen) / speed * s.trough.frequency : not_known;
+}
+
 /// The probability that a grain is still on the screen after some attempts.
 double share_by_model(Case record, double diameter, double attempts) {
     return std::pow(1 - prepare::passage_probability(record.scenario.screen, diameter), attempts);
@@ -103,7 +101,7 @@ double share_by_model(Case record, double diameter, double attempts) {
 double attempts_per_cycle(Case record, double diameter, double share) {
     double const probability = prepare::passage_probability(record.scenario.screen, diameter);
     if (probability <= 0 || share <= 0 || share >= 1) return not_known;
-    return std::log(share) / (cycles_of(record) * std::log1p(-probability));
+    return std::log(share) / (cycles_over_holes(record) * std::log1p(-probability));
 }
 
 /// Efficiency of screening with one attempt in each cycle.
@@ -113,10 +111,25 @@ std::optional<double> efficiency_by_model(Case record) {
     double all = 0, passed = 0;
     for (std::size_t i = 0; i < s.diameter.size() && s.diameter[i] < opening_of(record); ++i) {
         all += s.number[i] * s.mass[i];
-        passed += s.number[i] * s.mass[i] * (1 - share_by_model(record, s.diameter[i], cycles_of(record)));
+        passed +=
+            s.number[i] * s.mass[i] * (1 - share_by_model(record, s.diameter[i], cycles_over_holes(record)));
     }
-    if (all == 0) return {};
+    if (all == 0 || std::isnan(passed)) return {};
     return passed / all;
+}
+
+/// Share of the grains of a size that did not pass; NaN when there was none.
+double share_that_stays(Case record, Screening const& screening, std::size_t size) {
+    if (has_batch(record)) return share_curve(screening, size, cycles_of(record)).back();
+    double const number = screening.number[size];
+    return number > 0 ? 1 - screening.passed[size] / number : not_known;
+}
+
+/// s, until half of a size has passed; NaN when it has not, and with a feed.
+double half_time_of(Case record, Screening const& screening, std::size_t size) {
+    if (!has_batch(record)) return not_known;
+    auto const curve = share_curve(screening, size, cycles_of(record));
+    return measure::half_time(curve, period_of(record)).value_or(not_known);
 }
 
 constexpr auto low_end = "Lower end of this interval, at least 0, because a share is; NaN with one packing";
@@ -127,37 +140,16 @@ constexpr auto interval_over_packings =
 
 }  // namespace
 
-std::vector<PackingTable> const& screen_tables() {
-    using Series = measure::OpenSeries;
-    static std::vector<PackingTable> const tables{
-        of_cycles<&Series::left>("passed", "1",
-                                 "Grains that passed the screen in the cycle that ends; only of screens"),
-        of_cycles<&Series::left_mass>("passed_mass", "kg", "Their mass"),
-        of_cycles<&Series::held>("held", "1", "Grains on the screen at the end of cycle 0 ... n"),
-        of_cycles<&Series::held_mass>("held_mass", "kg", "Their mass"),
-        of_cycles<&Series::window_mass>(
-            "layer_mass", "kg",
-            "Mass of the layer whose speed is measured, mean over the cycle: grains "
-            "with their centres above the screen"),
-        of_screening<&Screening::diameter>("sizes", "diameter", "m",
-                                           "Diameter of the grains of one size, from the smallest; only of "
-                                           "screens"),
-        of_screening<&Screening::number>("sizes", "number", "1", "Grains of this size at first"),
-        of_screening<&Screening::mass>("sizes", "mass", "kg", "Mass of one of them"),
-        of_screening<&Screening::passed>("sizes", "passed", "1", "How many of them passed the screen"),
-        of_screening<&Screening::passed_cycle>(
-            "passed", "cycle", "1", "Cycle in which a grain passed the screen, from 1; only of screens"),
-        of_screening<&Screening::passed_diameter>("passed", "diameter", "m", "Its diameter"),
-    };
-    return tables;
-}
-
 std::vector<Entry> const& partition_entries() {
     static std::vector<Entry> const entries{
         {"diameter", "m", "Diameter of the grains of one size, from the smallest; only of screens"},
         {"relative_diameter", "1", "The same over the opening; infinite without holes"},
-        {"number", "1", "Grains of this size in a packing at first"},
-        {"stays", "1", "Share of them that is on the screen at the end, mean over the packings"},
+        {"number", "1",
+         "Grains of this size in a packing at first; with a feed, in the first packing those that passed or "
+         "left over the edge in the cycles that count"},
+        {"stays", "1",
+         "Share of them that is on the screen at the end, with a feed that left over the edge, mean over the "
+         "packings"},
         {"stays_half_width", "1", interval_over_packings},
         {"stays_low", "1", low_end},
         {"stays_high", "1", high_end},
@@ -165,7 +157,10 @@ std::vector<Entry> const& partition_entries() {
          "Probability p = ((a - d) / (a + w))^2 that a grain passes at one attempt (Gaudin 1939): of a "
          "sphere of "
          "diameter d that falls straight on a screen with the opening a and the bars w"},
-        {"stays_by_model", "1", "Share that stays with one attempt in each of n cycles: (1 - p)^n"},
+        {"stays_by_model", "1",
+         "Share that stays with one attempt in each of n cycles: (1 - p)^n; with a feed n is the time that "
+         "the "
+         "layer needs along the holes over the period"},
         {"attempts", "1",
          "Attempts per cycle with which the model leaves the share that was measured: ln(stays) / (n ln(1 - "
          "p)); "
@@ -188,16 +183,15 @@ std::vector<CaseValues> partition_table(Case record) {
     for (std::size_t i = 0; i < first.diameter.size(); ++i) {
         EnsembleNumber share, time;
         for (PackingRecord const& packing : record.packings) {
-            auto const curve = share_curve(packing.screening, i, cycles_of(record));
-            share.values.push_back(curve.back());
-            time.values.push_back(measure::half_time(curve, period_of(record)).value_or(not_known));
+            share.values.push_back(share_that_stays(record, packing.screening, i));
+            time.values.push_back(half_time_of(record, packing.screening, i));
         }
         stays.add(share);
         times.add(time);
         double const d = first.diameter[i];
         relative.push_back(d / opening_of(record));
         probability.push_back(prepare::passage_probability(record.scenario.screen, d));
-        model.push_back(share_by_model(record, d, cycles_of(record)));
+        model.push_back(share_by_model(record, d, cycles_over_holes(record)));
         attempts.push_back(attempts_per_cycle(record, d, share.mean()));
     }
     std::vector<CaseValues> columns{first.diameter, relative, first.number};
@@ -232,7 +226,7 @@ std::vector<Entry> const& screening_entries() {
 }
 
 std::vector<CaseValues> screening_table(Case record) {
-    if (!has_screen(record)) return {};
+    if (!has_batch(record)) return {};
     double const confidence = record.scenario.measure.confidence;
     MeasuredColumn distance(confidence), held(confidence), efficiency(confidence), speed(confidence);
     std::vector<std::vector<double>> curves;
@@ -275,7 +269,7 @@ std::vector<Entry> const& partition_cycles_entries() {
 }
 
 std::vector<CaseValues> partition_cycles_table(Case record) {
-    if (!has_screen(record)) return {};
+    if (!has_batch(record)) return {};
     MeasuredShare stays(record.scenario.measure.confidence);
     std::vector<double> diameters, times;
     Screening const& first = record.packings.front().screening;
@@ -300,9 +294,10 @@ std::vector<Quantity> screen_quantities() {
     std::vector<Quantity> rows;
     add_measured<&screening_number<&Screening::efficiency>>(
         rows, "screening_efficiency", "screening_efficiency_half_width", "1",
-        "Efficiency of screening at the end: mass of undersize (grains smaller than the opening) that passed "
-        "the "
-        "screen over that at first; NaN without a screen",
+        "Efficiency of screening: mass of undersize (grains smaller than the opening) that passed the screen "
+        "until the end over that at first; with a feed, over all undersize that passed or left over the "
+        "edge; "
+        "NaN without a screen",
         {.place = 1100,
          .format = "{:.3f}",
          .position = 290,
@@ -321,11 +316,13 @@ std::vector<Quantity> screen_quantities() {
            .report = ReportView{"by model"}}}});
     add_measured<&screening_number<&Screening::passed_share>>(
         rows, "passed_share", "passed_share_half_width", "1",
-        "Mass that passed the screen over that at first",
+        "Mass that passed the screen over that at first; with a feed, over all that passed or left",
         {.place = 1106, .format = "{:.3f}", .position = 294, .report = ReportView{"passed"}});
     add_measured<&screening_number<&Screening::undersize>>(
         rows, "undersize_share", "undersize_share_half_width", "1",
-        "Mass share of undersize in what is still on the screen at the end; NaN when all have passed",
+        "Mass share of undersize in what is still on the screen at the end, with a feed in what left over "
+        "the "
+        "edge; NaN when all have passed",
         {.place = 1110,
          .format = "{:.3f}",
          .position = 296,
@@ -351,6 +348,16 @@ std::vector<Quantity> screen_quantities() {
          .position = 300,
          .terminal = terminal_when_known("screen", "m"),
          .report = ReportView{"length of screen"}});
+    add_measured<&screening_number<&Screening::underflow>>(
+        rows, "underflow", "underflow_half_width", "kg/s",
+        "Mass flow through a screen with a feed; outflow is that over its edge",
+        {.place = 1122,
+         .unit = "t/h",
+         .factor = tonnes_per_hour,
+         .format = "{:.4g}",
+         .position = 302,
+         .terminal = terminal_when_known("through", "t/h"),
+         .report = ReportView{"through the screen"}});
     for (Quantity& row : rows) row.may_be_missing = row.known_without_mean = true;
     return rows;
 }

@@ -11,8 +11,14 @@
 
 namespace vibrotrough::store {
 
-/// The columns of the tables of each packing on a screen: `screen`, `sizes` and `passed`.
-std::vector<PackingTable> const& screen_tables();
+/// The columns of the table `sizes` of each packing on a screen.
+std::vector<PackingTable> const& size_tables();
+
+/// Those of `screen` and `passed`, of a batch on a screen.
+std::vector<PackingTable> const& batch_tables();
+
+/// Those of `through` and `size_cycles`, of a screen with a feed.
+std::vector<PackingTable> const& fed_screen_tables();
 
 /// The columns of the table `partition`: one row for each size, from the smallest.
 std::vector<Entry> const& partition_entries();

@@ -75,6 +75,31 @@ TEST(ScreenDeck, WithoutHolesHasThePlainFloor) {
     EXPECT_FALSE(closed.files.contains("plate.stl"));
 }
 
+// A fed screen: a plate under the feed, holes behind it, and a wall below the edge, in both decks. Its
+// columns are those that measure reads.
+TEST(ScreenDeck, OfAFedScreenSeparatesWhatPassedFromWhatLeft) {
+    std::string const base = with("length = \"36 mm\"", "length = \"60 mm\"",
+                                  with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
+                                       with("height = \"12 mm\"", "")));
+    std::string const text = base +
+                             "\n[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"15 mm\"\n[screen]\nopening = "
+                             "\"5 mm\"\nwire = \"1 mm\"\n";
+    auto const prepared = prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
+    Deck const deck = make_deck(prepared, {1});
+    auto const [area, x, y] = area_and_ends(deck.files.at("trough.stl"));
+    EXPECT_NEAR(area, 0.06 * 0.018 - prepared.domain.screen->along * 3 * 25e-6, 1e-12);
+    EXPECT_EQ(x, 0.06);
+    EXPECT_EQ(deck.settle_files.at("trough.stl"), deck.files.at("trough.stl"));
+    EXPECT_EQ(area_and_ends(deck.files.at("end.stl"))[1], 0.06);
+    EXPECT_GT(prepared.domain.screen->plate, prepared.domain.open->feed_end);
+    std::string const& drive = deck.files.at(drive_file);
+    for (char const* line :
+         {"n_meshes 5 meshes trough left right back end", "fix             drive_end all move/mesh mesh end",
+          "delete_atoms    region passing compress no",
+          ",window_mass,passed,passed_mass,size_1,size_2,size_3\""})
+        EXPECT_THAT(drive, HasSubstr(line));
+}
+
 // Gaudin's probability: of an opening of 5 and bars of 1, a point passes with (5/6)^2, a sphere of 4 with
 // (1/6)^2, and one as large as the opening never.
 TEST(ScreenModel, IsTheShareOfTheAreaForTheCentre) {

@@ -44,6 +44,37 @@ TEST(Screen, NeedsAllItsKeys) {
                 HasSubstr("screen.wire: there is no screen"));
 }
 
+std::string fed_screen(std::string const& screen, std::string const& length = "60 mm") {
+    std::string const base = with("length = \"36 mm\"", "length = \"" + length + "\"",
+                                  with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
+                                       with("height = \"12 mm\"", "")));
+    return base + "\n[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"15 mm\"\n[screen]\n" + screen;
+}
+
+// A screen that is fed has as long as it takes: its rounds are those of an open trough, and the holes begin
+// behind the feed, which needs no whole number of pitches.
+TEST(Screen, MayBeFed) {
+    auto const one = single_case(fed_screen("opening = \"5 mm\"\nwire = \"1 mm\"\n"));
+    EXPECT_TRUE(is_fed_screen(one));
+    EXPECT_FALSE(has_given_length(one));
+    EXPECT_EQ(one.measure.max_cycles, 200);
+    double const plate = one.layer.length - holes_along(one) * 0.006;
+    EXPECT_GT(plate, 0.015 + largest_excursion(drive_motion(one.trough)));
+    EXPECT_LT(plate, 0.015 + largest_excursion(drive_motion(one.trough)) + largest_diameter(one) + 0.006);
+    std::string const text = to_toml(one);
+    EXPECT_EQ(to_toml(single_case(text)), text);
+    EXPECT_EQ(holes_along(single_case(fed_screen("opening = \"0 mm\"\nwire = \"1 mm\"\n"))), 0);
+}
+
+TEST(Screen, OnlyABatchHasATime) {
+    std::string const holes = "opening = \"5 mm\"\nwire = \"1 mm\"\n";
+    EXPECT_THAT(error_of(fed_screen(holes + "time = \"2 s\"\n")), HasSubstr("screen.time: grains are fed"));
+    EXPECT_THAT(error_of(fed_screen("opening = \"5 mm\"\nwire = \"1.1 mm\"\n")),
+                HasSubstr("a side wall would cut through holes"));
+    EXPECT_THAT(error_of(fed_screen("opening = \"17 mm\"\nwire = \"1 mm\"\n", "36 mm")),
+                HasSubstr("there is no room for a hole"));
+}
+
 // What does not go together is refused by its name.
 TEST(Screen, RefusesWhatItCannotHave) {
     std::string const whole = "opening = \"5 mm\"\nwire = \"1 mm\"\ntime = \"2 s\"\n";

@@ -61,7 +61,7 @@ def check_file(path, heading, reference):
     with h5py.File(path) as file:
         for name, data in written(file).items():
             shapes = dict(SHAPES[heading])
-            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|screen|sizes|passed|wear|impacts)/(\d+)/(\w+)", name)
+            series = re.fullmatch(r"(series|cycle_ends|material_ends|phases|rolling|profiles|surface|flow|along|residence|screen|sizes|passed|through|size_cycles|wear|impacts)/(\d+)/(\w+)", name)
             row_name = f"{series[1]}/<packing>/{series[3]}" if series else name
             if name.startswith("swept/"):
                 row_name = "swept/<key>"
@@ -76,7 +76,7 @@ def check_file(path, heading, reference):
                 assert (data[0] == TYPES[kind]) if kind in TYPES else h5py.check_string_dtype(data[0]), name
                 continue
             if series:
-                shapes |= {"cycles": (CYCLES[series[2]],), "cycles + 1": (CYCLES[series[2]] + 1,)}
+                shapes |= {"cycles": (CYCLES[series[2]],), "cycles + 1": (CYCLES[series[2]] + 1,), "sizes * (cycles + 1)": (2 * (CYCLES[series[2]] + 1),)}
             assert row_name in table, f"{path}: {name} is not documented"
             seen.add(row_name)
             if data is not None:

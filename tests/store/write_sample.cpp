@@ -40,6 +40,9 @@ void put_on_screen(vibrotrough::store::CaseRecord& record) {
                              .passed_cycle = {1, 1, 1},
                              .passed_diameter = {0.002, 0.002, 0.002},
                              .efficiency = 0.6};
+        packing.series.open.passed = packing.series.open.passed_mass = packing.series.open.left;
+        std::vector<double> const rows(2 * packing.series.x.size(), 7);
+        packing.screening.by_size = {rows, rows, rows, rows, rows, rows};
     }
 }
 

@@ -137,12 +137,12 @@ constexpr std::array rows_of_grains{
     Key{"screen.wire", quantity, "m", 1e-6, 1, "a twentieth of the opening or more", "", optional, "\"1 mm\"",
         "width of the bars between two holes; opening and wire are the pitch, of which length and width of "
         "the "
-        "layer are whole multiples",
+        "layer are whole multiples; with a feed only the width",
         field<&Scenario::screen, &Screen::wire>},
     Key{"screen.time", quantity, "s", 1e-3, 1e5, "0.001 to 100000 s", "", optional, "\"3 s\"",
-        "how long the batch is on the screen, rounded to whole cycles; the length of screen that it stands "
+        "how long a batch is on the screen, rounded to whole cycles; the length of screen that it stands "
         "for is "
-        "in the results",
+        "in the results; not of a screen with a feed",
         field<&Scenario::screen, &Screen::time>},
 };
 

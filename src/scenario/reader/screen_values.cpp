@@ -1,6 +1,7 @@
 #include "scenario/reader/given_values.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,10 +13,9 @@ void check_parts(Scenario const& s, GivenKeys const& given) {
     auto const refuse = [&](bool is_given, char const* key, char const* wrong) {
         if (is_given) given.fail(key, wrong, "remove it, or the section [screen]");
     };
-    refuse(is_open(s), "feed.mass_flow", "a screen carries a batch of grains and is not fed");
     refuse(s.trough.mesh != nullptr, "trough.mesh", "a screen is a flat floor with square holes");
-    refuse(s.trough.side_wall_friction.has_value(), "trough.side_wall_friction",
-           "a screen is periodic across and has no side walls");
+    refuse(is_batch(s) && s.trough.side_wall_friction.has_value(), "trough.side_wall_friction",
+           "a screen without a feed is periodic across and has no side walls");
     refuse(is_clump(s.grains), "grains.shape",
            "which clumps fall through a hole is not known; a screen needs "
            "spheres");
@@ -30,7 +30,7 @@ void check_parts(Scenario const& s, GivenKeys const& given) {
     refuse(s.output.contacts, "output.contacts", "contacts are not written of grains on a screen");
 }
 
-/// A hole must not be cut by the faces of the periodic box.
+/// A hole must not be cut by the faces of the periodic box or by side walls.
 void check_side(Scenario const& s, char const* key, double side, GivenKeys const& given) {
     constexpr double rounding = 1e-6;
     double const pitch = hole_pitch(s.screen), holes = std::max(1.0, std::round(side / pitch));
@@ -39,8 +39,9 @@ void check_side(Scenario const& s, char const* key, double side, GivenKeys const
     given.fail(
         key,
         fmt::format("{} is not a whole number of pitches of {} (screen.opening and screen.wire), so that "
-                    "the end of the periodic box would cut through holes",
-                    given.text(key, side), given.text("screen.opening", pitch)),
+                    "{} would cut through holes",
+                    given.text(key, side), given.text("screen.opening", pitch),
+                    is_open(s) ? "a side wall" : "the end of the periodic box"),
         fewer > 0 ? fmt::format("write \"{:.9g} mm\" or \"{:.9g} mm\"", 1e3 * fewer, 1e3 * more)
                   : fmt::format("write \"{:.9g} mm\"", 1e3 * more));
 }
@@ -54,7 +55,7 @@ void check_holes(Scenario const& s, GivenKeys const& given) {
                    fmt::format("{} is less than a twentieth of the opening of {}",
                                given.text("screen.wire", wire), given.text("screen.opening", opening)),
                    fmt::format("write at least \"{}\"", given.text("screen.wire", opening / widest)));
-    check_side(s, "layer.length", s.layer.length, given);
+    if (is_batch(s)) check_side(s, "layer.length", s.layer.length, given);
     check_side(s, "layer.width", s.layer.width, given);
     double const pitch = hole_pitch(s.screen);
     double const triangles = s.layer.length * s.layer.width / (pitch * pitch) * 4 * (opening / wire + 4);
@@ -65,19 +66,41 @@ void check_holes(Scenario const& s, GivenKeys const& given) {
                    "make the box smaller, or are the units right?");
 }
 
+/// Behind the plate under the feed there must be room for holes.
+void check_fed_screen(Scenario const& s, GivenKeys const& given) {
+    if (!has_holes(s) || holes_along(s) >= 1) return;
+    given.fail("layer.length",
+               fmt::format("there is no room for a hole of {} behind the feed, which falls onto the first {}",
+                           given.text("screen.opening", *s.screen.opening),
+                           given.text("layer.length", feed_length(s))),
+               "lengthen the screen, or shorten feed.length");
+}
+
+/// A screen has all its keys, of which the time is only that of a batch.
+void check_given_keys(Scenario const& s, GivenKeys const& given) {
+    for (char const* key : {"screen.wire", "screen.time"}) {
+        bool const is_of_batch = std::string_view(key) == "screen.time";
+        if (is_of_batch && is_fed_screen(s) && given.has(key))
+            given.fail(key, "grains are fed to the screen, so that how long they are on it is a result",
+                       "remove it, or the section [feed]");
+        bool const is_needed = is_of_batch ? is_batch(s) : is_screen(s);
+        if (is_needed && !given.has(key))
+            given.fail("screen.opening", fmt::format("{} is missing", key), "write it as well");
+        if (!is_screen(s) && given.has(key))
+            given.fail(key, "there is no screen, because screen.opening is not given",
+                       "write opening, or remove the section [screen]");
+    }
+}
+
 }  // namespace
 
 void complete_screen(Scenario& s, GivenKeys const& given) {
-    for (char const* key : {"screen.wire", "screen.time"}) {
-        if (is_screen(s) == given.has(key)) continue;
-        if (is_screen(s)) given.fail("screen.opening", fmt::format("{} is missing", key), "write it as well");
-        given.fail(key, "there is no screen, because screen.opening is not given",
-                   "write opening, or remove the section [screen]");
-    }
+    check_given_keys(s, given);
     if (!is_screen(s)) return;
-    refuse_length(given, "screen");
     check_parts(s, given);
     if (has_holes(s)) check_holes(s, given);
+    if (is_open(s)) return check_fed_screen(s, given);
+    refuse_length(given, "screen");
     constexpr int most_cycles = 1'000'000;
     if (*s.screen.time * s.trough.frequency > most_cycles)
         given.fail("screen.time", fmt::format("is more than {} cycles", most_cycles), "write a shorter time");
