@@ -2,6 +2,7 @@
 
 #include "deck/impacts.hpp"
 #include "deck/phases.hpp"
+#include "deck/screen.hpp"
 #include "prepare/contact.hpp"
 
 #include <algorithm>
@@ -148,8 +149,13 @@ double expected_cycles(scenario::Scenario const& scenario, Experience const& exp
 }
 
 double expected_work(prepare::PreparedCase const& c, Experience const& experience) {
+    // A triangle of a moving mesh takes as long as 1.2 grains: 216 grains on 12, 672 and 3600 triangles took
+    // 0.55, 2.2 and 10.6 s for 12,000 steps. Floors without holes have a few triangles only.
+    constexpr double triangle_in_grains = 1.2;
     double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
-    return c.work(settling / c.time.steps_per_cycle + expected_cycles(c.scenario, experience));
+    double const cycles = expected_cycles(c.scenario, experience);
+    return c.work(settling / c.time.steps_per_cycle + cycles) +
+           triangle_in_grains * triangles_of_screen(c) * c.time.steps_per_cycle * cycles;
 }
 
 double expected_bytes(prepare::PreparedCase const& c) {

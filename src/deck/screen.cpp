@@ -16,6 +16,13 @@ std::string screen_mesh(prepare::PreparedCase const& n) {
                       n.domain.screen->across, n.domain.screen->plate);
 }
 
+int triangles_of_screen(prepare::PreparedCase const& n) {
+    if (!has_holes(n.scenario)) return 0;
+    scenario::Layer const& layer = n.scenario.layer;
+    return screen_triangles(layer.length, layer.width, *n.scenario.screen.opening, n.domain.screen->along,
+                            n.domain.screen->across, n.domain.screen->plate);
+}
+
 void add_fed_screen(std::map<std::string, std::string>& files, prepare::PreparedCase const& n) {
     if (has_holes(n.scenario)) files["trough.stl"] = screen_mesh(n);
     auto const [top, bottom] = *n.domain.open->end_wall;

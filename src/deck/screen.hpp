@@ -15,6 +15,9 @@ std::string settling_floor(scenario::Scenario const& scenario);
 /// The STL text of a screen. @pre has_holes()
 std::string screen_mesh(prepare::PreparedCase const& prepared);
 
+/// How many triangles the moving mesh of a screen has; 0 for other floors and without holes.
+int triangles_of_screen(prepare::PreparedCase const& prepared);
+
 /// The meshes of a screen that is fed, on which the first grains settle as well: the sheet, and the wall
 /// below its edge.
 void add_fed_screen(std::map<std::string, std::string>& files, prepare::PreparedCase const& prepared);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,16 @@ std::string screen_stl(double length, double width, double opening, int along, i
         }
     }
     return text + "endsolid trough\n";
+}
+
+int screen_triangles(double length, double width, double opening, int along, int across, double plate) {
+    auto const closed_and_open = [](ScreenNodes const& nodes) {
+        auto const open = std::ranges::count(nodes.open, true);
+        return std::pair(nodes.open.size(), static_cast<std::size_t>(open));
+    };
+    auto const [x, open_x] = closed_and_open(screen_nodes(length, opening, along, plate));
+    auto const [y, open_y] = closed_and_open(screen_nodes(width, opening, across, 0));
+    return static_cast<int>(2 * (x * y - open_x * open_y));
 }
 
 std::string flat_trough_stl(double length, double width, double edge) {

@@ -16,6 +16,9 @@ std::string flat_trough_stl(double length, double width, double edge);
 /// @param plate    m, length of a closed part before the first bars
 std::string screen_stl(double length, double width, double opening, int along, int across, double plate = 0);
 
+/// The number of triangles of such a screen.
+int screen_triangles(double length, double width, double opening, int along, int across, double plate);
+
 /// The STL text of a side wall 0 <= x <= length, 0 <= z <= height at this y (m), with triangles of the same
 /// kind.
 std::string side_wall_stl(double length, double height, double y, double edge);

@@ -1,6 +1,7 @@
 #include "prepare/screen.hpp"
 
 #include "deck/deck.hpp"
+#include "deck/screen.hpp"
 #include "deck/trough_mesh.hpp"
 #include "scenario/example_campaign.hpp"
 #include "scenario/reader/campaign_file.hpp"
@@ -73,6 +74,20 @@ TEST(ScreenDeck, WithoutHolesHasThePlainFloor) {
     Deck const closed = make_deck(screened("0 mm"), {1});
     EXPECT_TRUE(closed.settle_files.contains("trough.stl"));
     EXPECT_FALSE(closed.files.contains("plate.stl"));
+}
+
+// The expected cost counts the triangles that the deck has.
+TEST(ScreenDeck, ItsTrianglesAreCounted) {
+    for (char const* opening : {"5 mm", "8 mm"}) {
+        auto const prepared = screened(opening);
+        std::string const stl = make_deck(prepared, {1}).files.at("trough.stl");
+        std::size_t facets = 0;
+        for (auto at = stl.find("facet normal"); at != std::string::npos;
+             at = stl.find("facet normal", at + 1))
+            ++facets;
+        EXPECT_EQ(facets, static_cast<std::size_t>(triangles_of_screen(prepared)));
+    }
+    EXPECT_EQ(triangles_of_screen(screened("0 mm")), 0);
 }
 
 // A fed screen: a plate under the feed, holes behind it, and a wall below the edge, in both decks. Its
