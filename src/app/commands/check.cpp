@@ -126,6 +126,24 @@ void print_densities(scenario::Campaign const& campaign) {
                scenario::settled_solid_fraction);
 }
 
+/// The feeds of open troughs, however they were given.
+void print_feeds(scenario::Campaign const& campaign) {
+    std::vector<double> flows, rates;
+    for (auto const& one : campaign.cases) {
+        if (!is_open(one)) continue;
+        flows.push_back(*one.feed.mass_flow);
+        rates.push_back(flows.back() / (mean_density(one) * mean_grain_volume(one)));
+    }
+    if (flows.empty()) return;
+    constexpr double tonnes_per_hour = 3.6;
+    auto const range = [](std::vector<double> const& values, double factor, char const* unit) {
+        auto const [least, most] = std::ranges::minmax(values);
+        return least == most ? fmt::format("{:.4g} {}", factor * least, unit)
+                             : fmt::format("{:.4g} to {:.4g} {}", factor * least, factor * most, unit);
+    };
+    fmt::print("feed: {} = {}\n", range(flows, tonnes_per_hour, "t/h"), range(rates, 1, "grains/s"));
+}
+
 /// The moduli of all cases, and who chose them.
 void print_moduli(deck::CampaignCheck const& found) {
     double const least = found.least_modulus / 1e6, most = found.most_modulus / 1e6;
@@ -157,6 +175,7 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
             fmt::print("{}: {}\n", to_string(item.worst.severity), describe(item, found.cases));
     }
     print_densities(campaign);
+    print_feeds(campaign);
     print_moduli(found);
     fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
                found.cases, found.packings, found.cycles / found.packings);

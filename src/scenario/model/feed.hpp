@@ -14,6 +14,8 @@ struct Feed {
     std::optional<double> mass_flow = {};  ///< kg/s
     std::optional<double> length = {};     ///< m, along the trough, of the zone that the stream falls into
     std::optional<double> height = {};     ///< m, above the floor, from which the grains fall
+    /// 1/s, where the flow was given so; mass_flow follows from it.
+    std::optional<double> grains_per_second = {};
 };
 
 /// Whether the trough is open: fed at one end and discharged at the other.

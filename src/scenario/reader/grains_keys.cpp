@@ -1,4 +1,5 @@
 #include "scenario/reader/key_fields.hpp"
+#include "scenario/reader/value_reader.hpp"
 
 #include <array>
 
@@ -13,6 +14,12 @@ void set_shape(Grains& grains, GivenValue const& v) {
     if (grains.shape == "sphere" || grains.shape == "cube" || grains.shape == "rod") return;
     grains.shape_file = read_once(v.files_read().shapes, read_shape, v,
                                   "write the header x,y,z,radius and one sphere per line");
+}
+
+/// The mass of grains per second is known when all keys are set.
+void set_feed(Feed& feed, GivenValue const& v) {
+    if (v.is_word()) feed.grains_per_second = grains_per_second(v.word());
+    feed.mass_flow = v.is_word() ? 0 : v.number();
 }
 
 bool has_a_law(Scenario const& s) {
@@ -117,8 +124,10 @@ constexpr std::array rows_of_grains{
         "\"0.2 t/h\"",
         "makes the trough an open one: it is empty at first, grains fall in at its back wall with this mass "
         "flow "
-        "and leave it over its edge; needs trough.side_wall_friction",
-        field<&Scenario::feed, &Feed::mass_flow>},
+        "and leave it over its edge; needs trough.side_wall_friction. \"500 1/s\": grains of the mean mass "
+        "per time",
+        KeyAccess{[](Scenario const& s) { return content_of(s.feed.mass_flow); },
+                  [](Scenario& s, GivenValue const& v) { set_feed(s.feed, v); }}},
     Key{"feed.length", quantity, "m", 1e-6, 10, "at least 4 of the largest diameters", "", optional,
         "\"15 mm\"",
         "length of the zone behind the back wall that the feed falls into; a tenth of the trough if it is "

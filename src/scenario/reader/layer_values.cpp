@@ -152,6 +152,16 @@ void check_parts_of_open(Scenario const& s, GivenKeys const& given) {
                "write side_wall_friction below [trough], 0 for smooth walls");
 }
 
+/// The mass flow of grains per second.
+void weigh_feed(Scenario& s, GivenKeys const& given) {
+    if (!s.feed.grains_per_second) return;
+    Key const& key = *find_key("feed.mass_flow");
+    s.feed.mass_flow = *s.feed.grains_per_second * mean_density(s) * mean_grain_volume(s);
+    if (*s.feed.mass_flow >= key.least && *s.feed.mass_flow <= key.most) return;
+    given.fail(key.path, fmt::format("{:g} grains per second are out of range", *s.feed.grains_per_second),
+               "write more than 0, and at most 100000 kg/s");
+}
+
 /// A trough that is fed at one end and discharged at the other.
 void complete_feed(Scenario& s, GivenKeys const& given) {
     for (char const* key : {"feed.length", "feed.height"}) {
@@ -161,6 +171,7 @@ void complete_feed(Scenario& s, GivenKeys const& given) {
     }
     if (!is_open(s)) return;
     check_parts_of_open(s, given);
+    weigh_feed(s, given);
     s.layer.grains = grains_of_feed(s, given);
     constexpr double fastest = 1.5;  // m/s
     double const largest = largest_diameter(s), length = feed_length(s);

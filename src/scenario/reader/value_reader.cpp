@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -91,6 +92,14 @@ class ValueReader {
         return *given ? 1 : 0;
     }
 
+    /// A mass flow, or grains per time, which are kept as they are written: what they weigh is known when all
+    /// keys are.
+    Content flow(toml::node const& node) const {
+        std::string const text = node.value<std::string>().value_or("");
+        if (node.is_string() && grains_per_second(text)) return text;
+        return number(node);
+    }
+
     double any_number(toml::node const& node) const {
         bool const has_unit = key_.kind == KeyKind::quantity || key_.kind == KeyKind::quantities;
         return has_unit ? quantity(node) : plain_number(node);
@@ -165,6 +174,15 @@ Key const& known_key(std::string_view path, FilePosition place, std::string_view
              nearest.empty() ? std::string(advice) : fmt::format("did you mean {}?", nearest));
 }
 
+std::optional<double> grains_per_second(std::string const& text) {
+    static std::regex const grains(R"(grains?(?= ?/| per ))");
+    try {
+        return core::parse_quantity(std::regex_replace(text, grains, "1"), "1/s");
+    } catch (core::QuantityError const&) {
+        return {};
+    }
+}
+
 Content read_content(Key const& key, toml::node const& node, std::string const& file) {
     ValueReader const reader(key, file);
     switch (key.kind) {
@@ -181,7 +199,7 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
         case KeyKind::packings:
             return reader.packings(node);
         default:
-            return reader.number(node);
+            return key.unit == "kg/s" ? reader.flow(node) : reader.number(node);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "scenario/reader/case_values.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,10 @@ Position position_of(toml::source_region const& source);
 /// @param advice  what to do when no key is similar to a misspelt one
 /// @throws core::InputError when there is no such key
 Key const& known_key(std::string_view path, FilePosition place, std::string_view advice);
+
+/// Grains per second, of "500 1/s" or "500 grains/s": in the database of units a grain is a mass, of which no
+/// one means so many per second here. None when the text is another quantity.
+std::optional<double> grains_per_second(std::string const& text);
 
 /// A value of the campaign file as its key requires it: numbers in SI units, words, or a list of either.
 /// @param file  names the campaign file in errors
