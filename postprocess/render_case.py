@@ -1,7 +1,7 @@
 """Renders an exported case to PNG with ParaView, without a window.
 
     pvbatch --force-offscreen-rendering render_case.py FOLDER FILE.png [--time SECONDS] [--size WIDTH HEIGHT] [--with-profile]
-            [--colour velocity|spin|height|trough]
+            [--colour velocity|spin|height|trough|size|material]
 
 FOLDER is what `vibrotrough export` left (with view_case.py); the frame nearest to the time is drawn, by default the last.
 Debian's pvbatch renders through X: put xvfb-run -a -s "-screen 0 1600x1000x24 +extension GLX -noreset" before it on a
@@ -46,9 +46,9 @@ def main() -> None:
     parser.add_argument("picture")
     parser.add_argument("--time", type=float)
     parser.add_argument("--size", type=int, nargs=2, default=[1600, 1000], metavar=("WIDTH", "HEIGHT"))
-    parser.add_argument("--colour", choices=["velocity", "spin", "height", "trough"],
+    parser.add_argument("--colour", choices=["velocity", "spin", "height", "trough", "size", "material"],
                         help="what the grains are coloured by: velocity along the trough less the layer's mean; spin across the "
-                        "trough; height above it; velocity relative to it. Default: what 'vibrotrough export' chose")  # fmt: skip
+                        "trough; height above it; velocity relative to it; radius; material. Default: what 'vibrotrough export' chose")  # fmt: skip
     parser.add_argument("--with-profile", action="store_true", help="draw the charts beside the layer, too")
     options = parser.parse_args()
 

@@ -43,6 +43,7 @@ from paraview.simple import (
 
 CAPTION = "@CAPTION@"
 FREQUENCY = "@FREQUENCY@"  # Hz, of the vibration
+MATERIALS: Any = "@MATERIALS@"  # of a mixture: the engine's type and the name of each
 SPEED: Any = "@SPEED@"  # m/s, largest speed of the trough along itself
 # How far the colours reach, so that they mean the same in every frame; 0: as far as the values of the first frame shown.
 VELOCITY_REACH: Any = "@VELOCITY_REACH@"  # m/s
@@ -67,11 +68,15 @@ QUANTITIES = {
     "velocity": Quantity("velocity_from_mean", "velocity along the trough less the layer's mean, m/s", VELOCITY_REACH),
     "spin": Quantity("spin_over_omega", "spin across the trough over the angular frequency of the vibration, 1", SPIN_REACH),
     "height": Quantity("height", "height of the centre above the trough, m", HEIGHT_REACH, False, "Viridis (matplotlib)"),
+    "size": Quantity("radius", "radius of the grains, m", 0.0, False, "Viridis (matplotlib)"),
+    "material": Quantity("type", "material", 0.0),
     "trough": Quantity("velocity_relative_to_trough", "velocity along the trough, relative to it, m/s", 2.0 * SPEED, component=("X",)),
 }
 COLOUR = globals().get("CHOSEN_COLOUR") or "@COLOUR@"  # render_case.py chooses
 MOST_SPHERES = 5000  # above, grains are drawn as Gaussian points shaded like spheres, which need no triangles
 INK = [0.1, 0.1, 0.1]
+# Of Okabe and Ito, told apart by the colour-blind.
+MATERIAL_COLOURS = [[0.0, 0.447, 0.698], [0.902, 0.624, 0.0], [0.0, 0.62, 0.451], [0.8, 0.475, 0.655]]
 
 
 def has_frames(collection: str) -> bool:
@@ -90,7 +95,7 @@ def chosen_quantity(view: Any, grains: Any) -> Quantity:
     quantity = QUANTITIES[COLOUR]
     if quantity.array in grains.PointData.keys() or grains.GetDataInformation().GetNumberOfPoints() == 0:
         return quantity
-    note = f"These frames do not contain {quantity.array} (older versions wrote no spin); run the case again to see it."
+    note = f"These frames do not contain {quantity.array} (older versions wrote no spin; only mixtures have materials)."
     print("view_case.py:", note, file=sys.stderr)
     show_text(view, Text(registrationName="missing", Text=note), "Any Location").Position = [0.008, 0.81]
     return QUANTITIES["velocity"]
@@ -110,25 +115,28 @@ def colour_by(view: Any, shown: Any, quantity: Quantity, reach: float) -> None:
     """The same colours in every frame, with few labels on the bar, which do not touch each other."""
     ColorBy(shown, ("POINTS", quantity.array, *quantity.component))
     colours = GetColorTransferFunction(quantity.array)
+    bar = GetScalarBar(colours, view)
+    bar.TitleColor = bar.LabelColor = INK
+    bar.TitleFontSize = 16
+    bar.LabelFontSize = 15
+    bar.Title, bar.ComponentTitle = quantity.title, ""
+    bar.Orientation, bar.WindowLocation = "Horizontal", "Lower Center"
+    bar.ScalarBarLength = 0.4
+    shown.SetScalarBarVisibility(view, True)
+    if quantity.array == "type":
+        colours.InterpretValuesAsCategories = colours.AnnotationsInitialized = 1
+        colours.Annotations = [text for kind, name in MATERIALS for text in (str(kind), name)]
+        colours.IndexedColors = [part for number in range(len(MATERIALS)) for part in MATERIAL_COLOURS[number]]
+        return
     colours.ApplyPreset(quantity.preset, True)
     colours.AutomaticRescaleRangeMode = "Never"
     low = -reach if quantity.both_ways else 0.0
     colours.RescaleTransferFunction(low, reach)
-    bar = GetScalarBar(colours, view)
-    bar.Title = quantity.title
-    bar.ComponentTitle = ""
-    bar.Orientation = "Horizontal"
-    bar.WindowLocation = "Lower Center"
-    bar.ScalarBarLength = 0.4
     bar.AddRangeLabels = 0
     bar.UseCustomLabels = 1
     bar.CustomLabels = [low + share * (reach - low) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
-    bar.TitleColor = bar.LabelColor = INK
-    bar.TitleFontSize = 16
-    bar.LabelFontSize = 15
-    shown.SetScalarBarVisibility(view, True)
 
 
 def show_grains(view: Any, grains: Any, quantity: Quantity) -> None:

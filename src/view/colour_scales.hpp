@@ -10,6 +10,8 @@ enum class Colour {
     spin,      ///< spin about y over the angular frequency of the vibration
     height,    ///< height of the centre above the trough
     trough,    ///< velocity along the trough, relative to it
+    size,      ///< radius
+    material,  ///< of a mixture
 };
 
 /// How far the values of the frames reach, so that colours mean the same in every frame of a case and yet

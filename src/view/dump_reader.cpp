@@ -12,10 +12,11 @@ namespace vibrotrough::view {
 namespace {
 
 /// The meaning of a column of the dump.
-enum class Column { id, x, y, z, vx, vy, vz, radius, omegax, omegay, omegaz, other };
-constexpr std::array<std::string_view, 11> column_names{"id", "x",      "y",      "z",      "vx",    "vy",
-                                                        "vz", "radius", "omegax", "omegay", "omegaz"};
+enum class Column { id, x, y, z, vx, vy, vz, radius, omegax, omegay, omegaz, type, other };
+constexpr std::array<std::string_view, 12> column_names{"id", "x",      "y",      "z",      "vx",     "vy",
+                                                        "vz", "radius", "omegax", "omegay", "omegaz", "type"};
 constexpr std::size_t needed_columns = 8;  // older versions wrote no spin
+constexpr std::size_t type_column = 11;
 
 std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
     std::vector<Column> found;
@@ -31,7 +32,8 @@ std::vector<Column> columns(std::string_view names, TextCursor const& cursor) {
     }
     for (std::size_t which = 0; which < column_names.size(); ++which) {
         bool const spin = which >= needed_columns;
-        if (seen[which] != (spin ? seen[needed_columns] : 1) || seen[which] > 1)
+        int const wanted = which == type_column ? seen[which] : spin ? seen[needed_columns] : 1;
+        if (seen[which] != wanted || seen[which] > 1)
             cursor.refuse(fmt::format("comes after a list of columns that does not contain exactly one '{}'",
                                       column_names[which]));
     }
@@ -74,6 +76,9 @@ void read_grain(TextCursor& cursor, std::vector<Column> const& order, std::size_
                 frame.spin[3 * grain + axis] = static_cast<float>(cursor.number<double>());
                 break;
             }
+            case Column::type:
+                frame.type[grain] = cursor.number<int>();
+                break;
             case Column::other:
                 cursor.number<double>();
                 break;
@@ -110,6 +115,8 @@ void read_frame(TextCursor& cursor, std::size_t text_size, GrainFrame& frame) {
     frame.radius.resize(grains);
     bool const spins = std::ranges::find(order, Column::omegay) != order.end();
     frame.spin.resize(spins ? 3 * grains : 0);
+    bool const types = std::ranges::find(order, Column::type) != order.end();
+    frame.type.resize(types ? grains : 0);
     for (std::size_t grain = 0; grain < grains; ++grain) read_grain(cursor, order, grain, frame);
     if (!cursor.at_end()) cursor.refuse("comes after the last grain");
 }

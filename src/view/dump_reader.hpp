@@ -17,6 +17,7 @@ struct GrainFrame {
     std::vector<float> position;  ///< m, x y z of each grain
     std::vector<float> velocity;  ///< m/s, x y z of each grain, relative to the ground
     std::vector<float> radius;    ///< m
+    std::vector<int> type;        ///< of the engine, one for each material; empty when the dump has none
     std::vector<float> spin;      ///< rad/s, x y z of each grain; empty when the dump does not contain it
 
     /// Number of grains.
@@ -30,7 +31,7 @@ enum class DumpState {
 };
 
 /// Reads LIGGGHTS dumps (`dump custom` with at least id x y z vx vy vz radius, in any order, and perhaps
-/// omegax omegay omegaz) and reuses its memory from one file to the next.
+/// type and omegax omegay omegaz) and reuses its memory from one file to the next.
 class DumpReader {
   public:
     /// @throws InputError naming file and line when the text is not a dump, a column is missing or a value is

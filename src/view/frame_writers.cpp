@@ -110,6 +110,9 @@ void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, do
     values.AddArray(view_of<vtkFloatArray>(relative_, "velocity_relative_to_trough", 3));
     values.AddArray(view_of<vtkFloatArray>(from_mean_, "velocity_from_mean", 1));
     values.AddArray(view_of<vtkFloatArray>(height_, "height", 1));
+    values.RemoveArray("type");
+    if (!source_.materials.empty() && frame.type.size() == grains)
+        values.AddArray(view_of<vtkIntArray>(frame.type, "type", 1));
     values.RemoveArray("spin");
     values.RemoveArray("spin_over_omega");
     if (spins) {

@@ -27,6 +27,14 @@ std::string python_literal(std::string_view text) {
     return literal + '"';
 }
 
+/// The list of types and names of the materials as Python has it.
+std::string python_materials(FrameSource const& source) {
+    std::string list;
+    for (auto const& [type, name] : source.materials)
+        list += fmt::format("({}, {}), ", type, python_literal(name));
+    return "[" + list + "]";
+}
+
 }  // namespace
 
 std::string_view name_of(Colour colour) {
@@ -39,16 +47,21 @@ std::string_view name_of(Colour colour) {
             return "height";
         case Colour::trough:
             return "trough";
+        case Colour::size:
+            return "size";
+        case Colour::material:
+            return "material";
     }
     throw std::invalid_argument("no such colour");
 }
 
 Colour colour_named(std::string_view name) {
-    for (Colour const colour : {Colour::velocity, Colour::spin, Colour::height, Colour::trough}) {
+    for (Colour const colour :
+         {Colour::velocity, Colour::spin, Colour::height, Colour::trough, Colour::size, Colour::material}) {
         if (name == name_of(colour)) return colour;
     }
-    throw core::InputError(
-        fmt::format("grains cannot be coloured by '{}'; choose velocity, spin, height or trough", name));
+    throw core::InputError(fmt::format(
+        "grains cannot be coloured by '{}'; choose velocity, spin, height, trough, size or material", name));
 }
 
 std::filesystem::path write_scene(FrameSource const& source, ColourScales const& scales,
@@ -61,6 +74,7 @@ std::filesystem::path write_scene(FrameSource const& source, ColourScales const&
     data.set("FREQUENCY", fmt::format("{}", source.angular_frequency / (2.0 * std::numbers::pi)));
     data.set("SPEED", fmt::format("{}", speed > 0.0 ? speed : 1.0));
     data.set("COLOUR", python_literal(name_of(source.colour)));
+    data.set("MATERIALS", python_materials(source));
     data.set("VELOCITY_REACH", fmt::format("{}", scales.velocity()));
     data.set("SPIN_REACH", fmt::format("{}", scales.spin()));
     data.set("HEIGHT_REACH", fmt::format("{}", scales.height()));

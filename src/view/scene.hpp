@@ -7,7 +7,7 @@
 
 namespace vibrotrough::view {
 
-/// "velocity", "spin", "height" or "trough".
+/// "velocity", "spin", "height", "trough", "size" or "material".
 std::string_view name_of(Colour colour);
 /// The reverse. @throws InputError when there is no such name
 Colour colour_named(std::string_view name);

@@ -117,6 +117,19 @@ TEST_F(Frames, GrainsAreThoseOfTheDump) {
     }
 }
 
+// Only a mixture has materials to colour by: the type of the dump, and in the scene the names of the types.
+TEST_F(Frames, MaterialsHaveTypesAndNames) {
+    export_frames(source, target);
+    EXPECT_EQ(read("grains/000001.vtp")->GetPointData()->GetArray("type"), nullptr);
+    source.materials = {{1, "grains"}, {3, "fines"}};
+    source.colour = Colour::material;
+    ExportedFrames const exported = export_frames(source, target);
+    EXPECT_EQ(component(*read("grains/000001.vtp"), "type", 7, 0), 1);
+    std::string const scene = core::read_file(exported.scene);
+    EXPECT_THAT(scene, HasSubstr("[(1, \"grains\"), (3, \"fines\"), ]"));
+    EXPECT_THAT(scene, HasSubstr("or \"material\""));
+}
+
 // Relative velocity = velocity - A omega cos(omega t), along x and z.
 TEST_F(Frames, VelocityRelativeToTheTrough) {
     export_frames(source, target);

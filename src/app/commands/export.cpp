@@ -10,6 +10,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/shell.hpp"
+#include "deck/atom_types.hpp"
 #include "scenario/model/stage_motion.hpp"
 #include "view/frames.hpp"
 #include "view/scene.hpp"
@@ -60,6 +61,14 @@ std::optional<view::TheoryMotion> theory_motion(prepare::PreparedCase const& pre
     return view::TheoryMotion{std::move(found->motion), scale.length_x, scale.length_z, scale.phase_at_start};
 }
 
+/// The types of a mixture's materials; none of other layers.
+std::vector<std::pair<int, std::string>> materials_of(prepare::PreparedCase const& prepared) {
+    std::vector<std::pair<int, std::string>> list;
+    for (std::size_t i = 0; prepared.materials.size() > 1 && i < prepared.materials.size(); ++i)
+        list.emplace_back(deck::atom_type_of(prepared, static_cast<int>(i)), prepared.materials[i].name);
+    return list;
+}
+
 /// "case ID", and from the second packing on its number.
 std::string title(campaign::PlannedCase const& planned, int packing) {
     return fmt::format("case {}{}", planned.id, packing == 1 ? "" : fmt::format(", packing {}", packing));
@@ -87,6 +96,7 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
         .colour = colour,
         .parts = drive_parts(planned.prepared->stages),
         .steps_per_cycle = planned.prepared->time.steps_per_cycle,
+        .materials = materials_of(*planned.prepared),
         .wear = planned.scenario().measure.wear ? packing : fs::path()};
     bool const terminal = ::isatty(STDERR_FILENO) == 1;
     fs::path const target = planned.folder / (number == 1 ? "frames" : fmt::format("frames-{}", number));
@@ -161,9 +171,9 @@ void add_export(CLI::App& program, int& exit_code) {
     command
         ->add_option("--colour", options->colour,
                      "What the scene colours the grains by: velocity (along the trough, less the layer's "
-                     "mean), spin (across the trough), height, or trough (velocity relative to it); default: "
-                     "velocity")
-        ->check(CLI::IsMember({"velocity", "spin", "height", "trough"}))
+                     "mean), spin (across the trough), height, trough (velocity relative to it), size, or "
+                     "material (of a mixture); default: velocity")
+        ->check(CLI::IsMember({"velocity", "spin", "height", "trough", "size", "material"}))
         ->type_name("NAME");
     command->footer(
         view::vtk_help() +
