@@ -57,6 +57,7 @@ class Measure(EndToEndTest):
         self.assertIn(done.returncode, (0, 1), done.stderr)
         self.assertRegex(done.stdout, r"  velocity efficiency: \d\.\d{4} \+- \d\.\d{4} \(95 %, from the scatter of its own cycles only\)\n")
         self.assertRegex(done.stdout, r"velocity efficiency: \d\.\d{4}, with an unbounded interval .*, from 1 packing of 18 cycles")
+        self.assertIn(f": 18 cycles, mode {row['layer_mode']}\n", done.stdout)
         self.assertIn("deck: unchanged\n", done.stdout)
         self.assertIn("read: ", done.stdout)
         self.assertEqual(before, sorted(path for path in self.case.rglob("*")))
