@@ -30,16 +30,21 @@ function takeProposal({ settings: proposed }) {
   changed();
 }
 
-function percent(share) { return Number.isFinite(share) ? `${showNumber(100 * share)} %` : say("not_known"); }
+/// A probability; nobody knows one better than to a tenth of a percent.
+function percent(share) {
+  if (!Number.isFinite(share)) return say("not_known");
+  if (share < 0.001) return `< ${showNumber(0.1)} %`;
+  return share > 0.999 ? `> ${showNumber(99.9)} %` : `${showNumber(100 * share)} %`;
+}
 
 function rowsOfProposal(one) {
   const models = one.models.length > 0 ? one.models : [{ model: "\u2013", probability: one.probability }];
   const range = (low, high) => (Number.isFinite(low) && Number.isFinite(high) ? showRange(low, high, "t/h") : "\u2013");
-  return models.map((model, i) => make("tr", {}, make("th", { scope: "row" }, i > 0 ? "" : one.second ? say("design_next", one.design.name) : one.design.name),
+  return models.map((model, i) => make("tr", {}, make("th", { scope: "row" }, ...(i > 0 ? [] : [one.second ? say("design_next", one.design.name) : one.design.name, make("br"),
+    make("button", { type: "button", click: () => takeProposal(one) }, say("use_case"))])),
     ...["stroke_mm", "rpm", "depth_mm"].map((name) => make("td", {}, i > 0 ? "" : fieldNumber(one.settings[name]))),
     make("td", {}, (designModels[model.model] ? say(designModels[model.model]) : model.model) + (model.is_beside ? ` (${say("design_beside")})` : "")), make("td", {}, showNumber(model.flow)),
-    make("td", {}, range(model.flow_low, model.flow_high)), make("td", {}, percent(model.probability)),
-    make("td", {}, i > 0 ? "" : make("button", { type: "button", click: () => takeProposal(one) }, say("use_case")))));
+    make("td", {}, range(model.flow_low, model.flow_high)), make("td", {}, percent(model.probability))));
 }
 
 function showDesigns() {
@@ -47,7 +52,7 @@ function showDesigns() {
   if (page.designs.length === 0) return;
   put("design-asked", page.designs.map((one) => `${page.designs.length > 1 ? `${one.name}: ` : ""}${say("design_asked", showNumber(one.wanted_t_per_h), percent(one.confidence))}`
     + `${one.untested ? ` ${say("design_untested")}` : ""}${one.assumed.length > 0 ? ` ${say("design_assumed", one.assumed.map((name) => `${say(name)} ${fieldNumber(one.machines[0].settings[name])}`).join(", "))}` : ""}`).join(" "));
-  const head = ["", axisTitle("stroke_mm"), axisTitle("rpm"), axisTitle("depth_mm"), say("model"), `${say("flow")} [t/h]`, "95 %", say("design_probability"), ""];
+  const head = ["", axisTitle("stroke_mm"), axisTitle("rpm"), axisTitle("depth_mm"), say("model"), `${say("flow")} [t/h]`, "95 %", say("design_probability")];
   document.getElementById("design-table").replaceChildren(make("thead", {}, make("tr", {}, ...head.map((text) => make("th", { scope: "col" }, text)))),
     make("tbody", {}, ...proposals().flatMap(rowsOfProposal)));
   showDesignNow();

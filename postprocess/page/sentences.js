@@ -21,7 +21,8 @@ function motionSentence(motion) {
   if (motion.outcome.startsWith("it runs away") || /exceeds friction|runs away/.test(motion.outcome)) return say("runs_away");
   const { phases } = motion;
   if (phases.length === 0) return say("no_period");
-  const parts = phases.map((phase, i) => phaseWords(phase, phases[(i + 1) % phases.length]));
+  const seen = phases.filter((phase) => Math.round((phase.end - phase.start) * degrees) > 0);  // others would be told as 0 degrees
+  const parts = seen.map((phase, i) => phaseWords(phase, seen[(i + 1) % seen.length]));
   const shown = parts.length > 6 ? [...parts.slice(0, 6), "\u2026"] : parts;
   if (motion.period_cycles > 1) shown.push(say("cycles", motion.period_cycles));
   const text = shown.join(", ");
