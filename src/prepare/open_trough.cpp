@@ -6,16 +6,26 @@
 namespace vibrotrough::prepare {
 namespace {
 
-/// What has passed a screen falls below it, up to a cycle long, in all directions, and is as fast as the
-/// trough throws it or as the feed has become at the screen. The wall below the edge leaves a gap that no
-/// grain fits through, so that no grain touches both meshes at once.
+/// m, the way of a grain in a cycle, with the speed with which the trough throws it, or with that which the
+/// feed has after it fell to the floor and downhill to the edge: a collision may turn that in any direction.
+double longest_flight(OpenTrough const& open, PreparedCase const& c) {
+    scenario::Scenario const& s = c.scenario;
+    double const alpha = s.trough.inclination, downhill = std::max(0.0, -std::sin(alpha)) * s.layer.length;
+    double const drop = std::cos(alpha) * open.feed_top + downhill;
+    double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
+    return std::max(2 * c.largest_speed, fed) / s.trough.frequency + 2 * c.largest_extent;
+}
+
+/// What has passed a screen falls below it, up to a cycle long, in all directions. The wall below the edge
+/// leaves a gap that no grain fits through, so that no grain touches both meshes at once.
 void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
     scenario::Scenario const& s = c.scenario;
-    double const grain = c.largest_extent, excursion = c.largest_excursion, period = 1 / s.trough.frequency;
-    double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * open.feed_top);
-    double const flight = std::max(2 * c.largest_speed, fed) * period + 2 * grain;
+    double const grain = c.largest_extent, excursion = c.largest_excursion;
+    double const flight = longest_flight(open, c);
     open.box_bottom = -(grain + flight + fall + 3 * excursion);
     open.box_start -= open.bin * std::ceil(flight / open.bin);
+    open.box_end =
+        std::max(open.box_end, open.out_x + flight + fall * std::abs(std::sin(s.trough.inclination)));
     open.box_side = std::max(open.box_side, flight);
     open.out_near_x = s.layer.length;
     open.end_wall = {-smallest_diameter(s) / 4, open.box_bottom + excursion + grain / 2};

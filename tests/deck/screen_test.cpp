@@ -24,6 +24,16 @@ prepare::PreparedCase screened(std::string const& opening) {
     return prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
 }
 
+prepare::PreparedCase fed_screen(char const* inclination = "0 deg") {
+    std::string const base = with("length = \"36 mm\"", "length = \"60 mm\"",
+                                  with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
+                                       with("height = \"12 mm\"", "")));
+    std::string const text = with("0 deg", inclination, base) +
+                             "\n[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"15 mm\"\n[screen]\nopening = "
+                             "\"5 mm\"\nwire = \"1 mm\"\n";
+    return prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
+}
+
 /// Area of the triangles of an STL text, and the largest coordinates.
 std::array<double, 3> area_and_ends(std::string const& stl) {
     std::istringstream text(stl);
@@ -93,13 +103,7 @@ TEST(ScreenDeck, ItsTrianglesAreCounted) {
 // A fed screen: a plate under the feed, holes behind it, and a wall below the edge, in both decks. Its
 // columns are those that measure reads.
 TEST(ScreenDeck, OfAFedScreenSeparatesWhatPassedFromWhatLeft) {
-    std::string const base = with("length = \"36 mm\"", "length = \"60 mm\"",
-                                  with("restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0",
-                                       with("height = \"12 mm\"", "")));
-    std::string const text = base +
-                             "\n[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"15 mm\"\n[screen]\nopening = "
-                             "\"5 mm\"\nwire = \"1 mm\"\n";
-    auto const prepared = prepare::prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
+    auto const prepared = fed_screen();
     Deck const deck = make_deck(prepared, {1});
     auto const [area, x, y] = area_and_ends(deck.files.at("trough.stl"));
     EXPECT_NEAR(area, 0.06 * 0.018 - prepared.domain.screen->along * 3 * 25e-6, 1e-12);
@@ -113,6 +117,23 @@ TEST(ScreenDeck, OfAFedScreenSeparatesWhatPassedFromWhatLeft) {
           "delete_atoms    region passing compress no",
           ",window_mass,passed,passed_mass,size_1,size_2,size_3\""})
         EXPECT_THAT(drive, HasSubstr(line));
+}
+
+// The feed falls onto the plate with a metre per second, and a collision may turn it along the screen:
+// nothing leaves the box before it is taken out at the end of a cycle, whichever way it flies.
+TEST(ScreenDeck, TheBoxHoldsWhatTheFallOfTheFeedThrowsOverTheEdge) {
+    for (char const* inclination : {"0 deg", "-10 deg"}) {
+        auto const c = fed_screen(inclination);
+        prepare::OpenTrough const& open = *c.domain.open;
+        double const alpha = c.scenario.trough.inclination, period = 1 / c.scenario.trough.frequency;
+        double const drop = open.feed_top * std::cos(alpha) - 0.06 * std::sin(alpha);
+        double const speed = std::sqrt(open.feed_speed * open.feed_speed + 2 * 9.81 * drop);
+        double const faster = -9.81 / 2 * period * period * std::sin(alpha);
+        EXPECT_GT(speed, 2 * c.largest_speed);
+        EXPECT_GT(open.box_end, open.out_x + speed * period + faster);
+        EXPECT_LT(open.box_start, -speed * period);
+        EXPECT_GT(open.box_side, speed * period);
+    }
 }
 
 // Gaudin's probability: of an opening of 5 and bars of 1, a point passes with (5/6)^2, a sphere of 4 with

@@ -79,15 +79,16 @@ void add_init(CLI::App& program, int& exit_code) {
     command->footer(
         R"(The file can be run as it is, in a few minutes. Kinds:
 
-  pellets   how fast a trough conveys plastic pellets at three speeds of the drive, in t/h
-  paper     the experiment of Sloot and Kruyt (1996): layer and theory over the throw number
-  rotation  the same layer with grains that rotate freely, against rolling friction, and not at all
-  chute     a trough of your own from an STL file: a V with a step
-  open      a trough with feed and discharge: flows, depth, how long grains stay
-  mixture   two materials of different size and density: do they separate?
-  screen    a vibrating screen: which sizes pass, how fast, and which stay?
-  stages    a trough that starts, stops and starts again: how fast is the layer, where does it stop?
-  design    three machines with the same largest acceleration: which one carries most?
+  pellets     how fast a trough conveys plastic pellets at three speeds of the drive, in t/h
+  paper       the experiment of Sloot and Kruyt (1996): layer and theory over the throw number
+  rotation    the same layer with grains that rotate freely, against rolling friction, or not at all
+  chute       a trough of your own from an STL file: a V with a step
+  open        a trough with feed and discharge: flows, depth, how long grains stay
+  mixture     two materials of different size and density: do they separate?
+  screen      a vibrating screen: which sizes pass, how fast, and which stay?
+  fed-screen  a screen with feed and discharge: what passes, what leaves over its end?
+  stages      a trough that starts and stops twice: how fast is the layer, and where does it stop?
+  design      three machines with the same largest acceleration: which one carries most?
 
 An existing file is never overwritten.
 
