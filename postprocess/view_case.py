@@ -23,6 +23,7 @@ from paraview.simple import (
     ColorBy,
     CreateLayout,
     CreateView,
+    Delaunay2D,
     FindSource,
     GetActiveViewOrCreate,
     GetAnimationScene,
@@ -101,17 +102,18 @@ def chosen_quantity(view: Any, grains: Any) -> Quantity:
     return QUANTITIES["velocity"]
 
 
-def reach_of(quantity: Quantity, source: Any) -> float:
-    """How far the colours reach; without a value for the whole case, as far as the first frame's grains do."""
-    if quantity.reach > 0:
-        return quantity.reach
-    if source.GetDataInformation().GetNumberOfPoints() == 0:
-        return 1.0
-    low, high = source.PointData[quantity.array].GetRange()
-    return max(abs(low), abs(high)) or 1.0
+def range_of(quantity: Quantity, source: Any) -> tuple[float, float]:
+    """Between which values the colours are; without a reach for the whole case, between those of the first frame's grains."""
+    low, high = (-quantity.reach if quantity.both_ways else 0.0), quantity.reach
+    if quantity.reach == 0:
+        low, high = source.PointData[quantity.array].GetRange() if source.GetDataInformation().GetNumberOfPoints() else (0.0, 1.0)
+        if quantity.both_ways:
+            high = max(abs(low), abs(high)) or 1.0
+            low = -high
+    return (low, high) if low < high else (0.0, high or 1.0)
 
 
-def colour_by(view: Any, shown: Any, quantity: Quantity, reach: float) -> None:
+def colour_by(view: Any, shown: Any, quantity: Quantity, low: float, high: float) -> None:
     """The same colours in every frame, with few labels on the bar, which do not touch each other."""
     ColorBy(shown, ("POINTS", quantity.array, *quantity.component))
     colours = GetColorTransferFunction(quantity.array)
@@ -130,11 +132,10 @@ def colour_by(view: Any, shown: Any, quantity: Quantity, reach: float) -> None:
         return
     colours.ApplyPreset(quantity.preset, True)
     colours.AutomaticRescaleRangeMode = "Never"
-    low = -reach if quantity.both_ways else 0.0
-    colours.RescaleTransferFunction(low, reach)
+    colours.RescaleTransferFunction(low, high)
     bar.AddRangeLabels = 0
     bar.UseCustomLabels = 1
-    bar.CustomLabels = [low + share * (reach - low) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    bar.CustomLabels = [low + share * (high - low) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = bar.RangeLabelFormat = "%.3g"
 
@@ -160,12 +161,12 @@ def show_grains(view: Any, grains: Any, quantity: Quantity) -> None:
         Hide(grains, view)
         shown = Show(spheres, view)
         SetActiveSource(grains)
-    colour_by(view, shown, quantity, reach_of(quantity, grains))
+    colour_by(view, shown, quantity, *range_of(quantity, grains))
 
 
-def show_trough(view: Any, trough: Any) -> None:
+def show_trough(view: Any, trough: Any, representation: str = "Surface With Edges") -> None:
     shown = Show(trough, view)
-    shown.SetRepresentationType("Surface With Edges")
+    shown.SetRepresentationType(representation)
     shown.ColorArrayName = ["POINTS", ""]
     shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
     shown.EdgeColor = [0.55, 0.57, 0.6]
@@ -187,20 +188,22 @@ def show_text(view: Any, source: Any, where: str) -> Any:
 
 
 def show_point_mass(view: Any, trough: Any, quantity: Quantity) -> tuple[Any, Any]:
-    """The theory's block on a lane that is the trough once more, narrower and in front of it. The lane of a trough that is not flat
-    would stand before the layer and hide it: there the block has none."""
+    """The theory's block on a lane that is the trough once more, narrower and in front of it, without the holes of a screen, through
+    which a point mass does not fall. The lane of a trough that is not flat would stand before the layer and hide it: there the
+    block has none."""
     block = open_collection("point_mass")
     if not is_flat(trough):
         show_block(view, block, quantity)
         return block, None
-    lane = Transform(registrationName="lane of the point mass", Input=trough)
+    sheet = Delaunay2D(registrationName="trough without holes", Input=trough)
+    lane = Transform(registrationName="lane of the point mass", Input=sheet)
     _, _, front, back, _, _ = trough.GetDataInformation().GetBounds()
     left_of_block, right_of_block = block.GetDataInformation().GetBounds()[2:4]
     edge = right_of_block - left_of_block
     low, high = left_of_block - 0.3 * edge, right_of_block + 0.3 * edge
     lane.Transform.Scale = [1.0, (high - low) / (back - front), 1.0]
     lane.Transform.Translate = [0.0, low - front * (high - low) / (back - front), 0.0]
-    show_trough(view, lane)
+    show_trough(view, lane, "Surface")
     show_block(view, block, quantity)
     return block, lane
 
