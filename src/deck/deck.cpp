@@ -46,22 +46,6 @@ std::string tidy(std::string_view text) {
     return result;
 }
 
-/// The surface of a mesh with triangles that are not much larger than grains. Upright sides are continued to
-/// the top of the box, so that grains that are poured in or thrown up do not leave it.
-std::string own_trough_stl(prepare::PreparedCase const& prepared, double edge) {
-    scenario::Layer const& layer = prepared.scenario.layer;
-    prepare::Domain const& domain = prepared.domain;
-    std::vector<scenario::Triangle> all = scenario::divided(domain.surface, edge);
-    for (double const y : {0.0, layer.width}) {
-        if (!domain.is_closed) break;
-        scenario::Point const a{0, y, domain.top}, b{layer.length, y, domain.top},
-            c{layer.length, y, prepared.wall_height}, d{0, y, prepared.wall_height};
-        for (scenario::Triangle const& triangle : scenario::divided({{a, b, c}, {a, c, d}}, 4 * edge))
-            all.push_back(triangle);
-    }
-    return scenario::stl_text("trough", all);
-}
-
 std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prepared) {
     scenario::Scenario const& scenario = prepared.scenario;
     double const length = scenario.layer.length, width = scenario.layer.width,
@@ -69,8 +53,9 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
     prepare::Domain const& domain = prepared.domain;
     // A screen has no holes while the grains settle.
     std::map<std::string, std::string> files{
-        {settling_floor(scenario) + ".stl",
-         domain.has_mesh() ? own_trough_stl(prepared, edge) : flat_trough_stl(length, width, edge)}};
+        {settling_floor(scenario) + ".stl", domain.has_mesh()
+                                                ? scenario::stl_text("trough", own_trough(prepared))
+                                                : flat_trough_stl(length, width, edge)}};
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);

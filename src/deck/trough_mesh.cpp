@@ -62,6 +62,21 @@ ScreenNodes screen_nodes(double side, double opening, int holes, double plate) {
 
 }  // namespace
 
+std::vector<scenario::Triangle> own_trough(prepare::PreparedCase const& prepared) {
+    scenario::Layer const& layer = prepared.scenario.layer;
+    prepare::Domain const& domain = prepared.domain;
+    double const edge = 3 * mean_diameter(prepared.scenario);
+    std::vector<scenario::Triangle> all = scenario::divided(domain.surface, edge);
+    for (double const y : {0.0, layer.width}) {
+        if (!domain.is_closed) break;
+        scenario::Point const a{0, y, domain.top}, b{layer.length, y, domain.top},
+            c{layer.length, y, prepared.wall_height}, d{0, y, prepared.wall_height};
+        for (scenario::Triangle const& triangle : scenario::divided({{a, b, c}, {a, c, d}}, 4 * edge))
+            all.push_back(triangle);
+    }
+    return all;
+}
+
 std::string screen_stl(double length, double width, double opening, int along, int across, double plate) {
     ScreenNodes const x = screen_nodes(length, opening, along, plate),
                       y = screen_nodes(width, opening, across, 0);

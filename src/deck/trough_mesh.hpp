@@ -1,6 +1,9 @@
 #pragma once
 
+#include "prepare/prepared_case.hpp"
+
 #include <string>
+#include <vector>
 
 namespace vibrotrough::deck {
 
@@ -8,6 +11,11 @@ namespace vibrotrough::deck {
 /// on the ends. The triangles have legs of about `edge` (m) and nearly equal length, because the engine
 /// refuses long thin triangles.
 std::string flat_trough_stl(double length, double width, double edge);
+
+/// The surface of the mesh of a case with triangles that are not much larger than grains. Upright sides are
+/// continued to the top of the box, so that grains that are poured in or thrown up do not leave it.
+/// @pre prepared.domain.has_mesh()
+std::vector<scenario::Triangle> own_trough(prepare::PreparedCase const& prepared);
 
 /// The STL text of a flat sheet of the same size with square holes, in `along` columns and `across` rows.
 /// Bars of half their width are at its ends, so that the ends of the periodic box run along the middle of
