@@ -116,7 +116,9 @@ std::vector<std::string> const contract{"case",
                                         "cut_size_mm",
                                         "cut_size_half_width_mm",
                                         "screen_distance_m",
-                                        "screen_distance_half_width_m"};
+                                        "screen_distance_half_width_m",
+                                        "underflow_t_per_h",
+                                        "underflow_half_width_t_per_h"};
 
 /// What is known of a case before it has a result: its drive and the theory.
 std::set<std::string> const known_before{"case",
