@@ -91,13 +91,7 @@ class FedScreen(EndToEndTest):
         self.check_archive_and_frames(row)
 
     def check_archive_and_frames(self, row):
-        bundle = self.folder / "bundle.zip"
-        done = self.call("archive", self.output, "--output", bundle)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = self.call("compare", bundle, "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        again = json.loads(done.stdout)
-        again = (again["cases"] if isinstance(again, dict) else again)[0]
+        again = self.row_of_bundle()
         for name in ("screening_efficiency", "underflow_t_per_h", "cut_size_mm", "outflow_t_per_h"):
             self.assertEqual(again[name], row[name], name)
 

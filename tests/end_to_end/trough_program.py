@@ -277,6 +277,16 @@ class EndToEndTest(unittest.TestCase):
     def table(self, output=None):
         return self.ask_json("compare", output)
 
+    def row_of_bundle(self):
+        """The only row of `compare` from an archive of the campaign."""
+        bundle = self.folder / "bundle.zip"
+        done = self.call("archive", self.output, "--output", bundle)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.call("compare", bundle, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        again = json.loads(done.stdout)
+        return (again["cases"] if isinstance(again, dict) else again)[0]
+
     def results(self):
         return sorted(self.output.glob("cases/*/result.h5"))
 
