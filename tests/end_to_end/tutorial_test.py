@@ -97,7 +97,8 @@ class Tutorial(EndToEndTest):
                 count += 1
                 continue
             for _, _, content in blocks("".join(cell["source"])):
-                self.assertEqual(missing_lines(content, printed[count]), [], printed[count])
+                if results is None:  # else `plan` finds cases with results
+                    self.assertEqual(missing_lines(content, printed[count]), [], printed[count])
         self.assertEqual(len(printed), count + 1)
 
     def test_does_depth_matter(self):
