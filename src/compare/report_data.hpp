@@ -14,8 +14,7 @@ namespace vibrotrough::compare {
 ///   and every case's row of them with the reason when it failed;
 /// - `theory_curves.csv`: fine curves of velocity efficiency, the same as `compare --theory-curves`;
 /// - `point_mass/<id>.csv`: one period of the theory's point mass on each case's trough in SI units, empty
-/// when
-///   its motion has no period.
+///   when its motion has no period.
 ///
 /// @param activity  what the executors know of the campaign, for cases without a result
 /// @returns what is known of the cases

@@ -13,11 +13,11 @@ namespace vibrotrough::core::note {
 namespace {
 
 /// A key, which may come from another note.
-std::string shown(std::string const& key) {
+std::string shown(std::string_view key) {
     return printable(key, 60);
 }
 
-Json const& member(Json const& note, std::string const& key) {
+Json const& member(Json const& note, std::string_view key) {
     if (!note.is_object()) throw Fault("it is not an object");
     auto const found = note.find(key);
     if (found == note.end()) throw Fault(fmt::format("'{}' is missing", shown(key)));
@@ -53,8 +53,8 @@ Json parse(std::string_view text) {
 }
 
 Json const& object(Json const& note, std::string_view key) {
-    Json const& value = member(note, std::string(key));
-    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", shown(std::string(key))));
+    Json const& value = member(note, key);
+    if (!value.is_object()) throw Fault(fmt::format("'{}' is not an object", shown(key)));
     return value;
 }
 
@@ -64,8 +64,8 @@ Json const& elements(Json const& note) {
 }
 
 Json const& list(Json const& note, std::string_view key) {
-    Json const& value = member(note, std::string(key));
-    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", shown(std::string(key))));
+    Json const& value = member(note, key);
+    if (!value.is_array()) throw Fault(fmt::format("'{}' is not a list", shown(key)));
     return value;
 }
 

@@ -63,18 +63,11 @@ double beyond(atlas::Input input, double value) {
 
 /// Standard deviation of the efficiency when one input is not exact, within the range of the atlas.
 double spread_by(OpenInput const& one, atlas::Place place) {
-    double sum = 0, squares = 0, shares = 0;
-    for (UncertainNode const& node : nodes_of(one.value)) {
-        auto const [low, high] = range_of(one.input);
-        place[one.input] = std::clamp(node.value, low, high);
-        auto const efficiency = atlas::efficiency_at(place);
-        if (!efficiency) continue;
-        shares += node.share;
-        sum += node.share * *efficiency;
-        squares += node.share * *efficiency * *efficiency;
-    }
-    if (shares <= 0) return 0;
-    return std::sqrt(std::max(0.0, squares / shares - sum * sum / (shares * shares)));
+    auto const [low, high] = range_of(one.input);
+    return deviation_of(one.value, [&, low = low, high = high](double value) {
+        place[one.input] = std::clamp(value, low, high);
+        return atlas::efficiency_at(place);
+    });
 }
 
 std::vector<OwnSource> sources_at(atlas::Place const& place, std::vector<OpenInput> const& inputs) {

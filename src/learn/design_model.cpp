@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -26,53 +27,40 @@ class LawOfGrains {
   public:
     /// @param friction  on the trough, at which spread() is looked at
     LawOfGrains(Uncertain const& rolling_friction, double friction)
-        : nodes_(nodes_of(rolling_friction)), friction_(friction), is_exact_(rolling_friction.sd <= 0) {
-        for (UncertainNode const& node : nodes_) {
-            theory::RollingLaw law;
-            law.dry_torque += std::max(0.0, node.value);
-            solvers_.emplace_back(law);
-        }
-    }
+        : rolling_friction_(rolling_friction), friction_(friction) {}
 
     /// With the mean of the rolling friction; nothing without a mean speed.
     std::optional<double> efficiency(theory::Drive const& d, double friction) {
-        return solved(middle, point_of(d, friction));
+        return efficiency(rolling_friction_.mean, point_of(d, friction));
     }
 
     /// Its standard deviation by the rolling friction. A design asks for many frictions at one drive.
     double spread(theory::Drive const& d) {
-        if (is_exact_) return 0;
+        if (rolling_friction_.sd <= 0) return 0;
         theory::PointMass const point = point_of(d, friction_);
         std::array<double, 3> const place{point.throw_number, point.tan_vibration_angle,
                                           point.tan_inclination};
-        if (place == last_place_) return last_spread_;
-        double known = 0, sum = 0, squares = 0;
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            auto const eta = solved(i, point);
-            if (!eta) continue;
-            known += nodes_[i].share;
-            sum += nodes_[i].share * *eta;
-            squares += nodes_[i].share * *eta * *eta;
+        if (place != last_place_) {
+            last_spread_ =
+                deviation_of(rolling_friction_, [&](double value) { return efficiency(value, point); });
+            last_place_ = place;
         }
-        last_place_ = place;
-        last_spread_ =
-            known > 0 ? std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known))) : 0;
         return last_spread_;
     }
 
   private:
-    static constexpr std::size_t middle = 1;
-
-    std::optional<double> solved(std::size_t node, theory::PointMass const& point) {
-        double const eta = solvers_[node](point).motion.velocity_efficiency;
+    std::optional<double> efficiency(double rolling_friction, theory::PointMass const& point) {
+        theory::RollingLaw law;
+        law.dry_torque += std::max(0.0, rolling_friction);
+        auto const solver = solvers_.try_emplace(rolling_friction, law).first;
+        double const eta = solver->second(point).motion.velocity_efficiency;
         if (!std::isfinite(eta)) return {};
         return eta;
     }
 
-    std::array<UncertainNode, 3> nodes_;
+    Uncertain rolling_friction_;
     double friction_;
-    bool is_exact_;
-    std::vector<theory::RollingLayerSolver> solvers_;
+    std::map<double, theory::RollingLayerSolver> solvers_;  ///< by rolling friction
     std::array<double, 3> last_place_{};
     double last_spread_ = 0;
 };
@@ -140,7 +128,13 @@ DesignModel rolling_layer_design_model(std::optional<Uncertain> const& rolling_f
         model.sources = [law, name](theory::Drive const& d) {
             return std::vector<OwnSource>{{name, law->spread(d)}};
         };
-    model.outside = [](theory::Drive const& d, double friction, std::optional<double> depth) {
+    double const most = unknown_rolling_friction().high();
+    model.outside = [known, most](theory::Drive const& d, double friction,
+                                  std::optional<double> depth) -> std::optional<std::string> {
+        if (known.mean > most)
+            return fmt::format(
+                "the rolling-layer law has not been tested with a rolling friction of {:g}, above {:g}",
+                known.mean, most);
         return theory::outside_tested_range(point_of(d, friction), depth);
     };
     model.known_range =

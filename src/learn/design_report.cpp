@@ -294,7 +294,10 @@ Json design_page_data(DesignTask const& t, RiskDesign const& d) {
 std::string design_campaign(DesignTask const& t, RiskDesign const& d, CheckedLayer const& layer) {
     theory::Drive const& m = d.drive;
     double const rolling = t.rolling_friction.value_or(unknown_rolling_friction().mean);
-    std::string const why = t.rolling_friction ? "" : "            # not known: the middle of 0 to 0.2";
+    std::string const why =
+        t.rolling_friction ? ""
+                           : fmt::format("            # not known: the middle of {:g} to {:g}",
+                                         unknown_rolling_friction().low(), unknown_rolling_friction().high());
     std::string const rotation =
         rolling > 0 ? fmt::format("rotation = \"rolling\"\nrolling_friction = {:.4g}{}\n", rolling, why) : "";
     double const mm = 1e3 * layer.diameter, depth = std::max(1e3 * d.depth, least_simulated_depth * mm);

@@ -1,5 +1,6 @@
 #include "learn/uncertain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -29,6 +30,19 @@ std::array<UncertainNode, 3> nodes_of(Uncertain const& number) {
     // Of the three-point rules of Hermite and Legendre, in standard deviations.
     double const away = number.sd * (is_normal ? std::numbers::sqrt3 : std::sqrt(9.0 / 5));
     return {{{outer, number.mean - away}, {1 - 2 * outer, number.mean}, {outer, number.mean + away}}};
+}
+
+double deviation_of(Uncertain const& number, std::function<std::optional<double>(double)> const& value_at) {
+    double known = 0, sum = 0, squares = 0;
+    for (UncertainNode const& node : nodes_of(number)) {
+        auto const value = value_at(node.value);
+        if (!value) continue;
+        known += node.share;
+        sum += node.share * *value;
+        squares += node.share * *value * *value;
+    }
+    if (known <= 0) return 0;
+    return std::sqrt(std::max(0.0, squares / known - sum * sum / (known * known)));
 }
 
 }  // namespace vibrotrough::learn

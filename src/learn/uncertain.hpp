@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 
 namespace vibrotrough::learn {
 
@@ -37,5 +39,9 @@ struct UncertainNode {
 /// up to the fifth degree (M. Abramowitz and I.A. Stegun, Handbook of Mathematical Functions, 25.4.29 and
 /// 25.4.46).
 std::array<UncertainNode, 3> nodes_of(Uncertain const& number);
+
+/// Standard deviation of what follows from a number that is not known exactly, by these nodes. Those from
+/// which nothing follows are left out; 0 where nothing does.
+double deviation_of(Uncertain const& number, std::function<std::optional<double>(double)> const& value_at);
 
 }  // namespace vibrotrough::learn

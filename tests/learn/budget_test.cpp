@@ -179,6 +179,11 @@ TEST(Budget, TheLawKnowsTheRollingFrictionOfTheGrains) {
     EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->efficiency, law(0.1));
     EXPECT_EQ(rolling_layer_design_model(Uncertain{0.1}).at(drive, 0.3)->sd(), 0);
 
+    // No layer was simulated that rolls against more.
+    EXPECT_FALSE(rolling_layer_design_model(Uncertain{0.1}).untested(drive, 0.3, 4.0));
+    EXPECT_THAT(rolling_layer_design_model(Uncertain{0.4}).untested(drive, 0.3, 4.0).value(),
+                testing::HasSubstr("a rolling friction of 0.4, above 0.2"));
+
     // Nobody gave it: anything between 0 and 0.2, as the standard deviation of 200 equal parts of that.
     // Tolerance: 3 %, because three nodes stand for the distribution.
     DesignModel const unknown = rolling_layer_design_model({});

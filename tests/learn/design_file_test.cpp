@@ -65,7 +65,7 @@ TEST(DesignFile, TellsWhichModelsDecideAndGivesTheSecondBestSpeed) {
     EXPECT_TRUE(page.at("machines").at(1).at("models").empty());
 }
 
-TEST(DesignFile, RefusesWhatIsNoDesign) {
+TEST(DesignFile, RefusesOtherFiles) {
     for (char const* const key :
          {"task", "stroke_mm", "models", "speeds_compared", "mass_flow_wanted_t_per_h"}) {
         Json without = design();

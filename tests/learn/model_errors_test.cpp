@@ -1,6 +1,12 @@
 #include "learn/model_errors.hpp"
 
+#include "atlas/tables.hpp"
+#include "learn/uncertain.hpp"
+
+#include <cmath>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -39,6 +45,63 @@ TEST(ModelErrors, AreThoseOfTheStoredTable) {
     EXPECT_EQ(known(point_mass_errors()), stored("point mass"));
     EXPECT_EQ(known(rolling_layer_errors()), stored("rolling layer"));
     EXPECT_GE(point_mass_errors().size(), 10U);
+}
+
+/// The rows of a table of validation/atlas, each number by its column; empty cells are left out.
+std::vector<std::map<std::string, double>> layers_of_atlas(std::string const& name) {
+    std::ifstream table(VALIDATION_FOLDER "/atlas/" + name);
+    std::set<std::string> const words{"case", "layer_mode", "outcome"};
+    std::vector<std::string> columns;
+    std::vector<std::map<std::string, double>> rows;
+    for (std::string line; std::getline(table, line);) {
+        if (line.starts_with('#')) continue;
+        std::istringstream cells(line);
+        std::map<std::string, double> row;
+        std::size_t column = 0;
+        bool const is_header = columns.empty();
+        for (std::string cell; std::getline(cells, cell, ','); ++column) {
+            if (is_header)
+                columns.push_back(cell);
+            else if (!cell.empty() && !words.contains(columns[column]))
+                row[columns[column]] = std::stod(cell);
+        }
+        if (!row.empty()) rows.push_back(row);
+    }
+    return rows;
+}
+
+// What design_model.hpp and src/learn/README.md say: with the grains' rolling friction in its dry torque, the
+// law misses layers that roll against friction by no more than its errors for free spheres, 1.96 sd, mostly.
+TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
+    int known = 0, held = 0, level = 0, level_held = 0;
+    for (char const* const table : {"layers.csv", "held_out.csv"}) {
+        for (auto const& row : layers_of_atlas(table)) {
+            if (row.at("rolling_friction") <= 0.03 || !row.contains("efficiency") ||
+                !row.contains("rolling_layer"))
+                continue;
+            auto const sd = known_error(rolling_layer_errors(), row.at("throw_number"),
+                                        row.at("tan_inclination"), row.at("depth"));
+            if (!sd) continue;
+            bool const is_held = std::abs(row.at("efficiency") - row.at("rolling_layer")) <= 1.96 * *sd;
+            bool const is_level = std::abs(row.at("tan_inclination")) < 0.02 &&
+                                  row.at("throw_number") >= 1.25 && row.at("throw_number") < 2.1;
+            ++known;
+            held += is_held ? 1 : 0;
+            level += is_level ? 1 : 0;
+            level_held += is_level && is_held ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(known, 125);
+    EXPECT_EQ(held, 116);
+    EXPECT_EQ(level, 12);
+    EXPECT_EQ(level_held, 8);
+}
+
+// The rolling friction that nobody knows is anything that the layers of the atlas have.
+TEST(ModelErrors, AnUnknownRollingFrictionIsThatOfTheAtlas) {
+    auto const& range = atlas::inputs()[atlas::rolling_friction_input];
+    EXPECT_EQ(unknown_rolling_friction().low(), range.low);
+    EXPECT_EQ(unknown_rolling_friction().high(), range.high);
 }
 
 // A place is in one region; without a depth the worst of all depths counts; nothing is known outside of all.

@@ -30,6 +30,8 @@ TEST(MessageUnits, AreThoseOfTheFile) {
 }
 
 TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
+    EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8d\"")),
+                HasSubstr("'8d' is a depth in diameters of the grains"));
     EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8 d\"")),
                 HasSubstr("layer.height: '8 d' is a depth in diameters of the grains; write it without a "
                           "unit as layer.diameters"));

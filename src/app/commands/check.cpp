@@ -5,6 +5,7 @@
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "engine/certificate_cache.hpp"
+#include "store/quantity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -135,13 +136,12 @@ void print_feeds(scenario::Campaign const& campaign) {
         rates.push_back(flows.back() / (mean_density(one) * mean_grain_volume(one)));
     }
     if (flows.empty()) return;
-    constexpr double tonnes_per_hour = 3.6;
     auto const range = [](std::vector<double> const& values, double factor, char const* unit) {
         auto const [least, most] = std::ranges::minmax(values);
         return least == most ? fmt::format("{:.4g} {}", factor * least, unit)
                              : fmt::format("{:.4g} to {:.4g} {}", factor * least, factor * most, unit);
     };
-    fmt::print("feed: {} = {}\n", range(flows, tonnes_per_hour, "t/h"), range(rates, 1, "grains/s"));
+    fmt::print("feed: {} = {}\n", range(flows, store::tonnes_per_hour, "t/h"), range(rates, 1, "grains/s"));
 }
 
 /// The moduli of all cases, and who chose them.

@@ -16,9 +16,12 @@
 namespace vibrotrough::scenario {
 namespace {
 
-/// "8 d"
+/// "8 d", "8d" or "8 diameters"
 bool is_in_diameters(std::string_view text) {
-    return text.ends_with(" d") || text.ends_with(" D") || text.find("diameter") != std::string_view::npos;
+    bool const ends_with_d = text.size() > 1 && (text.back() == 'd' || text.back() == 'D');
+    return (ends_with_d &&
+            std::string_view(" 0123456789").find(text[text.size() - 2]) != std::string_view::npos) ||
+           text.find("diameter") != std::string_view::npos;
 }
 
 /// Reads the value of one key.
