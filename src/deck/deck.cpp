@@ -109,7 +109,7 @@ Deck make_deck(prepare::PreparedCase const& prepared, PackingPlan const& packing
     for (auto const& [name, value] : phase_sampling(prepared)) data.set(name, value);
     scenario::DeckTemplates const* const replaced = prepared.scenario.engine.templates.get();
     deck.settle_files = meshes(prepared);
-    if (is_fed_screen(prepared.scenario)) add_fed_screen(deck.settle_files, prepared);
+    if (is_fed_screen(prepared.scenario)) add_end_wall(deck.settle_files, prepared);
     // The spring of contact = "hooke" is as stiff as a Hertz contact at the fastest impact of the deck.
     data.set("characteristic_speed", fmt::format("{}", prepared.settle_speed));
     describe_settling_gravity(data, prepared.scenario);

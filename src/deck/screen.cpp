@@ -7,7 +7,7 @@
 namespace vibrotrough::deck {
 
 std::string settling_floor(scenario::Scenario const& scenario) {
-    return has_holes(scenario) && !is_open(scenario) ? "plate" : "trough";
+    return has_holes(scenario) ? "plate" : "trough";
 }
 
 std::string screen_mesh(prepare::PreparedCase const& n) {
@@ -23,8 +23,7 @@ int triangles_of_screen(prepare::PreparedCase const& n) {
                             n.domain.screen->across, n.domain.screen->plate);
 }
 
-void add_fed_screen(std::map<std::string, std::string>& files, prepare::PreparedCase const& n) {
-    if (has_holes(n.scenario)) files["trough.stl"] = screen_mesh(n);
+void add_end_wall(std::map<std::string, std::string>& files, prepare::PreparedCase const& n) {
     auto const [top, bottom] = *n.domain.open->end_wall;
     scenario::Layer const& layer = n.scenario.layer;
     files["end.stl"] = cross_wall_stl(layer.width, bottom, top, layer.length, 12 * mean_diameter(n.scenario));
@@ -66,8 +65,8 @@ void describe_screen(core::TemplateData& data, prepare::PreparedCase const& n) {
     scenario::Scenario const& s = n.scenario;
     data.set("screen", is_batch(s));
     data.set("fed_screen", is_fed_screen(s));
-    data.set("plate", has_holes(s) && is_batch(s));
-    data.set("holes", has_holes(s) && !is_batch(s));
+    data.set("plate", has_holes(s));
+    data.set("holes", false);
     data.set("loses_grains", n.domain.loses_grains());
     for (char const* name : {"size_columns", "size_values", "size_first_values"})
         data.set(name, std::string());

@@ -18,9 +18,8 @@ std::string screen_mesh(prepare::PreparedCase const& prepared);
 /// How many triangles the moving mesh of a screen has; 0 for other floors and without holes.
 int triangles_of_screen(prepare::PreparedCase const& prepared);
 
-/// The meshes of a screen that is fed, on which the first grains settle as well: the sheet, and the wall
-/// below its edge.
-void add_fed_screen(std::map<std::string, std::string>& files, prepare::PreparedCase const& prepared);
+/// The mesh of a screen that is fed, beside the sheet: the wall below its edge.
+void add_end_wall(std::map<std::string, std::string>& files, prepare::PreparedCase const& prepared);
 
 /// What the templates say about a screen, as the settling deck has it. Behind describe_open().
 void describe_screen(core::TemplateData& data, prepare::PreparedCase const& prepared);
