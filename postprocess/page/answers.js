@@ -6,7 +6,7 @@ function withUnit(value, unit) { return Number.isFinite(value) ? `${showNumber(v
 
 function speedText(metresPerSecond) { return withUnit(metresPerSecond * speedFactor(), page.speedUnit); }
 
-const modelWords = ["by_layer", "by_mass", "by_between", "by_atlas"], ofAtlas = 3;
+const modelWords = ["by_layer", "by_mass", "by_atlas"], ofAtlas = 2;
 
 /// The answer of a machine with its words. @throws Error where the theory has none
 function answerOf(one) {

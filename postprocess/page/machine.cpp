@@ -23,14 +23,11 @@ using theory::Input;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double normal_quantile = 1.959964;  // of 97.5 %: a band of 95 %
 
-// validation/rolling_layer: layers of spheres with rolling friction up to 0.03 roll as free ones do; at 0.2
-// they are conveyed as if they could not roll. Between, only the atlas has layers.
-constexpr double rolls_freely = 0.03;
-constexpr double hardly_rolls = 0.2;
-
+/// Which model answers outside of the atlas. validation/rolling_layer: with the largest rolling friction of
+/// the atlas' layers, spheres are conveyed as if they could not roll.
 Model model_of(double rolling_friction) {
-    if (rolling_friction <= rolls_freely) return Model::rolling_layer;
-    return rolling_friction >= hardly_rolls ? Model::point_mass : Model::between;
+    double const most = atlas::inputs()[atlas::rolling_friction_input].high;
+    return rolling_friction <= most ? Model::rolling_layer : Model::point_mass;
 }
 
 /// What the page does not ask of the grains. The atlas has it in the middle of its ranges.
@@ -81,21 +78,8 @@ void add_flow(Speed& speed, Settings const& settings) {
     speed.flow_high = factor * speed.high;
 }
 
-/// The middle of two speeds, and a band that holds both.
-Speed spanning(Speed const& a, Speed const& b, Settings const& settings) {
-    Speed both{};
-    both.efficiency = (a.efficiency + b.efficiency) / 2;
-    both.speed = (a.speed + b.speed) / 2;
-    bool const known = !std::isnan(a.low) && !std::isnan(b.low);
-    both.low = known ? std::min(a.low, b.low) : unknown;
-    both.high = known ? std::max(a.high, b.high) : unknown;
-    add_flow(both, settings);
-    return both;
-}
-
 Trust trust_in(Answer const& answer, theory::PointMass const& point, std::optional<double> depth) {
     if (std::isnan(answer.best.low)) return Trust::unknown;
-    if (answer.model == Model::between) return Trust::reaching;
     bool const outside =
         answer.model == Model::rolling_layer && theory::outside_tested_range(point, depth).has_value();
     return outside ? Trust::reaching : Trust::tested;
@@ -153,22 +137,26 @@ double Settings::mass_per_length() const {
     return 1e-6 * (*this)[Setting::depth_mm] * (*this)[Setting::width_mm] * (*this)[Setting::bulk_density];
 }
 
-theory::Efficiency Machines::efficiency(theory::PointMass const& point, bool rolling) {
-    if (!rolling) return mass_(point);
-    theory::Motion const motion = layer_(point).motion;
+theory::Efficiency Machines::efficiency(theory::PointMass const& point,
+                                        std::optional<double> rolling_friction) {
+    if (!rolling_friction) return mass_(point);
+    if (!layer_ || layer_->first != *rolling_friction)
+        layer_.emplace(*rolling_friction, theory::law_of_grains(*rolling_friction));
+    theory::Motion const motion = layer_->second(point).motion;
     return {motion.velocity_efficiency, theory::mode_code(motion), motion.period_cycles, motion.outcome};
 }
 
 /// Ends and middle of the friction's band; the speed hardly bends between them.
 Speed Machines::speed(Settings const& settings, bool rolling) {
     double const scale = settings.inputs().velocity_scale().value();
+    auto const grains = rolling ? std::optional(settings[Setting::rolling_friction]) : std::nullopt;
     Speed speed{};
-    theory::Efficiency const at_middle = efficiency(settings.inputs().point(), rolling);
+    theory::Efficiency const at_middle = efficiency(settings.inputs().point(), grains);
     speed.efficiency = at_middle.velocity_efficiency;
     speed.mode = at_middle.mode;
     double low = speed.efficiency, high = speed.efficiency;
     for (double const friction : ends_of_friction(settings)) {
-        double const eta = efficiency(settings.inputs(friction).point(), rolling).velocity_efficiency;
+        double const eta = efficiency(settings.inputs(friction).point(), grains).velocity_efficiency;
         low = std::min(low, eta);
         high = std::max(high, eta);
     }
@@ -235,10 +223,13 @@ Answer Machines::answered(Settings const& settings) {
         std::isnan(answer.atlas.speed) ? model_of(settings[Setting::rolling_friction]) : Model::atlas;
     answer.best = answer.model == Model::atlas           ? answer.atlas
                   : answer.model == Model::rolling_layer ? answer.layer
-                  : answer.model == Model::point_mass    ? answer.mass
-                                                         : spanning(answer.mass, answer.layer, settings);
+                                                         : answer.mass;
     answer.trust = trust_in(answer, point, known_depth(settings));
     return answer;
+}
+
+theory::RollingLayer layer_of(Settings const& settings) {
+    return {settings.inputs().point(), theory::law_of_grains(settings[Setting::rolling_friction])};
 }
 
 Landing landing(Settings const& settings) {
@@ -263,7 +254,7 @@ std::vector<Frame> frames(Settings const& settings, bool rolling, int count) {
     };
     if (rolling) {
         double travel = 0;
-        auto const samples = theory::trace(theory::solve(theory::RollingLayer{point, {}}), count);
+        auto const samples = theory::trace(theory::solve(layer_of(settings)), count);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             theory::RollingSample const& s = samples[i];
             // The trapezoidal rule: the sum is only drawn.
@@ -286,15 +277,13 @@ std::vector<Frame> frames(Settings const& settings, bool rolling, int count) {
 }
 
 std::optional<std::string> untested(Settings const& settings, Answer const& answer) {
-    theory::PointMass const point = settings.inputs().point();
-    auto const depth = known_depth(settings);
     if (answer.trust == Trust::tested) return {};
     if (std::isnan(answer.best.speed)) return "the material runs away";
-    if (answer.model != Model::point_mass) {
-        if (auto why = theory::outside_tested_range(point, depth)) return why;
+    if (answer.model == Model::rolling_layer) {
+        if (auto why = theory::outside_tested_range(settings.inputs().point(), known_depth(settings)))
+            return why;
     }
-    if (answer.trust == Trust::unknown) return "no simulated layer tells what the model misses here";
-    return "outside of the atlas no layer was simulated with a rolling friction between 0.03 and 0.2";
+    return "no simulated layer tells what the model misses here";
 }
 
 std::vector<atlas::Outside> outside_atlas(Settings const& settings) {

@@ -59,9 +59,8 @@ struct Settings {
 
 /// Which model the page's answer is from.
 enum class Model {
-    rolling_layer,  ///< grains that roll freely
+    rolling_layer,  ///< grains that roll, freely or against friction
     point_mass,     ///< grains that hardly roll
-    between,        ///< no simulated layer tells which: the answer spans both
     atlas,          ///< the atlas of simulated layers, wherever it has the layer
 };
 
@@ -108,8 +107,9 @@ class Machines {
     /// those outside of it. @return whether all of it is ready
     bool prepare_atlas();
 
-    /// Efficiency and mode of a point mass or a rolling layer.
-    theory::Efficiency efficiency(theory::PointMass const& point, bool rolling);
+    /// Efficiency and mode of a rolling layer of grains with a rolling friction; without one, of a point
+    /// mass.
+    theory::Efficiency efficiency(theory::PointMass const& point, std::optional<double> rolling_friction);
 
   private:
     Speed speed(Settings const& settings, bool rolling);
@@ -121,8 +121,11 @@ class Machines {
     std::optional<int> layers_;           ///< of the atlas, when its surface is ready
     std::optional<double> of_not_asked_;  ///< standard deviation, in velocity efficiency, when it is known
     theory::EfficiencySolver mass_;
-    theory::RollingLayerSolver layer_{theory::RollingLaw{}};
+    std::optional<std::pair<double, theory::RollingLayerSolver>> layer_;  ///< the last, by rolling friction
 };
+
+/// The rolling layer of these grains.
+theory::RollingLayer layer_of(Settings const& settings);
 
 /// What needs the phases of the point mass.
 struct Landing {

@@ -109,9 +109,8 @@ Json described_landing(page::Settings const& settings, theory::Motion const& mot
 }
 
 Json words(page::Settings const& settings) {
-    theory::PointMass const point = settings.inputs().point();
-    theory::Motion const mass = theory::solve(point),
-                         layer = theory::solve(theory::RollingLayer{point, {}}).motion;
+    theory::Motion const mass = theory::solve(settings.inputs().point()),
+                         layer = theory::solve(page::layer_of(settings)).motion;
     page::Answer const answer = machines()(settings);
     auto const why = page::untested(settings, answer);
     Json outside = Json::array();
@@ -203,8 +202,11 @@ int page_map_row(double const* settings, int axis, double from, double to, int c
             double const value = count < 2 ? from : from + (to - from) * i / (count - 1);
             std::fill_n(numbers, 4, std::nan(""));
             try {
-                theory::Inputs const inputs = settings_of(settings).with(setting, value).inputs();
-                theory::Efficiency const found = machines().efficiency(inputs.point(), rolling != 0);
+                page::Settings const here = settings_of(settings).with(setting, value);
+                theory::Inputs const inputs = here.inputs();
+                auto const grains =
+                    rolling ? std::optional(here[page::Setting::rolling_friction]) : std::nullopt;
+                theory::Efficiency const found = machines().efficiency(inputs.point(), grains);
                 numbers[0] = found.velocity_efficiency;
                 numbers[1] = found.velocity_efficiency * inputs.velocity_scale().value();
                 numbers[2] = number_of(found.mode);

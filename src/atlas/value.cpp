@@ -38,9 +38,8 @@ double scatter_half_width() {
 std::optional<double> solved_trend(theory::PointMass const& point, double rolling_friction) {
     // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
     thread_local std::optional<std::pair<double, theory::RollingLayerSolver>> last;
-    theory::RollingLaw law;
-    law.dry_torque += rolling_friction;
-    if (!last || last->first != law.dry_torque) last.emplace(law.dry_torque, theory::RollingLayerSolver(law));
+    if (!last || last->first != rolling_friction)
+        last.emplace(rolling_friction, theory::law_of_grains(rolling_friction));
     auto const motion = last->second(point).motion, sliding = theory::solve(point);
     for (theory::Motion const& one : {motion, sliding})
         if (!one.converged && one.outcome != theory::Outcome::unsettled) return {};

@@ -42,15 +42,15 @@ std::optional<double> rolling_efficiency(theory::PointMass const& point, theory:
 }
 
 /// Adds the rolling-layer law for a layer of spheres that may rotate, with the contacts with which the law
-/// has been tested: of one material on a flat floor. Rolling friction adds to its dry torque.
+/// has been tested: of one material on a flat floor.
 void add_rolling_layer(Row& row, prepare::PreparedCase const& prepared) {
     scenario::Grains const& grains = prepared.scenario.grains;
     bool const spheres = grains.shape == "sphere" && prepared.scenario.layer.block == scenario::Block::none;
     if (!not_covered(prepared.scenario.engine).empty() || prepared.domain.has_mesh()) return;
     if (prepared.materials.size() > 1) return;
     if (!prepared.point_mass.is_plain || !spheres || grains.rotation == scenario::Rotation::blocked) return;
-    theory::RollingLaw law;
-    if (grains.rotation == scenario::Rotation::rolling) law.dry_torque += grains.rolling_friction;
+    bool const against_friction = grains.rotation == scenario::Rotation::rolling;
+    theory::RollingLaw const law = theory::law_of_grains(against_friction ? grains.rolling_friction : 0);
     double const depth = prepared.layer_height / mean_diameter(prepared.scenario);
     row.efficiency_rolling_layer = rolling_efficiency(prepared.point_mass.conveyor.point, law, depth);
 }

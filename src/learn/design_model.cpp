@@ -50,8 +50,7 @@ class LawOfGrains {
 
   private:
     std::optional<double> efficiency(double rolling_friction, theory::PointMass const& point) {
-        theory::RollingLaw law;
-        law.dry_torque += std::max(0.0, rolling_friction);
+        auto const law = theory::law_of_grains(std::max(0.0, rolling_friction));
         auto const solver = solvers_.try_emplace(rolling_friction, law).first;
         double const eta = solver->second(point).motion.velocity_efficiency;
         if (!std::isfinite(eta)) return {};

@@ -180,6 +180,12 @@ std::vector<std::string_view> const& rolling_constants() {
     return names;
 }
 
+RollingLaw law_of_grains(double rolling_friction) {
+    RollingLaw law;
+    law.dry_torque += rolling_friction;
+    return law;
+}
+
 bool set_constant(RollingLaw& law, std::string_view name, double value) {
     for (Constant const& c : constants) {
         if (name != c.name) continue;

@@ -24,6 +24,10 @@ struct RollingLaw {
     double damping = 2.2;        ///< zeta of the landing, in [1.01, 100]
 };
 
+/// The law of grains with a rolling friction (a coefficient, >= 0), which adds to its dry torque
+/// (validation/atlas, up to 0.2).
+RollingLaw law_of_grains(double rolling_friction);
+
 inline constexpr double rigid = std::numeric_limits<double>::infinity();  ///< A stiffness without limit.
 
 /// Sets the constant that is called `name`: torque, dry_torque, spin_inertia, stiffness or damping.
