@@ -1,7 +1,7 @@
 /// Finds the surface of the atlas from its table of layers, for validation/atlas: prints the draws of its
 /// hyperparameters as CSV, and how well it predicts the layers, each from all others, on standard error.
 ///
-/// usage: fit_atlas LAYERS.csv
+/// usage: fit_atlas LAYERS.csv [COLUMN], where COLUMN is added_mass or damping instead of the efficiency
 
 #include "atlas/tables.hpp"
 #include "core/atomic_file.hpp"
@@ -14,9 +14,13 @@
 int main(int argc, char** argv) {
     using namespace vibrotrough;
     try {
-        if (argc != 2) throw std::runtime_error("usage: fit_atlas LAYERS.csv");
-        auto const points = atlas::read_layers(core::read_given_file(argv[1]), argv[1]);
-        atlas::Surface const surface(atlas::inputs(), points);
+        if (argc != 2 && argc != 3) throw std::runtime_error("usage: fit_atlas LAYERS.csv [COLUMN]");
+        std::string const text = core::read_given_file(argv[1]);
+        auto const points =
+            argc == 2 ? atlas::read_layers(text, argv[1]) : atlas::read_column(text, argv[1], argv[2]);
+        // What a layer does to its trough hardly depends on some of the inputs.
+        double const longest = argc == 2 ? atlas::usual_longest_length : 50;
+        atlas::Surface const surface(atlas::inputs(), points, atlas::Trend::theory, longest);
         int number = 0;
         // Every third is enough for many layers, and each costs time in every prediction.
         std::vector<inference::Hyperparameters> few;

@@ -99,6 +99,14 @@ double Surface::variance_reduction(Place const& place, double theory, Place cons
     return variance > 0 ? covariance * covariance / variance : 0;
 }
 
+double scatter_half_width(Surface const& surface) {
+    auto const draws = surface.draws();
+    double variance = 0;
+    for (inference::Hyperparameters const& draw : draws)
+        variance += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
+    return deviations_in_half_width * std::sqrt(variance);
+}
+
 void Surface::believe(SurfacePoint const& point) {
     inference::ProcessData data = process_.data();
     Eigen::Index const n = data.values.size();

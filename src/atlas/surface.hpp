@@ -32,6 +32,9 @@ enum class Trend {
     constant,  ///< constant alone, for comparison
 };
 
+/// The longest length over which a surface varies, in widths of an input's range, unless it is told another.
+inline constexpr double usual_longest_length = 5;
+
 /// Standard deviations of a normal distribution in the half-width of its central 95 %.
 inline constexpr double deviations_in_half_width = 1.959963984540054;
 
@@ -68,9 +71,14 @@ struct SurfaceQuality {
 /// estimated and kept, so that the surface does not pretend to be sure.
 class Surface {
   public:
-    /// Fits a surface. @throws core::InputError when there are too few points: fewer than four, or than twice
-    /// the number of inputs
-    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend = Trend::theory);
+    /// Fits a surface.
+    /// @param longest  length over which it may vary, in widths of an input's range: with a longer one,
+    /// inputs
+    ///   that change nothing are told from those that change little
+    /// @throws core::InputError when there are too few points: fewer than four, or than twice the number of
+    ///   inputs
+    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend = Trend::theory,
+            double longest = usual_longest_length);
 
     /// A surface whose hyperparameters were drawn from their posterior before, as draws() of another over the
     /// same points gave them: nothing is searched for, and the first draw stands for the process of the
@@ -112,8 +120,8 @@ class Surface {
 
   private:
     inference::ProcessData data() const;
-    inference::GaussianProcess fit();
-    void draw_others();
+    inference::GaussianProcess fit(double longest);
+    void draw_others(double longest);
     Eigen::VectorXd trend_at(double theory) const;
     inference::TrendPrior prior() const;
 
@@ -124,5 +132,8 @@ class Surface {
     inference::GaussianProcess process_;
     std::vector<inference::GaussianProcess> others_;  ///< with hyperparameters drawn from their posterior
 };
+
+/// Half-width of what the points scatter about the surface beyond their own intervals: 95 %.
+double scatter_half_width(Surface const& surface);
 
 }  // namespace vibrotrough::atlas

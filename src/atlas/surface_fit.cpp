@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <span>
 #include <stdexcept>
 
@@ -17,22 +18,47 @@ namespace {
 /// Below this probability extra noise is taken to be real.
 constexpr double significant = 0.01;
 /// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
-constexpr inference::Bounds deviation_prior{0.005, 1}, length_prior{0.05, 5}, extra_noise_prior{1e-3, 1};
+constexpr inference::Bounds deviation_prior{0.005, 1}, extra_noise_prior{1e-3, 1};
+constexpr double shortest_length = 0.05;
 /// Every 25th draw of the posterior is used: 24 of four chains.
 constexpr int thinning = 25;
+constexpr int chains = 4;
 
 inference::Bounds logs_of(inference::Bounds const& b) {
     return {std::log(b.low), std::log(b.high)};
 }
 
-}  // namespace
-
-Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend)
-    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit()) {
-    draw_others();
+/// Points about the largest likelihood, in logarithms and within the bounds: that one for each chain, and
+/// others about it, as many as differential evolution needs (ten for each parameter).
+std::vector<std::vector<double>> starts_about(inference::Hyperparameters const& best,
+                                              std::vector<inference::Bounds> const& bounds) {
+    constexpr double spread = 0.3, room = 1e-3;  // in logarithms
+    std::vector<double> middle{std::log(best.deviation)};
+    for (double const length : best.lengths) middle.push_back(std::log(length));
+    if (best.extra_noise > 0) middle.push_back(std::log(best.extra_noise));
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal(0, spread);
+    std::vector<std::vector<double>> starts;
+    for (std::size_t i = 0; i < chains + 10 * bounds.size(); ++i) {
+        std::vector<double> point;
+        for (std::size_t p = 0; p < bounds.size(); ++p) {
+            double const value = middle[p] + (i < chains ? 0 : normal(random));
+            point.push_back(std::clamp(value, bounds[p].low + room, bounds[p].high - room));
+        }
+        starts.push_back(std::move(point));
+    }
+    return starts;
 }
 
-inference::GaussianProcess Surface::fit() {
+}  // namespace
+
+Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend,
+                 double longest)
+    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit(longest)) {
+    draw_others(longest);
+}
+
+inference::GaussianProcess Surface::fit(double longest) {
     auto const n = static_cast<Eigen::Index>(points_.size());
     auto const d = static_cast<Eigen::Index>(inputs_.size());
     if (n < std::max<Eigen::Index>(4, 2 * d)) {
@@ -43,6 +69,7 @@ inference::GaussianProcess Surface::fit() {
     }
     inference::ProcessData const known = data();
     inference::ProcessSettings settings;
+    if (longest > usual_longest_length) settings.most.lengths = Eigen::VectorXd::Constant(d, longest);
     auto process = inference::GaussianProcess::fitted(known, prior(), settings);
     settings.has_extra_noise = true;
     auto const noisy = inference::GaussianProcess::fitted(known, prior(), settings);
@@ -55,7 +82,7 @@ inference::GaussianProcess Surface::fit() {
     return process;
 }
 
-void Surface::draw_others() {
+void Surface::draw_others(double longest) {
     Eigen::Index const d = process_.data().inputs.cols();
     bool const is_noisy = process_.hyperparameters().extra_noise > 0;
     auto const from_logs = [&](std::span<double const> logs) {
@@ -72,10 +99,13 @@ void Surface::draw_others() {
         }
     };
     std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
-    for (Eigen::Index j = 0; j < d; ++j) bounds.push_back(logs_of(length_prior));
+    for (Eigen::Index j = 0; j < d; ++j) bounds.push_back(logs_of({shortest_length, longest}));
     if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));
-    inference::SamplerSettings const settings{
-        .chains = 4, .warm_up = 200, .draws = 150, .most_draws = 150, .points_per_start = 150};
+    inference::SamplerSettings const settings{.chains = chains,
+                                              .warm_up = 400,
+                                              .draws = 150,
+                                              .most_draws = 150,
+                                              .starts = starts_about(process_.hyperparameters(), bounds)};
     inference::Sample const sample = inference::sample(density, bounds, settings);
     for (int chain = 0; chain < sample.chains; ++chain) {
         for (int draw = thinning - 1; draw < sample.draws; draw += thinning)

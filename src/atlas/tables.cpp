@@ -23,6 +23,11 @@ class Columns {
     }
     double number(std::string_view name) const { return reader_.number(index(name)); }
     std::string text(std::string_view name) const { return std::string(reader_.cells()[index(name)]); }
+    Place place() const {
+        Place place;
+        for (SurfaceInput const& input : inputs()) place.push_back(number(input.key));
+        return place;
+    }
 
   private:
     core::CsvReader& reader_;
@@ -52,11 +57,23 @@ std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& 
     Columns const columns(reader);
     std::vector<SurfacePoint> points;
     while (reader.next()) {
-        Place place;
-        for (SurfaceInput const& input : inputs()) place.push_back(columns.number(input.key));
-        points.push_back({columns.text("case"), place,
+        points.push_back({columns.text("case"), columns.place(),
                           trend_of(columns.number("rolling_layer"), columns.number("theory")),
                           columns.number("efficiency"), columns.number("half_width")});
+    }
+    return points;
+}
+
+std::vector<SurfacePoint> read_column(std::string_view text, std::string const& file,
+                                      std::string_view column) {
+    core::CsvReader reader(text, file, format());
+    Columns const columns(reader);
+    std::string const half_width = fmt::format("{}_half_width", column);
+    std::vector<SurfacePoint> points;
+    while (reader.next()) {
+        if (columns.text(column).empty()) continue;
+        points.push_back(
+            {columns.text("case"), columns.place(), 0, columns.number(column), columns.number(half_width)});
     }
     return points;
 }

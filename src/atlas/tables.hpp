@@ -12,6 +12,8 @@ namespace vibrotrough::atlas {
 
 extern std::string_view const layers_table;  ///< validation/atlas/layers.csv when the program was built
 extern std::string_view const draws_table;   ///< validation/atlas/draws.csv, likewise
+extern std::string_view const added_mass_draws_table;  ///< validation/atlas/draws_added_mass.csv, likewise
+extern std::string_view const damping_draws_table;     ///< validation/atlas/draws_damping.csv, likewise
 
 /// The inputs of the atlas in their order. The first four are those of the point mass.
 enum Input : std::size_t {
@@ -40,6 +42,12 @@ double trend_of(double rolling_layer, double theory);
 /// comments.
 /// @throws core::CsvError that names line and column
 std::vector<SurfacePoint> read_layers(std::string_view text, std::string const& file);
+
+/// Reads another number of such a table, such as added_mass with added_mass_half_width, as points of a
+/// surface without a trend. Layers that have none are left out.
+/// @throws core::CsvError that names line and column
+std::vector<SurfacePoint> read_column(std::string_view text, std::string const& file,
+                                      std::string_view column);
 
 /// The mean of the bounds of the layers' numerical errors (95 %), in velocity efficiency: soft grains, a
 /// small box, the time step. More layers do not make it smaller.

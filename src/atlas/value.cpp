@@ -22,18 +22,6 @@ Surface const& surface() {
     return fitted;
 }
 
-/// Half-width of what the layers scatter about the surface beyond their own intervals.
-double scatter_half_width() {
-    static double const width = [] {
-        auto const draws = surface().draws();
-        double variance = 0;
-        for (inference::Hyperparameters const& draw : draws)
-            variance += draw.extra_noise * draw.extra_noise / static_cast<double>(draws.size());
-        return deviations_in_half_width * std::sqrt(variance);
-    }();
-    return width;
-}
-
 /// The trend of the atlas, as trend_at() gives it.
 std::optional<double> solved_trend(theory::PointMass const& point, double rolling_friction) {
     // A design asks for many frictions at one throw number, for which the solver keeps the normal motion.
@@ -121,9 +109,9 @@ std::optional<SurfaceValue> difference_between(Place const& place, Place const& 
 std::optional<SurfaceValue> value_at(Place const& place) {
     auto const trend = trend_at(place);
     if (!trend) return {};
+    static double const scatter = scatter_half_width(surface());
     SurfaceValue const value = surface().at(place, *trend);
-    return SurfaceValue{value.efficiency,
-                        std::hypot(value.half_width, scatter_half_width(), numerical_error())};
+    return SurfaceValue{value.efficiency, std::hypot(value.half_width, scatter, numerical_error())};
 }
 
 }  // namespace vibrotrough::atlas

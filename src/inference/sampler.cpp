@@ -40,8 +40,12 @@ class Walk {
                                static_cast<std::uint32_t>(settings.seed >> 32U),
                                static_cast<std::uint32_t>(c)};
             chains_.push_back({{}, impossible, Random(seed)});
-            start(chains_.back(), settings.points_per_start);
+            if (settings.starts.empty())
+                start(chains_.back(), settings.points_per_start);
+            else
+                start_at(chains_.back(), settings.starts.at(static_cast<std::size_t>(c)));
         }
+        if (!settings.starts.empty()) archive_ = settings.starts;
     }
 
     /// Fills the archive. What it holds after half of the steps, when chains may still be on their way, is
@@ -104,6 +108,13 @@ class Walk {
         archive_.push_back(chain.at);
     }
 
+    void start_at(Chain& chain, Point const& point) const {
+        chain.at = point;
+        chain.density = density_at(point);
+        if (!std::isfinite(chain.density))
+            throw std::invalid_argument("sample: the density is zero or infinite at a start");
+    }
+
     Point proposal(Chain& chain) const {
         double const kind = uniform(chain.random);
         if (kind < 0.1 || archive_.size() < 3) return anywhere(chain.random);
@@ -139,7 +150,8 @@ class Walk {
 
 void check(std::vector<Bounds> const& bounds, SamplerSettings const& s) {
     bool const settings = s.chains >= 2 && s.warm_up >= 100 && s.draws >= 8 && s.points_per_start >= 1;
-    if (!settings || bounds.empty()) throw std::invalid_argument("sample: settings out of range");
+    bool const starts = s.starts.empty() || s.starts.size() >= static_cast<std::size_t>(s.chains);
+    if (!settings || !starts || bounds.empty()) throw std::invalid_argument("sample: settings out of range");
     for (Bounds const& b : bounds) {
         if (!(std::isfinite(b.low) && std::isfinite(b.high) && b.low < b.high))
             throw std::invalid_argument("sample: bounds must be finite, and low below high");

@@ -29,6 +29,10 @@ struct SamplerSettings {
     std::uint64_t seed = 1;      ///< of the random numbers; the same seed gives the same draws
     int points_per_start =
         2000;  ///< random points within the bounds among which each chain chooses its start
+    /// Points about the highest density, one for each chain or more, where they are known: chains begin at
+    /// the first of them, and all of them begin the archive. With many parameters no random point is near
+    /// enough.
+    std::vector<std::vector<double>> starts{};
 };
 
 /// Draws from a density, and how far they can be trusted.
@@ -48,8 +52,8 @@ struct Sample {
     std::vector<double> of(int parameter) const;
 };
 
-/// Draws from a density of a few parameters (one to about six) by Markov chains, which may have several
-/// separate peaks.
+/// Draws from a density of a few parameters (one to about six, more with `starts`) by Markov chains, which
+/// may have several separate peaks.
 ///
 /// Method: differential evolution with an archive of past states (C.J.F. ter Braak and J.A. Vrugt, Statistics
 /// and Computing 18 (2008) 435-446). A chain proposes x + gamma (z1 - z2) + noise with two states z1, z2 of
@@ -58,8 +62,9 @@ struct Sample {
 /// archive is filled while the chains warm up and then kept as it is, so that the kept draws form Markov
 /// chains whose stationary distribution is the density (Metropolis).
 ///
-/// Each chain starts at one of `points_per_start` uniform points, chosen with a probability proportional to
-/// the density there. Drawing goes on, each time as long again, until convergence or `most_draws`.
+/// Without `starts`, each chain starts at one of `points_per_start` uniform points, chosen with a probability
+/// proportional to the density there. Drawing goes on, each time as long again, until convergence or
+/// `most_draws`.
 ///
 /// @throws std::invalid_argument when bounds or settings have no sense, and when the density is zero at every
 /// point that was tried

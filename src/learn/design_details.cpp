@@ -57,6 +57,18 @@ double share_of(BudgetShare const& one, ModelForecast const& f) {
     return f.flow_sd > 0 ? one.sd * one.sd / (f.flow_sd * f.flow_sd) : 0;
 }
 
+char const* source_of(AddedMassSource source) {
+    switch (source) {
+        case AddedMassSource::given:
+            return "as given";
+        case AddedMassSource::atlas:
+            return "the atlas of layers";
+        case AddedMassSource::maker:
+            break;
+    }
+    return "as makers count, 10 to 25 %";
+}
+
 /// The exciter of a machine under its layer.
 struct ExcitedMachine {
     Exciter exciter;
@@ -112,8 +124,8 @@ std::string exciter_text(DesignTask const& t, RiskDesign const& d) {
         t.machine->exciter ? "" : ": what this stroke needs");
     text += fmt::format(
         "stroke when empty {:.4g} mm; {:.3g} kg of material are on the trough, and {:.3g} % of it move "
-        "along\n",
-        2e3 * m.empty, m.material, 100 * t.machine->added_mass.mean);
+        "along ({})\n",
+        2e3 * m.empty, m.material, 100 * t.machine->added_mass.mean, source_of(t.machine->added_mass_source));
     if (double const resonance = resonance_of(*t.machine, m.material); resonance > 0)
         text += fmt::format("resonance         {:.4g} 1/min, of the springs\n", 60 * resonance);
     text += fmt::format(
@@ -133,6 +145,7 @@ Json exciter_json(DesignTask const& t, RiskDesign const& d) {
             {"trough_mass_kg", t.machine->mass},
             {"material_kg", m.material},
             {"added_mass_fraction", t.machine->added_mass.mean},
+            {"added_mass_from", source_of(t.machine->added_mass_source)},
             {"stroke_empty_mm", 2e3 * m.empty},
             {"resonance_rpm", 60 * resonance_of(*t.machine, m.material)},
             {"usual_drive_power_w", m.usual_power}};

@@ -1,5 +1,8 @@
 #include "learn/driven_design.hpp"
 
+#include "atlas/layer_load.hpp"
+#include "atlas/unknown.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -15,10 +18,28 @@ double material_on(DesignTask const& task, double depth) {
     return task.bulk_density * task.width * task.length * depth;
 }
 
+void settle_added_mass(ChosenDesign& found) {
+    auto& [task, design] = found;
+    if (!task.machine || task.machine->added_mass_source == AddedMassSource::given || !task.grain_diameter)
+        return;
+    theory::Drive const& drive = design.drive;
+    atlas::Place const place = atlas::PartlyKnown::place_of(
+        {design.throw_number, std::tan(drive.vibration_angle), std::tan(drive.inclination),
+         task.friction.median, drive.amplitude / *task.grain_diameter, design.depth / *task.grain_diameter,
+         std::nullopt, task.rolling_friction, std::nullopt});
+    MovedMachine const usual{};
+    task.machine->added_mass = usual.added_mass;
+    task.machine->added_mass_source = usual.added_mass_source;
+    if (!atlas::outside_ranges(place).empty()) return;
+    auto const [value, half_width] = atlas::load_at(place).added_mass;
+    task.machine->added_mass = {value, half_width / atlas::deviations_in_half_width};
+    task.machine->added_mass_source = AddedMassSource::atlas;
+}
+
 ChosenDesign design_with_exciter(DesignTask const& task,
                                  std::function<ChosenDesign(DesignTask const&)> const& find) {
-    MovedMachine const& machine = *task.machine;
     DesignTask one = task;
+    MovedMachine& machine = *one.machine;
     double depth = 0;
     for (int i = 0; i < most_repetitions; ++i) {
         double const material = material_on(task, depth);
@@ -27,6 +48,8 @@ ChosenDesign design_with_exciter(DesignTask const& task,
         double const by_mass = amplitude * machine.added_mass.sd * material / machine.moving_mass(material);
         one.errors.amplitude = std::hypot(task.errors.amplitude, by_mass);
         ChosenDesign found = find(one);
+        settle_added_mass(found);
+        machine = *found.task.machine;
         depth = found.design.depth;
         double const under_it = amplitude_of(machine, task.space.frequency.low, material_on(task, depth));
         if (std::abs(under_it / amplitude - 1) < same_stroke) return found;

@@ -9,6 +9,10 @@ namespace vibrotrough::learn {
 /// kg, of the material on the trough of a task. @param depth  m, of the layer
 double material_on(DesignTask const& task, double depth);
 
+/// Sets the added mass of the machine of a design, unless it was given, to what the layers of the atlas have,
+/// if the layer of the design lies among them and the diameter of its grains is known.
+void settle_added_mass(ChosenDesign& found);
+
 /// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter
 /// gives under the layer of the machine found before, until it stays within a thousandth. It begins with the
 /// empty trough, which keeps the limits, too. What is not known

@@ -24,14 +24,22 @@ Exciter exciter_of_force(double force, double frequency);
 /// against each other give it along a line.
 double force_of(Exciter const& exciter, double frequency);
 
+/// Where it is known from which part of the material's mass moves with the trough.
+enum class AddedMassSource {
+    maker,  ///< what makers count with
+    given,  ///< by the user
+    atlas,  ///< layers that were simulated
+};
+
 /// The mass that an exciter moves, and its springs.
 struct MovedMachine {
     double mass;                     ///< kg, of trough, motors and all that moves with them, without material
     double spring = 0;               ///< N/m, of all springs in the direction of vibration; 0 when very soft
     std::optional<Exciter> exciter;  ///< nothing: the one that is needed is looked for
-    /// The part of the material's mass that moves with the trough. NetterVibration counts 10 to 25 % of the
-    /// load of troughs; simulated layers have 16 % at a throw number of 1.7 and 2 % at 3 (validation/demo).
+    /// The part of the material's mass that moves with the trough. By default as NetterVibration counts;
+    /// layers of spheres have 0.01 to 0.5 (validation/atlas), see settle_added_mass().
     Uncertain added_mass = between_ends(0.10, 0.25);
+    AddedMassSource added_mass_source = AddedMassSource::maker;  ///< where that is from
 
     /// kg, that move with some material on the trough. @param material  kg
     double moving_mass(double material) const { return mass + added_mass.mean * material; }

@@ -59,6 +59,32 @@ TEST(Surface, CoversHeldOutPoints) {
     EXPECT_GE(covered(surface, points_of(200, 7, 0.03)), 180);
 }
 
+// What the surface averages over is its posterior. With d hyperparameters whose posterior is nearly normal,
+// twice the distance from the largest log-likelihood follows chi-squared with d degrees of freedom: the mean
+// distance is d / 2. Chains that begin at random places end far below with many inputs, 14 to 60 in the
+// tables of the atlas. Tolerance: bounds cut the normal distribution, so that d / 6 to d are accepted.
+TEST(Surface, DrawsAreThoseOfThePosterior) {
+    constexpr int dimensions = 6;
+    std::vector<SurfaceInput> const many(dimensions, {"key", 0, 1});
+    std::vector<SurfacePoint> points;
+    for (auto const& row : scenario::sample_cube(scenario::SampleMethod::sobol, 48, dimensions, 1)) {
+        double const value = 0.3 * std::sin(4 * row[0]) + 0.2 * row[1] * row[2] + 0.05 * row[3];
+        points.push_back({"case", Place(row.begin(), row.end()), 0, value, 0.01});
+    }
+    constexpr double longest = 50;  // not a bound of the likelihood here
+    Surface const surface(many, points, Trend::theory, longest);
+    inference::ProcessData const& data = surface.process().data();
+    inference::TrendPrior const prior{Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{1, 1}}};
+    double const largest = surface.process().log_likelihood();
+    double distance = 0;
+    auto const draws = surface.draws();
+    for (inference::Hyperparameters const& draw : draws)
+        distance += (largest - inference::GaussianProcess(data, prior, draw).log_likelihood()) /
+                    static_cast<double>(draws.size());
+    EXPECT_GT(distance, (dimensions + 1) / 6.0);
+    EXPECT_LT(distance, dimensions + 1);
+}
+
 // Control: efficiencies in another order have nothing to do with their places.
 TEST(SurfaceControl, ShuffledAnswersAreNoticed) {
     auto points = points_of(30, 1, 0.03);

@@ -25,6 +25,9 @@ class Predict(EndToEndTest):
         self.assertEqual(cases[2]["outside"], ["throw_number"])
         for case in cases:
             self.assertGreater(case["half_width"], 0)
+            if case["inside"]:
+                self.assertTrue(0 < case["added_mass_fraction"] < 1, case)
+            self.assertLess(case["power_per_area_half_width_w_per_m2"], case["power_per_area_w_per_m2"])
             self.assertGreater(case["speed_m_per_s"], 0)
         # More throw, more speed; and beyond the atlas it is less sure.
         self.assertLess(cases[0]["efficiency"], cases[1]["efficiency"])
@@ -33,11 +36,13 @@ class Predict(EndToEndTest):
         self.assertEqual([float(row["efficiency"]) for row in rows], [case["efficiency"] for case in cases])
         text = self.predict(DEEPER, sweep=sweep)
         self.assertIn(f"{cases[0]['efficiency']:.3f} +- {cases[0]['half_width']:.3f}", text)
+        self.assertIn(f"{cases[1]['power_per_area_w_per_m2']:.3f} +- {cases[1]['power_per_area_half_width_w_per_m2']:.3f}", text)
         self.assertIn("outside: throw_number 3.5 (the atlas has 0.7 to 3.2)", text)
 
     def test_another_kind_of_layer_is_not_predicted(self):
         (cubes,) = json.loads(self.predict(CUBES, "--json"))
         self.assertEqual((cubes["efficiency"], cubes["inside"], cubes["outside"]), (None, False, ["grains.shape"]))
+        self.assertEqual((cubes["damping"], cubes["power_per_area_w_per_m2"]), (None, None))
         self.assertIn("outside: grains of the shape cube", self.predict(CUBES))
 
     def test_a_wrong_file(self):

@@ -48,7 +48,7 @@ TEST(CorrectedModel, IsTheModelFarAway) {
     DesignModel const model = point_mass_design_model(0.1);
     DesignModel const corrected = corrected_design_model(model, {layer(model, 0.2, 0)}, grain);
     theory::Drive const far = machine(3.2);
-    auto const before = model.at(far, 1.5).value(), after = corrected.at(far, 1.5).value();
+    auto const before = model.at(far, 2.5).value(), after = corrected.at(far, 2.5).value();
     EXPECT_NEAR(after.efficiency - before.efficiency, 0.1, 2e-3);
     EXPECT_NEAR(after.sd(), 0.1 * std::sqrt(0.75), 0.01);
 }

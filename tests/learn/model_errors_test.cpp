@@ -91,8 +91,8 @@ TEST(ModelErrors, OfTheLawHoldForGrainsThatRollAgainstFriction) {
             level_held += is_level && is_held ? 1 : 0;
         }
     }
-    EXPECT_EQ(known, 125);
-    EXPECT_EQ(held, 116);
+    EXPECT_EQ(known, 135);
+    EXPECT_EQ(held, 126);
     EXPECT_EQ(level, 12);
     EXPECT_EQ(level_held, 8);
 }

@@ -11,6 +11,7 @@ from typing import Any
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(FOLDER), str(FOLDER.parent.parent / "postprocess")]
 
+import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 import scipy.stats  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
@@ -21,10 +22,16 @@ from campaign_program import campaign_text, run_campaign, toml_value  # noqa: E4
 from validation_case import ValidationCase, read_table  # noqa: E402
 
 CAMPAIGNS = design.RECURRENCE + design.WHOLE + design.UPHILL  # of the atlas' own layers
-HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16}  # campaigns of random layers, and how many each has
+HELD_OUT = {"h0": 15, "h1": 15, "h2": 10, "h3": 16, "h4": 16}  # campaigns of random layers, and how many each has
 SEEN = 40  # the first of them were known when the trend and the uphill campaigns were chosen; the others judge
 DRY_TORQUE = 0.02  # of the rolling-layer law, to which rolling friction adds
-COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome"]
+# What a layer does to its trough: the part of its mass that moves along, its damping over mass times omega (the first campaigns have
+# neither), and the cycles after which its motion repeats.
+LOADS = ("added_mass", "damping")
+LOAD = [*(f"{name}{end}" for name in LOADS for end in ("", "_half_width")), "period"]
+COLUMNS = ["case", *design.RANGES, "theory", "rolling_layer", "efficiency", "half_width", "numerical_error", "layer_mode", "outcome", *LOAD]
+PREDICTED_LOAD = ["number", "throw_number", *(f"{source}{name}{end}" for name in LOADS for source in ("", "atlas_") for end in ("", "_half_width"))]
+MAKERS = (0.10, 0.25)  # of the material's mass move with the trough (NetterVibration)
 PREDICTED = ["number", "case", "throw_number", "tan_inclination", "efficiency", "half_width", "numerical_error", "theory", "rolling_layer", "atlas", "atlas_half_width"]
 DECISIONS = ["domain", "throw_number", "efficiency", "half_width", "theory", "atlas", "atlas_half_width"]
 # Layers that are the same without dimensions: what differs between them. The modulus goes with density, gravity and diameter.
@@ -52,7 +59,21 @@ def layers_at(run: ValidationCase, name: str, unit: Floats, changes: dict[str, A
     cases = ids_of(run, text)
     if all(case in stored for case in cases):
         return [[stored[case][column] for column in COLUMNS] for case in cases]
-    return [row_of(run, row) for row in run_campaign(run.program, run.runs / name, text, run.jobs)]
+    return [[*row_of(run, row), *load_of(run.runs / name, row["case"])] for row in run_campaign(run.program, run.runs / name, text, run.jobs)]
+
+
+def load_of(campaign: pathlib.Path, case: str) -> list[str]:
+    """What a layer did to its trough, as LOAD, with Student's interval over its packings."""
+    with h5py.File(campaign / "cases" / case / "result.h5") as file:
+        packings, whole = file["packings"], {key: float(file["case"][key]) for key in ("added_mass_fraction", "added_mass", "frequency")}
+        mass = whole["added_mass"] / whole["added_mass_fraction"]
+        count = len(packings)
+        width = float(scipy.stats.t.ppf(0.975, count - 1)) / math.sqrt(count) if count > 1 else math.nan
+        found: list[str] = []
+        for name, unit in (("added_mass", mass), ("damping", mass * 2 * math.pi * whole["frequency"])):
+            values = np.asarray(packings[name]) / unit
+            found += [f"{np.mean(values):.5f}", f"{width * np.std(values, ddof=1):.5f}"]
+        return [*found, str(int(file["case"]["period_cycles"]))]
 
 
 def ids_of(run: ValidationCase, text: str) -> list[str]:
@@ -123,6 +144,42 @@ def predict(run: ValidationCase) -> list[list[object]]:
     return rows
 
 
+def predict_loads(run: ValidationCase) -> list[list[object]]:
+    """Predictions of what the random layers that were measured do to their trough; rows of PREDICTED_LOAD."""
+    answers = ask(run, "predict", campaign_at(run, design.at_random(sum(HELD_OUT.values())), PRECISE))
+    names = {"added_mass": "added_mass_fraction", "damping": "damping"}
+    rows: list[list[object]] = []
+    one: list[object]
+    for row in (row for row in run.table("held_out.csv") if row["damping"]):
+        answer, one = answers[int(row["number"])], [row["number"], row["throw_number"]]
+        for name in LOADS:
+            one += [row[name], row[f"{name}_half_width"], f"{answer[names[name]]:.4f}", f"{answer[f'{names[name]}_half_width']:.4f}"]
+        rows.append(one)
+    return rows
+
+
+def judge_loads(run: ValidationCase) -> dict[str, object]:
+    """How well the atlas predicts added mass and damping; scores by name."""
+    run.follows("loads.csv", PREDICTED_LOAD, predict_loads(run))
+    rows = run.table("loads.csv")
+    scores: dict[str, object] = {"loads": len(rows)}
+    for name in LOADS:
+        value, width, atlas, atlas_width = (np.array([float(row[key]) for row in rows]) for key in PREDICTED_LOAD[2 + 4 * LOADS.index(name) :][:4])
+        if run.control:
+            atlas, atlas_width = np.roll(atlas, 1), np.roll(atlas_width, 1)
+        held = int(np.sum(np.abs(value - atlas) <= np.hypot(width, atlas_width)))
+        low, high = scipy.stats.binom.ppf([0.025, 0.975], len(rows), 0.95)
+        run.between(f"{name.replace('_', ' ')} of layers within their intervals, of {len(rows)}", held, low, high, because="as for the efficiency")
+        scores |= {f"{name}_held": held, f"{name}_rms": f"{math.sqrt(float(np.mean((value - atlas) ** 2))):.3f}", f"{name}_mean": f"{np.mean(value):.3f}"}
+    added = np.array([float(row["added_mass"]) for row in rows])
+    usual = int(np.sum((added >= MAKERS[0]) & (added <= MAKERS[1])))
+    run.finding("NetterVibration: 10 to 25 % of the material's mass move with the trough", usual > len(rows) / 2, f"in {usual} of {len(rows)} layers; {added.min():.2f} to {added.max():.2f}")
+    periods = [(float(row["throw_number"]), int(row["period"])) for table in ("layers.csv", "held_out.csv") for row in run.table(table) if row["period"]]
+    doubled = [throw for throw, period in periods if period > 1]
+    return {**scores, "usual": usual, "added_least": f"{added.min():.2f}", "added_most": f"{added.max():.2f}", "periods": len(periods), "doubled": len(doubled),
+            "doubled_from": f"{min(doubled):.2f}", "beyond": sum(throw >= min(doubled) for throw, _ in periods)}  # fmt: skip
+
+
 def predict_decisions(run: ValidationCase) -> list[list[object]]:
     """Predictions of the layers that judged the surfaces of validation/decisions, those of them that lie inside of the atlas."""
     folder = FOLDER.parent / "decisions"
@@ -159,7 +216,7 @@ def judge(run: ValidationCase) -> None:
     own = math.sqrt(max(0.0, rms["atlas"] ** 2 - noise**2))
     run.finding("we: the atlas misses layers by at most 0.04 (root mean square, less the noise of the simulations)", own <= 0.04,
                 f"{own:.3f}; the law alone {rms['rolling_layer']:.3f}, the point mass {rms['theory']:.3f}")
-    others = judge_decisions(run)
+    others = judge_decisions(run) | judge_loads(run)
     if not run.control:
         every = run.table("predicted.csv")
         all_held = sum(abs(float(row["efficiency"]) - float(row["atlas"])) <= math.hypot(float(row["half_width"]), float(row["atlas_half_width"])) for row in every)

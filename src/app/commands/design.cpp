@@ -84,7 +84,11 @@ learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTa
                        round == 1 ? "" : fmt::format(", with the stroke under its layer, {}", round));
         return models ? choose_machine(one, *models) : learn::ChosenDesign{one, propose_machine(one)};
     };
-    if (!task.machine || !task.machine->exciter) return find(task);
+    if (!task.machine || !task.machine->exciter) {
+        learn::ChosenDesign found = find(task);
+        settle_added_mass(found);
+        return found;
+    }
     try {
         return learn::design_with_exciter(task, find);
     } catch (std::invalid_argument const& error) {

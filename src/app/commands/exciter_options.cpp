@@ -50,7 +50,8 @@ void ExciterOptions::add_to(CLI::App& command) {
         "that it does not count");
     add("--added-mass", added_mass_,
         "Part of the material's mass that moves with the trough, from added_mass_fraction of a campaign or "
-        "written like --friction; default: \"0.10 to 0.25\" (NetterVibration)");
+        "written like --friction; default: that of the atlas' layers, else \"0.10 to 0.25\" "
+        "(NetterVibration)");
 }
 
 std::optional<learn::MovedMachine> ExciterOptions::machine() const {
@@ -68,7 +69,10 @@ std::optional<learn::MovedMachine> ExciterOptions::machine() const {
         throw core::InputError(fmt::format("--spring {}: needs the exciter; {}", *spring_, ways));
     if (exciter_) machine.exciter = read_exciter(std::string(core::trimmed(*exciter_)));
     if (spring_) machine.spring = read_positive_quantity("--spring", *spring_, "N/m", "200 N/mm");
-    if (added_mass_) machine.added_mass = read_uncertain_number("--added-mass", *added_mass_, "0.17", -1, 1);
+    if (added_mass_) {
+        machine.added_mass = read_uncertain_number("--added-mass", *added_mass_, "0.17", -1, 1);
+        machine.added_mass_source = learn::AddedMassSource::given;
+    }
     return machine;
 }
 

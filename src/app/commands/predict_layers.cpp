@@ -2,6 +2,7 @@
 
 #include "app/json_list.hpp"
 #include "atlas/atlas.hpp"
+#include "atlas/layer_load.hpp"
 #include "core/csv.hpp"
 #include "core/text.hpp"
 #include "prepare/prepared_case.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,6 +29,8 @@ struct PredictedLayer {
     atlas::Answer answer;          ///< of the atlas
     std::optional<double> theory;  ///< velocity efficiency of the point mass
     double velocity_scale;         ///< m/s
+    std::optional<atlas::LayerLoad> load;
+    std::optional<atlas::Bounded> power;  ///< W/m^2 of trough
     std::optional<double> speed() const {
         return answer.efficiency ? std::optional(*answer.efficiency * velocity_scale) : std::nullopt;
     }
@@ -37,30 +41,67 @@ struct PredictedLayer {
     }
 };
 
+/// W/m^2, the mean power of the trough on a layer.
+atlas::Bounded power_per_area(atlas::LayerLoad const& load, prepare::PreparedCase const& prepared) {
+    scenario::Scenario const& s = prepared.scenario;
+    auto const [value, half_width] = power_per_mass(load, s.trough.amplitude, s.trough.frequency);
+    double const mass_per_area = prepared.mass / (s.layer.length * s.layer.width);
+    return {mass_per_area * value, mass_per_area * half_width};
+}
+
+PredictedLayer predict_layer(prepare::PreparedCase const& prepared, std::string const& label) {
+    auto const motion = prepare::solve(prepared.point_mass);
+    PredictedLayer layer{label,
+                         atlas::predict(prepared),
+                         motion.converged ? std::optional(motion.velocity_efficiency) : std::nullopt,
+                         prepared.velocity_scale,
+                         {},
+                         {}};
+    if (layer.answer.place) {
+        layer.load = atlas::load_at(*layer.answer.place);
+        layer.power = power_per_area(*layer.load, prepared);
+    }
+    return layer;
+}
+
 std::vector<PredictedLayer> predict_all(scenario::Campaign const& campaign) {
     std::vector<PredictedLayer> layers;
     prepare::CasePreparer preparer;
     for (scenario::Scenario const& scenario : campaign.cases) {
-        prepare::PreparedCase const prepared = preparer.prepare(scenario);
         std::string const label = swept_label(scenario, campaign.swept);
-        auto const motion = prepare::solve(prepared.point_mass);
-        layers.push_back({label.empty() ? campaign.name : label, atlas::predict(prepared),
-                          motion.converged ? std::optional(motion.velocity_efficiency) : std::nullopt,
-                          prepared.velocity_scale});
+        layers.push_back(predict_layer(preparer.prepare(scenario), label.empty() ? campaign.name : label));
     }
     return layers;
+}
+
+/// What is told of a layer beside its efficiency, in the order of columns and members.
+std::vector<std::pair<char const*, std::optional<double>>> load_of(PredictedLayer const& layer) {
+    std::vector<std::pair<char const*, std::optional<double>>> all;
+    auto const add = [&](char const* name, char const* half_width, std::optional<atlas::Bounded> const& one) {
+        all.emplace_back(name, one ? std::optional(one->value) : std::nullopt);
+        all.emplace_back(half_width, one ? std::optional(one->half_width) : std::nullopt);
+    };
+    auto const part = [&](atlas::Bounded atlas::LayerLoad::*of) {
+        return layer.load ? std::optional((*layer.load).*of) : std::nullopt;
+    };
+    add("added_mass_fraction", "added_mass_fraction_half_width", part(&atlas::LayerLoad::added_mass));
+    add("damping", "damping_half_width", part(&atlas::LayerLoad::damping));
+    add("power_per_area_w_per_m2", "power_per_area_half_width_w_per_m2", layer.power);
+    return all;
 }
 
 Json as_json(PredictedLayer const& layer) {
     Json names = Json::array();
     for (atlas::Outside const& one : layer.answer.outside) names.push_back(one.name);
-    return {{"case", layer.label},
-            {"efficiency", number_or_null(layer.answer.efficiency)},
-            {"half_width", number_or_null(layer.answer.half_width)},
-            {"speed_m_per_s", number_or_null(layer.speed())},
-            {"efficiency_theory", number_or_null(layer.theory)},
-            {"inside", layer.answer.is_inside()},
-            {"outside", names}};
+    Json json{{"case", layer.label},
+              {"efficiency", number_or_null(layer.answer.efficiency)},
+              {"half_width", number_or_null(layer.answer.half_width)},
+              {"speed_m_per_s", number_or_null(layer.speed())},
+              {"efficiency_theory", number_or_null(layer.theory)},
+              {"inside", layer.answer.is_inside()},
+              {"outside", names}};
+    for (auto const& [name, value] : load_of(layer)) json[name] = number_or_null(value);
+    return json;
 }
 
 std::string cell(std::optional<double> const& value) {
@@ -68,29 +109,42 @@ std::string cell(std::optional<double> const& value) {
 }
 
 void print_csv(std::vector<PredictedLayer> const& layers) {
-    fmt::print("case,efficiency,half_width,speed_m_per_s,efficiency_theory,inside,outside\n");
+    fmt::print("case,efficiency,half_width,speed_m_per_s,efficiency_theory,inside,outside");
+    for (auto const& [name, value] : load_of(layers.front())) fmt::print(",{}", name);
+    fmt::print("\n");
     for (PredictedLayer const& layer : layers) {
-        fmt::print("{},{},{},{},{},{},{}\n", core::csv_cell(layer.label), cell(layer.answer.efficiency),
+        fmt::print("{},{},{},{},{},{},{}", core::csv_cell(layer.label), cell(layer.answer.efficiency),
                    cell(layer.answer.half_width), cell(layer.speed()), cell(layer.theory),
                    layer.answer.is_inside() ? 1 : 0,
                    core::csv_cell(layer.outside(&atlas::Outside::name, " ")));
+        for (auto const& [name, value] : load_of(layer)) fmt::print(",{}", cell(value));
+        fmt::print("\n");
     }
+}
+
+std::string with_half_width(std::optional<double> value, std::optional<double> half_width) {
+    if (!value) return "-";
+    return fmt::format("{} +- {}", core::three_digits(value), core::three_digits(half_width));
+}
+
+std::string bounded(std::optional<atlas::Bounded> const& one) {
+    return one ? with_half_width(one->value, one->half_width) : "-";
 }
 
 void print_text(std::vector<PredictedLayer> const& layers) {
     std::size_t width = 4;
     for (PredictedLayer const& layer : layers) width = std::max(width, layer.label.size());
-    fmt::print("{:{}}  {:>15}  {:>9}  {:>10}\n", "case", width, "eta, atlas", "speed", "eta theory");
-    fmt::print("{:{}}  {:>15}  {:>9}  {:>10}\n", "", width, "95 %", "m/s", "point mass");
+    constexpr char const* line = "{:{}}  {:>15}  {:>9}  {:>10}  {:>13}  {:>14}{}\n";
+    fmt::print(fmt::runtime(line), "case", width, "eta, atlas", "speed", "eta theory", "power", "added mass",
+               "");
+    fmt::print(fmt::runtime(line), "", width, "95 %", "m/s", "point mass", "W/m2, 95 %", "share, 95 %", "");
     for (PredictedLayer const& layer : layers) {
-        std::string const efficiency =
-            layer.answer.efficiency ? fmt::format("{} +- {}", core::three_digits(layer.answer.efficiency),
-                                                  core::three_digits(layer.answer.half_width))
-                                    : "-";
         std::string const outside = layer.outside(&atlas::Outside::why, ", ");
-        fmt::print("{:{}}  {:>15}  {:>9}  {:>10}{}\n", layer.label, width, efficiency,
-                   core::three_digits(layer.speed()), core::three_digits(layer.theory),
-                   outside.empty() ? "" : "  outside: " + outside);
+        auto const& added = layer.load ? std::optional(layer.load->added_mass) : std::nullopt;
+        fmt::print(fmt::runtime(line), layer.label, width,
+                   with_half_width(layer.answer.efficiency, layer.answer.half_width),
+                   core::three_digits(layer.speed()), core::three_digits(layer.theory), bounded(layer.power),
+                   bounded(added), outside.empty() ? "" : "  outside: " + outside);
     }
     bool const is_all_inside =
         std::ranges::all_of(layers, [](PredictedLayer const& layer) { return layer.answer.is_inside(); });
