@@ -1,6 +1,7 @@
 #include "learn/design_report.hpp"
 
 #include "learn/design_details.hpp"
+#include "learn/driven_design.hpp"
 #include "learn/machine_keys.hpp"
 
 #include <algorithm>
@@ -16,9 +17,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// W, given to the material on the whole trough, or W per metre of it.
+/// kg, of the material on the whole trough, or kg per metre of it.
+double material(DesignTask const& t, RiskDesign const& d) {
+    return t.bulk_density * t.width * d.depth * (t.length > 0 ? t.length : 1);
+}
+
+/// W, given to the material on the whole trough by the point mass, or W per metre of it.
 double power(DesignTask const& t, RiskDesign const& d) {
-    return d.power_per_mass * t.bulk_density * t.width * d.depth * (t.length > 0 ? t.length : 1);
+    return d.power_per_mass * material(t, d);
+}
+
+/// The same by the atlas of layers, where it knows the layer.
+std::optional<atlas::Bounded> atlas_power(DesignTask const& t, RiskDesign const& d) {
+    auto const load = load_of(t, d);
+    if (!load) return {};
+    auto const [value, half_width] = power_per_mass(*load, d.drive.amplitude, d.drive.frequency);
+    return atlas::Bounded{value * material(t, d), half_width * material(t, d)};
 }
 
 /// A number that says how probable something is; none where that is not known.
@@ -69,8 +83,12 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
     text += fmt::format(
         "landing speed     {:.3g} m/s at most, for frictions of {:.3g} to {:.3g} (point mass, mode {})\n",
         d.landing_speed, t.friction.low, t.friction.high, d.mode);
-    text += fmt::format("power             {:.3g} W{} given to the material (point mass)\n", power(t, d),
-                        t.length > 0 ? "" : " per metre of trough");
+    auto const by_atlas = atlas_power(t, d);
+    text += fmt::format("power             {:.3g} W{} given to the material (point mass){}\n", power(t, d),
+                        t.length > 0 ? "" : " per metre of trough",
+                        by_atlas ? fmt::format("; {:.3g} +- {:.2g} W by the atlas of layers", by_atlas->value,
+                                               by_atlas->half_width)
+                                 : "");
     text += exciter_text(t, d);
     if (t.length > 0 && d.sure_speed > 0 && !d.untested)
         text += fmt::format("time on trough    {:.3g} s at most, with {:.4g} %\n", t.length / d.sure_speed,
@@ -236,6 +254,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
 
 Json design_json(DesignTask const& t, RiskDesign const& d) {
     theory::Drive const& m = d.drive;
+    auto const by_atlas = atlas_power(t, d);
     Json json{{"task", as_json(t)},
               {"feasible", d.feasible},
               {"sentence", first_sentence(t, d)},
@@ -255,6 +274,8 @@ Json design_json(DesignTask const& t, RiskDesign const& d) {
               {"friction_median", t.friction.median},
               {"friction_high", t.friction.high},
               {t.length > 0 ? "power_w" : "power_w_per_m", power(t, d)},
+              {"power_by_atlas", by_atlas ? Json(by_atlas->value) : Json(nullptr)},
+              {"power_by_atlas_half_width", by_atlas ? Json(by_atlas->half_width) : Json(nullptr)},
               {"mass_flow_wanted_t_per_h", tonnes_per_hour * t.mass_flow},
               {"confidence", t.confidence},
               {"probability", if_known(d, d.probability)},

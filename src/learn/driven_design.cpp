@@ -1,6 +1,5 @@
 #include "learn/driven_design.hpp"
 
-#include "atlas/layer_load.hpp"
 #include "atlas/unknown.hpp"
 
 #include <cmath>
@@ -18,22 +17,28 @@ double material_on(DesignTask const& task, double depth) {
     return task.bulk_density * task.width * task.length * depth;
 }
 
-void settle_added_mass(ChosenDesign& found) {
-    auto& [task, design] = found;
-    if (!task.machine || task.machine->added_mass_source == AddedMassSource::given || !task.grain_diameter)
-        return;
+std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const& design) {
+    if (!task.grain_diameter) return {};
     theory::Drive const& drive = design.drive;
     atlas::Place const place = atlas::PartlyKnown::place_of(
         {design.throw_number, std::tan(drive.vibration_angle), std::tan(drive.inclination),
          task.friction.median, drive.amplitude / *task.grain_diameter, design.depth / *task.grain_diameter,
          std::nullopt, task.rolling_friction, std::nullopt});
-    MovedMachine const usual{};
-    task.machine->added_mass = usual.added_mass;
-    task.machine->added_mass_source = usual.added_mass_source;
-    if (!atlas::outside_ranges(place).empty()) return;
-    auto const [value, half_width] = atlas::load_at(place).added_mass;
-    task.machine->added_mass = {value, half_width / atlas::deviations_in_half_width};
-    task.machine->added_mass_source = AddedMassSource::atlas;
+    if (!atlas::outside_ranges(place).empty()) return {};
+    return atlas::load_at(place);
+}
+
+void settle_added_mass(ChosenDesign& found) {
+    if (!found.task.machine || found.task.machine->added_mass_source == AddedMassSource::given) return;
+    MovedMachine& machine = *found.task.machine;
+    if (auto const load = load_of(found.task, found.design)) {
+        auto const [value, half_width] = load->added_mass;
+        machine.added_mass = {value, half_width / atlas::deviations_in_half_width};
+        machine.added_mass_source = AddedMassSource::atlas;
+    } else {
+        machine.added_mass = MovedMachine{}.added_mass;
+        machine.added_mass_source = AddedMassSource::maker;
+    }
 }
 
 ChosenDesign design_with_exciter(DesignTask const& task,

@@ -1,16 +1,22 @@
 #pragma once
 
+#include "atlas/layer_load.hpp"
 #include "learn/model_choice.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace vibrotrough::learn {
 
 /// kg, of the material on the trough of a task. @param depth  m, of the layer
 double material_on(DesignTask const& task, double depth);
 
+/// What the layer of a design does to its trough by the layers of the atlas; nothing where it does not lie
+/// among them, or the diameter of its grains is not known.
+std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const& design);
+
 /// Sets the added mass of the machine of a design, unless it was given, to what the layers of the atlas have,
-/// if the layer of the design lies among them and the diameter of its grains is known.
+/// if load_of() knows it.
 void settle_added_mass(ChosenDesign& found);
 
 /// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter

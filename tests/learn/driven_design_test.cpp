@@ -62,8 +62,13 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     EXPECT_GT(machine.added_mass.mean, 0.05);
     EXPECT_LT(machine.added_mass.mean, 0.35);
     EXPECT_LT(machine.added_mass.sd, 0.02);
-    EXPECT_EQ(design_json(found.task, found.design).at("exciter").at("added_mass_from"),
-              "the atlas of layers");
+    auto const json = design_json(found.task, found.design);
+    EXPECT_EQ(json.at("exciter").at("added_mass_from"), "the atlas of layers");
+    // The power of the layers between throw numbers 1.9 and 2.2 is 0.89 to 1.05 of the point mass's.
+    EXPECT_NEAR(json.at("power_by_atlas").get<double>(), json.at("power_w").get<double>(),
+                0.3 * json.at("power_w").get<double>());
+    EXPECT_GT(json.at("power_by_atlas_half_width").get<double>(), 0);
+    EXPECT_THAT(design_text(found.task, found.design), testing::HasSubstr(" W by the atlas of layers"));
     found.task.grain_diameter = 0.001;  // 18 grains: deeper than the layers of the atlas
     settle_added_mass(found);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
