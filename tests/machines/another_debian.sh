@@ -28,8 +28,8 @@ exec unshare --mount sh -eu -c '
     mount --rbind /sys "$root/sys"
     cp /etc/resolv.conf "$root/etc/resolv.conf"
     exec chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 sh -eu -c "
-        git clone --quiet /checkout.bundle /vibrotrough 2>/dev/null || { cd /vibrotrough && git fetch --quiet origin HEAD; }
-        cd /vibrotrough
+        git clone --quiet /checkout.bundle /checkout-of-vibrotrough 2>/dev/null || { cd /checkout-of-vibrotrough && git fetch --quiet origin HEAD; }
+        cd /checkout-of-vibrotrough
         git checkout --quiet --detach \"\$(git bundle list-heads /checkout.bundle | cut -d\" \" -f1)\"
         [ -e /installed ] || { apt-get update -qq; DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \$(./setup packages test) >/dev/null; touch /installed; }
         exec \"\$@\"" sh "$@"' sh "$root" "$@"

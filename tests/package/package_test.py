@@ -65,8 +65,8 @@ class Package(Unpacked):
         for path in [*self.root.rglob("*"), *self.module_root.rglob("*")]:
             if path.is_file():
                 content = path.read_bytes()
-                self.assertNotIn(SOURCE.encode(), content, path)
-                self.assertNotIn(BUILD.encode(), content, path)
+                self.assertFalse(SOURCE.encode() in content, path)
+                self.assertFalse(BUILD.encode() in content, path)
 
     def test_the_module_is_a_package_of_its_own(self):
         """It needs neither the program nor the libraries of the program, and the two have no file in common, so that both can be installed."""
