@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <map>
+#include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -23,36 +23,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a program of the PATH in `folder` and returns its exit code, 127 when it cannot be started, or
-/// 128 + n when signal n ended it.
-int run_program(std::vector<std::string> words, fs::path const& folder, bool silent) {
+/// Where a script's Python tells that it has all modules: the write end of a pipe has this number there.
+constexpr int proof_of_modules = 9;
+
+/// Runs Python in `folder`. Its exit code, or 128 + n when signal n ended it; nothing when the program could
+/// not be started, or has not all modules or is no Python: only starter() writes the proof.
+std::optional<int> run_python(std::vector<std::string> words, fs::path const& folder) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    int pipe[2];
+    if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0)
+        throw core::MissingError(fmt::format("cannot start {} ({})", words.front(), core::reason_of(errno)));
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_adddup2(&actions, pipe[1], proof_of_modules);
     bool const has_output = (::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) != O_RDONLY;
-    for (int const stream : {STDOUT_FILENO, STDERR_FILENO}) {
-        if (silent || (stream == STDOUT_FILENO && !has_output))
-            posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-    }
+    if (!has_output) posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     // Standard output that was closed: the script does all of its work, and main() finds that nobody could
     // read what it said.
-    if (!silent && !has_output) std::fputc('\n', stdout);
+    if (!has_output) std::fputc('\n', stdout);
     std::fflush(stdout);
     pid_t child = 0;
     int const failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    bool ended = failure == 0;
+    while (ended && ::waitpid(child, &status, 0) < 0) ended = errno == EINTR;
+    char proof = 0;
+    bool const proved = ::read(pipe[0], &proof, 1) == 1;
+    ::close(pipe[0]);
+    ::close(pipe[1]);
     if (failure == EAGAIN || failure == EMFILE) {
         throw core::MissingError(
             fmt::format("cannot start {} ({})", words.front(), core::reason_of(failure)));
     }
-    if (failure != 0) return 127;
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) return 127;
-    }
+    if (!ended || !proved) return {};
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -62,26 +69,26 @@ std::string absolute_program(std::string const& given) {
     return given.find('/') == std::string::npos ? given : fs::absolute(given).string();
 }
 
-std::string find_python(std::string const& python, std::vector<std::string> const& modules) {
-    // NumPy would start a thread for each core, and hangs where the user may have no more.
-    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
-    core::require_processes(2, "Python needs");
-    std::string const imports = fmt::format("import {}", fmt::join(modules, ", "));
-    static std::map<std::string, std::string> known;  // by what it must import: a command may run two scripts
-    if (auto const found = known.find(imports); found != known.end()) return found->second;
-    std::vector<std::string> const candidates = python.empty()
-                                                    ? std::vector<std::string>{"/usr/bin/python3", "python3"}
-                                                    : std::vector{absolute_program(python)};
-    for (std::string const& candidate : candidates) {
-        if (run_program({candidate, "-c", imports}, script_folder(), true) == 0)
-            return known[imports] = candidate;
-    }
-    std::string packages;
-    for (std::string const& module : modules) packages += " python3-" + module;
-    throw core::MissingError(fmt::format(
-        "{} does not have all of the modules {}; install them (Debian: apt-get install{}), or give "
-        "a Python that has them with --python",
-        fmt::join(candidates, " or "), fmt::join(modules, ", "), packages));
+/// Python that imports the modules and then runs the script whose path and arguments follow, as if it had
+/// been called with them. One start does both, because the imports take as long as many a script.
+std::string starter(std::vector<std::string> const& modules) {
+    return fmt::format(R"(import os, sys
+try:
+    import {}
+except Exception:
+    sys.exit(1)
+os.write({}, b"1")
+os.close({})
+del sys.argv[0]
+if sys.path[:1] == [""]:
+    del sys.path[0]
+sys.path.insert(0, os.path.dirname(sys.argv[0]))
+__file__ = sys.argv[0]
+with open(__file__, "rb") as script:
+    text = script.read()
+exec(compile(text, __file__, "exec"))
+)",
+                       fmt::join(modules, ", "), proof_of_modules, proof_of_modules);
 }
 
 }  // namespace
@@ -101,13 +108,28 @@ fs::path script_folder() {
 
 int script_exit_code(std::string const& script, std::vector<std::string> const& arguments,
                      std::string const& python, std::vector<std::string> const& modules) {
-    fs::path const path = script_folder() / script;
-    // -B: no __pycache__, because the folder may be read-only, and the sources must stay clean.
-    std::vector<std::string> words{find_python(python, modules), "-B", path.string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    // Python imports modules from the folder that it is started in, and matplotlib reads its settings there:
-    // it is started in the scripts' own folder, because anybody may have put anything into the user's.
-    return run_program(words, script_folder(), false);
+    // NumPy would start a thread for each core, and hangs where the user may have no more.
+    ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    core::require_processes(2, "Python needs");
+    std::vector<std::string> const candidates = python.empty()
+                                                    ? std::vector<std::string>{"/usr/bin/python3", "python3"}
+                                                    : std::vector{absolute_program(python)};
+    for (std::string const& candidate : candidates) {
+        // -B: no __pycache__, because the folder may be read-only, and the sources must stay clean.
+        std::vector<std::string> words{candidate, "-B", "-c", starter(modules),
+                                       (script_folder() / script).string()};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        // Python imports modules from the folder that it is started in, and matplotlib reads its settings
+        // there: it is started in the scripts' own folder, because anybody may have put anything into the
+        // user's.
+        if (std::optional<int> const code = run_python(words, script_folder())) return *code;
+    }
+    std::string packages;
+    for (std::string const& module : modules) packages += " python3-" + module;
+    throw core::MissingError(fmt::format(
+        "{} does not have all of the modules {}; install them (Debian: apt-get install{}), or give "
+        "a Python that has them with --python",
+        fmt::join(candidates, " or "), fmt::join(modules, ", "), packages));
 }
 
 void run_script(std::string const& script, std::vector<std::string> const& arguments,
