@@ -17,20 +17,20 @@ FED_SCREEN = {
     "grains.youngs_modulus": "5 MPa",
     "grains.diameter_spread": 0.15,
     "layer.grains": None,
-    "layer.length": "60 mm",
-    "feed.mass_flow": "0.06 t/h",
+    "layer.length": "48 mm",
+    "feed.mass_flow": "0.04 t/h",
     "feed.length": "15 mm",
     "screen.opening": "3.2 mm",
     "screen.wire": "1.8 mm",
-    "measure.min_cycles": 24,
-    "measure.max_cycles": 24,
-    "output.checkpoint_cycles": 8,
+    "measure.min_cycles": 20,
+    "measure.max_cycles": 20,
+    "output.checkpoint_cycles": 4,
 }
 # Takes one grain of the first size out of the layer without telling.
 LOSING = """[before-first-cycle]
-region hole block 0.03 0.05 INF INF 0 INF units box
+region hole block 0.02 0.04 INF INF 0 INF units box
 [at-cycle-end]
-if "${done} == 14" then "delete_atoms region hole compress no"
+if "${done} == 7" then "delete_atoms region hole compress no"
 """
 
 
@@ -104,7 +104,7 @@ class FedScreen(EndToEndTest):
 
     def test_a_killed_run_gives_the_same_numbers(self):
         campaign = self.write_campaign({**FED_SCREEN, "measure.packings": 1})
-        one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
+        one, other = self.results_with_and_without_a_kill(campaign, 4, wanted=None)
         with h5py.File(one) as file, h5py.File(other) as same:
             for table in ("flow/1", "size_cycles/1", "partition"):
                 self.assertEqual(file[table][()].tobytes(), same[table][()].tobytes(), table)
@@ -116,7 +116,7 @@ class FedScreen(EndToEndTest):
         done = self.call(*self.run_arguments(campaign), "--allow-extra")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(self.table()[0]["outcome"], "lost-grains")
-        self.assertTrue(re.search("are missing at the end of cycle 15", json.dumps(self.ask_json("status"))))
+        self.assertTrue(re.search("are missing at the end of cycle 8", json.dumps(self.ask_json("status"))))
 
 
 if __name__ == "__main__":

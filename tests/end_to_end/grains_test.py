@@ -72,7 +72,7 @@ class Grains(EndToEndTest):
 class Block(EndToEndTest):
     def run_blocks(self, block, numbers, friction=0.23):
         changes = {"layer.grains": None, "layer.block": block, "grains.diameter_spread": None, "measure.half_width": 0.001,
-                   "measure.max_cycles": 100, "trough.friction": friction, "layer.length": "30 mm", "layer.width": "30 mm"}
+                   "measure.max_cycles": 100, "trough.friction": friction, "layer.length": "24 mm", "layer.width": "24 mm"}
         self.run_campaign(self.write_campaign(changes, {"trough.throw_number": numbers}))
         with h5py.File(self.output / "campaign.h5") as table:
             self.assertEqual(table["packings"][()].tolist(), [1] * len(numbers), "a block needs one packing")

@@ -70,7 +70,7 @@ class OpenTrough(EndToEndTest):
         self.assertAlmostEqual(row["mass_flow_kg_per_s"] / asked, 1, delta=0.05)
 
     def test_a_killed_run_gives_the_same_numbers(self):
-        campaign = self.write_campaign({**OPEN, "measure.packings": 1})
+        campaign = self.write_campaign({**OPEN, "measure.packings": 1, "measure.min_cycles": 20, "measure.max_cycles": 20})
         one, other = self.results_with_and_without_a_kill(campaign, 8, wanted=None)
         with h5py.File(one) as file, h5py.File(other) as same:
             for table in ("flow/1", "along/1", "residence/1"):

@@ -109,7 +109,7 @@ class PersonsFiles(EndToEndTest):
                  self.output / "campaign.h5", self.output / "campaign.toml", self.output / "engine.json", self.output / "certificate.json")  # fmt: skip
         makers = (os.mkfifo, lambda link: link.symlink_to(pipe))
         commands = (("status",), ("compare",), ("export",), ("plot", "--only", "cycles"), ("report",), ("archive", "--partial", "--output", self.folder / "b.zip"))
-        for path, make, command in sample(itertools.product(paths, makers, commands), 5):
+        for path, make, command in sample(itertools.product(paths, makers, commands), 7):
             path.rename(kept)
             make(path)
             with self.subTest(path=path.name, command=command[0], link=path.is_symlink()):
@@ -189,7 +189,7 @@ class PersonsFiles(EndToEndTest):
         limit = {"env": dict(os.environ, TMPDIR=str(temporary)), "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))}
         bundle = self.folder / "bundle.zip"
         left = lambda: [str(path) for path in self.folder.rglob("*.part-*")] + list(temporary.iterdir())  # noqa: E731
-        for command in (("archive", self.output, "--output", bundle), ("plot", self.output), ("report", self.output)):
+        for command in (("archive", self.output, "--output", bundle), ("plot", self.output, "--only", "cycles"), ("report", self.output)):
             done = self.call(*command, **limit)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
@@ -250,7 +250,7 @@ class PersonsFiles(EndToEndTest):
         self.finished_campaign(ONE)
         page, certificate = self.output / "report" / "report.html", self.output / "certificate.json"
         whole = certificate.read_bytes()
-        for damaged in sample((b"[]", b'{"probes": [{"a": 1}, 2, [3]]}', b"[" * 100_000, b'{"a": ' * 5000, b"", b"{", b"\xff\xfe", whole[: len(whole) // 2]), 3):
+        for damaged in sample((b"[]", b'{"probes": [{"a": 1}, 2, [3]]}', b"[" * 100_000, b'{"a": ' * 5000, b"", b"{", b"\xff\xfe", whole[: len(whole) // 2]), 5):
             certificate.write_bytes(damaged)
             page.unlink(missing_ok=True)
             done = self.call("report", self.output)

@@ -1,6 +1,7 @@
 """What the program promises about folders and engines: each docstring is a sentence of .github/PROMISES.md (promises.py)."""
 
 import hashlib
+import itertools
 import json
 import os
 import shutil
@@ -11,7 +12,7 @@ import time
 import unittest
 from pathlib import Path
 
-from trough_program import PATIENCE, PROGRAM, EndToEndTest, count_cycles, engines_in, pause, processes_in, wait_until
+from trough_program import PATIENCE, PROGRAM, EndToEndTest, count_cycles, engines_in, pause, processes_in, sample, wait_until
 
 ONE = {"measure.packings": 1, "measure.max_cycles": 24}
 # A settled filling, and a run that goes on for long enough to be looked at.
@@ -57,9 +58,9 @@ class Security(EndToEndTest):
                 (place / f"{module}.py").write_text(harm)
             (place / "matplotlibrc").write_text("backend: module://harm\n")
         elsewhere = self.folder / "elsewhere"
-        for command, place, path in (("plot", self.output, ""), ("report", self.output, "."), ("report", elsewhere, ":")):
+        for command, place, path in (("plot --only cycles", self.output, ""), ("report", self.output, "."), ("plot --only cycles", elsewhere, ":")):
             environment = dict(os.environ, PYTHONPATH=path)
-            done = self.call(command, os.path.relpath(self.output, place), cwd=place, env=environment)
+            done = self.call(*command.split(), os.path.relpath(self.output, place), cwd=place, env=environment)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertFalse(proof.exists(), f"{command} in {place} executed {proof.read_text() if proof.exists() else ''}")
             self.assertTrue(all(Path(line).is_file() for line in done.stdout.splitlines()), done.stdout)
@@ -115,10 +116,10 @@ class Security(EndToEndTest):
             (["run", campaign, "--output", self.output, "--liggghts", self.engine], "campaign.log", "letter"),
             (["run", campaign, "--output", self.output, "--liggghts", self.engine], "campaign.h5", "letter"),
             (["run", campaign, "--output", self.output, "--liggghts", self.engine], "engine.json", "letter"),
-            (["plot", self.output], "report", ""),
+            (["plot", self.output, "--only", "cycles"], "report", ""),
             (["report", self.output], "report/report.html", "letter"),
             (["report", self.output], "report/data", ""),
-            (["plot", self.output], "report/efficiency.svg", "letter"),
+            (["plot", self.output, "--only", "efficiency"], "report/efficiency.svg", "letter"),
             (["observe", self.output, mine, "--allow-python", mine], "observables.json", "letter"),
             (["export", self.output, "--table"], "view", ""),
             (["export", self.output, "--table"], "view/campaign.vtt", "letter"),
@@ -218,18 +219,17 @@ class Security(EndToEndTest):
         batch.mkdir(parents=True)
         case = self.only_case()
         (case / "result.h5").rename(case / "result")
-        for path in (self.output / ".lock", self.output / "certificate.json", batch / "batch.json", self.output / "numerics.json",
-                     self.output / "friction.json", case / "failure.json", case / "packing-1" / "packing.json", case / "summary"):  # fmt: skip
+        paths = (self.output / ".lock", self.output / "certificate.json", batch / "batch.json", self.output / "numerics.json",
+                 self.output / "friction.json", case / "failure.json", case / "packing-1" / "packing.json", case / "summary")  # fmt: skip
+        for path, make, command in sample(itertools.product(paths, (os.mkfifo, self.make_sparse), ("status", "report")), 3):
             kept = path.read_bytes() if path.is_file() else None
-            for make in (os.mkfifo, self.make_sparse):
-                path.unlink(missing_ok=True)
-                make(path)
-                for command in ("status", "report"):
-                    with self.subTest(path=path.name, command=command, make=make.__name__):
-                        begin = time.monotonic()
-                        done = self.call(command, self.output)
-                        self.assertIn(done.returncode, (0, 2, 3), done.stderr)
-                        self.assertLess(time.monotonic() - begin, PATIENCE / 2, "it waits for nobody")
+            path.unlink(missing_ok=True)
+            make(path)
+            with self.subTest(path=path.name, command=command, make=make.__name__):
+                begin = time.monotonic()
+                done = self.call(command, self.output)
+                self.assertIn(done.returncode, (0, 2, 3), done.stderr)
+                self.assertLess(time.monotonic() - begin, PATIENCE / 2, "it waits for nobody")
             path.unlink()
             if kept is not None:
                 path.write_bytes(kept)

@@ -56,7 +56,7 @@ class PageTest(unittest.TestCase):
 
     def test_answers_are_those_of_the_program(self):
         draw = random.Random(50)
-        for _ in range(50):
+        for _ in range(50 if NAME == "firefox" else 12):  # Firefox has the night
             stroke, machine_number = round(draw.uniform(2, 16), 1), draw.uniform(1, 5)
             one = {"stroke_mm": stroke, "rpm": round(945.8 * (machine_number / (stroke / 2)) ** 0.5), "vibration_angle_deg": round(draw.uniform(18, 40)),
                    "inclination_deg": round(draw.uniform(-3, 3), 1), "friction": round(draw.uniform(0.2, 0.6), 2), "rolling_friction": draw.choice([0, 0.02, 0.1, 0.2, 0.3]),

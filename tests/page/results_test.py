@@ -34,7 +34,7 @@ class DesignTest(unittest.TestCase):
 
     def test_the_proposed_machine_and_the_second_best(self):
         """The page begins with the machine of the design; B is the second best speed of the drive. What the design says stands beside."""
-        said = self.design("<i>design.json", "--rpm", "960,1450", flow="8 t/h")
+        said = self.design("<i>design.json", "--rpm", "960,1450", "--vibration-angle", "30 deg", flow="8 t/h")
         second = next(one for one in said["speeds_compared"] if one["rank"] == 2)
         b = self.open_page("<i>design.json")
         self.assert_is(b, said)
