@@ -94,7 +94,7 @@ TEST_F(BatchTest, TheScriptRunsSeveralEnginesAndWaitsForAll) {
 TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     fs::path const program = folder / "vibrotrough";
     std::ofstream(program) << "#!/bin/sh\ntrap 'echo told >> said; exit 130' TERM\n"
-                              "kill -USR1 $PPID\nsleep 20 & wait\n";
+                              "kill -USR1 $PPID\nsleep 20 > /dev/null 2>&1 & wait\n";
     fs::permissions(program, fs::perms::owner_all);
     Batch const batch = write_batch(slurm, folder, tasks, {program, 1, {}, 0, false, {}, 1, true});
     std::ofstream(batch.folder / "task-2.ended") << "130\n";
@@ -111,6 +111,32 @@ TEST_F(BatchTest, TheScriptQueuesAWarnedTaskAgain) {
     }
     EXPECT_EQ(core::read_file(folder / "asked"), "requeue 77_2\nrequeue 77_2\n");
     EXPECT_EQ(core::read_file(folder / "said"), "told\ntold\n");
+}
+
+// A driver that was killed after it had submitted a batch: its tasks have written down the job's number. What
+// Slurm says of them is read as squeue(1) has it.
+TEST_F(BatchTest, AJobThatOnlyItsTasksKnowIsFoundAndAskedFor) {
+    Batch const batch = write_batch(slurm, folder, tasks, {"/usr/bin/true", 1, {}, 0, false, {}});
+    std::ofstream(batch.folder / "task-1.started") << "node 4711\n";
+    fs::create_directories(folder / "bin");
+    for (auto const& [name, script] :
+         {std::pair{"squeue",
+                    "case \"$*\" in *'-j 4711 '*) ;; *) exit 0 ;; esac\n"
+                    "echo '4711_0|TIMEOUT|TimeLimit'\necho '4711_1|RUNNING|None'\n"
+                    "echo '4711_2|OUT_OF_MEMORY|None'\n"},
+          {"sacct", "exit 1\n"}}) {
+        std::ofstream(folder / "bin" / name) << "#!/bin/sh\n" << script;
+        fs::permissions(folder / "bin" / name, fs::perms::owner_all);
+    }
+    std::string const path = std::getenv("PATH");
+    ::setenv("PATH", fmt::format("{}:{}", (folder / "bin").string(), path).c_str(), 1);
+    std::vector<Batch> batches{batch};
+    auto const found = survey_tasks(slurm, batches);
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(batches[0].job, 4711);
+    EXPECT_EQ(found[0][0].outcome, core::Outcome::time_limit) << found[0][0].message;
+    EXPECT_EQ(found[0][1].state, PackingActivity::running);
+    EXPECT_EQ(found[0][2].outcome, core::Outcome::out_of_memory) << found[0][2].message;
 }
 
 }  // namespace

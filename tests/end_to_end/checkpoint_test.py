@@ -6,7 +6,7 @@ import shutil
 import signal
 import unittest
 
-from trough_program import EndToEndTest, engines_in, processes_in, wait_until, without_wall_time
+from trough_program import EndToEndTest, engines_in, pause, processes_in, wait_until, without_wall_time
 
 # One packing that runs to its last cycle, with a checkpoint every five.
 LONG = {"measure.packings": 1, "measure.half_width": 0.00001, "measure.max_cycles": 24, "output.checkpoint_cycles": 5}
@@ -88,12 +88,15 @@ class Checkpoint(EndToEndTest):
         campaign = self.write_campaign(LONG)
         table, cycles = self.undisturbed(campaign)
         self.kill_in_the_middle(campaign, signal.SIGINT, 20)
+        seal = json.loads((self.packing() / "checkpoint.json").read_text())
         self.take_starts()
         self.run_campaign(campaign, wanted=1)
         begun = self.begun() if self.take_starts() else 24  # 24: it had all its cycles, and was only evaluated
         self.assertGreaterEqual(begun, 20)
         # Ctrl-C makes a checkpoint at the end of the cycle in which it comes. The cycles before are the same, digit for digit; those
         # after it have other digits unless the undisturbed run wrote a checkpoint there, too (src/deck/README.md, checkpoints).
+        spent = json.loads((self.packing() / "packing.json").read_text())["core_time"]
+        self.assertGreaterEqual(spent, seal["core_time"], "what was spent before the checkpoint counts")
         now, before = (self.numbers(text) for text in ((self.packing() / "cycles.csv").read_text(), cycles))
         self.assertEqual(now[: begun + 1], before[: begun + 1])
         self.assertEqual(len(now), len(before))
@@ -152,11 +155,16 @@ class SettledPackings(EndToEndTest):
 
     def test_a_killed_settling_leaves_nothing_to_be_taken_for_whole(self):
         campaign = self.write_campaign({"measure.packings": 1})
-        driver = self.start_campaign(campaign)
-        wait_until(lambda: engines_in(self.output / "packings"), "the engine settled a packing", driver)
-        driver.send_signal(signal.SIGKILL)
-        self.finish(driver)
-        wait_until(lambda: not processes_in(self.output), "the engine was gone")
+        for how, wanted in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 130)):
+            driver = self.start_campaign(campaign)
+            engine = wait_until(lambda: next(filter(pause, engines_in(self.output / "packings")), None), "the engine settled a packing", driver)
+            driver.send_signal(how)
+            if how == signal.SIGINT:
+                os.kill(engine, signal.SIGCONT)
+            code, _, errors = self.finish(driver)
+            self.assertEqual(code, wanted, errors)
+            wait_until(lambda: not processes_in(self.output), "the engine was gone")
+            self.assertEqual([*self.output.glob("packings/*.failed"), *self.output.rglob("failure.json")], [], "an interruption is no failure")
         self.run_campaign(campaign)
         self.assertEqual([row["outcome"] for row in self.table()], ["finished"])
         self.assertEqual([name for name in os.listdir(self.output / "packings") if "." in name], [])

@@ -60,6 +60,7 @@ class FailingEngine(EndToEndTest):
         done = self.run_campaign(self.campaign, wanted=1)
         self.assertIn("1 of 2 cases finished, 1 failed", done.stdout)
         self.assertEqual([row["outcome"] for row in self.table()], ["engine-error", "finished"])
+        self.assertNotIn("to go", self.call("status", self.output).stdout, "neither case goes on by itself")
 
     def test_an_engine_that_hangs_is_killed_on_ctrl_c(self):
         driver = self.start_campaign(self.campaign)

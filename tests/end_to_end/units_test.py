@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 import tomllib
 import unittest
 from pathlib import Path
@@ -84,6 +85,14 @@ class Units(EndToEndTest):
             self.assertLess(abs(row["added_mass_fraction"]), 1)
         self.assertAlmostEqual(row["mass_flow_half_width_t_per_h"] / row["mass_flow_t_per_h"],
                                row["efficiency_whole_half_width"] / row["efficiency"], 9)
+
+    def test_times_are_those_of_a_clock(self):
+        campaign = self.write_campaign({}, {"layer.grains": [4000, 8000, 16000]})
+        arguments = ("plan", campaign, "--output", self.output, "--liggghts", self.engine)
+        times = [round(case["core_time_s"]) for case in json.loads(self.call(*arguments, "--json").stdout)["cases"]]
+        self.assertTrue(any(time % 60 >= 10 for time in times), times)
+        shown = re.findall(r" (\d+):(\d\d)$", self.call(*arguments).stdout, re.MULTILINE)
+        self.assertEqual([60 * int(minutes) + int(seconds) for minutes, seconds in shown], times)
 
     def test_swept_keys_are_in_every_view(self):
         sweep = {"grains.rolling_friction": [0.05, 0.2], "layer.width": ["15 mm", "18 mm"]}

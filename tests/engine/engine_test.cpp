@@ -174,7 +174,9 @@ TEST_F(EngineTest, HoldsItsFolderUntilItIsKilled) {
     fs::permissions(script, fs::perms::owner_all);
     auto process = std::make_unique<EngineProcess>(context, Engine{script, "any"}, folder, [](ExitStatus) {});
     EXPECT_TRUE(has_writer(folder));
+    auto const start = std::chrono::steady_clock::now();
     process.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
     EXPECT_FALSE(has_writer(folder));
 }
 
