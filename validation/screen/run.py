@@ -9,6 +9,7 @@ sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
+import fed  # noqa: E402
 from campaign_program import Row  # noqa: E402
 from figure_style import COLOURS, MARKERS, new_figure  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
@@ -97,6 +98,7 @@ def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         simulate(run)
+        fed.simulate(run)
     judge_balances(run)
     pairs = [(float(row["closed_x_m"]), float(row["plain_x_m"])) for row in run.table("closed.csv")]
     run.check("no holes: largest distance of the centres of mass on a screen without holes and on the plain floor, m", max(abs(a - b) for a, b in pairs), 0, 1e-12,
@@ -104,6 +106,7 @@ def main() -> None:
     rows = run.table("sizes.csv")
     judge_sizes(run, rows)
     draw(run, rows)
+    fed.judge(run)
     run.finish()
 
 
