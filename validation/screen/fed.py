@@ -10,10 +10,10 @@ import numpy as np
 from figure_style import COLOURS, MARKERS, new_figure
 from validation_case import ValidationCase
 
-# A strip of 18 mm with its share of 2.5, 7.5 and 22 t/h on 1 m: thinner than a grain, a grain deep, and several.
-FEEDS = [0.045, 0.135, 0.405]  # t/h
+# A strip of 24 mm with its share of 2.5, 7.5 and 22 t/h on 1 m: thinner than a grain, a grain deep, and several.
+FEEDS = [0.06, 0.18, 0.54]  # t/h
 CHANGES: dict[str, Any] = {
-    "trough.inclination": "-10 deg", "trough.side_wall_friction": 0, "grains.youngs_modulus": "5 MPa", "layer.length": "102 mm", "layer.width": "18 mm", "layer.height": None,
+    "trough.inclination": "-10 deg", "trough.side_wall_friction": 0, "grains.youngs_modulus": "5 MPa", "layer.length": "90 mm", "layer.height": None,
     "feed.length": "30 mm", "feed.height": "60 mm", "screen.time": None, "measure.packings": 3, "measure.max_packings": 3, "measure.min_cycles": 30,
     "measure.max_cycles": 30}  # fmt: skip
 NO_HOLES = {"screen.opening": "0 mm", "screen.wire": "6 mm"}
@@ -111,7 +111,7 @@ def draw(run: ValidationCase) -> None:
     table = [row for row in run.table("fed.csv") if row["case"] in {f"fed-{feed}" for feed in FEEDS}]
     figure, axes = new_figure(size=(6.4, 4.0), layout="constrained")
     feed, efficiency, width = ([float(row[name]) for row in table] for name in ("feed_t_per_h", "efficiency", "efficiency_half_width"))
-    axes.errorbar([one / 0.018 for one in feed], efficiency, width, fmt=MARKERS[0] + "-", color=COLOURS[0], capsize=3)
+    axes.errorbar([one / 0.024 for one in feed], efficiency, width, fmt=MARKERS[0] + "-", color=COLOURS[0], capsize=3)
     axes.set_xscale("log")
     axes.set_ylim(0, 1.05)
     axes.set_xlabel("feed per width of the screen  [t/h/m]")
