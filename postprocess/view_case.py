@@ -24,6 +24,7 @@ from paraview.simple import (
     CreateLayout,
     CreateView,
     Delaunay2D,
+    FeatureEdges,
     FindSource,
     GetActiveViewOrCreate,
     GetAnimationScene,
@@ -50,6 +51,8 @@ SPEED: Any = "@SPEED@"  # m/s, largest speed of the trough along itself
 VELOCITY_REACH: Any = "@VELOCITY_REACH@"  # m/s
 SPIN_REACH: Any = "@SPIN_REACH@"  # over the angular frequency of the vibration
 HEIGHT_REACH: Any = "@HEIGHT_REACH@"  # m
+# Where the grains of all frames are, m: least and largest x, least and largest z; None: as in the first frame shown.
+GRAIN_SPACE: Any = "@GRAIN_SPACE@"
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
@@ -174,6 +177,22 @@ def show_trough(view: Any, trough: Any, representation: str = "Surface With Edge
         shown.Opacity = 0.35  # its own wall in front would hide the layer
 
 
+def show_walls(view: Any) -> None:
+    """The walls that are not part of the trough's own mesh, so clear that the layer is seen through the one in front, with their rims."""
+    walls = open_collection("walls")
+    shown = Show(walls, view)
+    shown.SetRepresentationType("Surface")
+    shown.ColorArrayName = ["POINTS", ""]
+    shown.AmbientColor = shown.DiffuseColor = [0.75, 0.77, 0.8]
+    shown.Opacity = 0.15
+    rims = FeatureEdges(registrationName="rims of the walls", Input=walls)
+    rims.FeatureEdges = rims.NonManifoldEdges = rims.ManifoldEdges = 0
+    rims.BoundaryEdges = 1
+    shown = Show(rims, view)
+    shown.ColorArrayName = ["POINTS", ""]
+    shown.AmbientColor = shown.DiffuseColor = [0.45, 0.47, 0.5]
+
+
 def is_flat(trough: Any) -> bool:
     left, right, _, _, floor, top = trough.GetDataInformation().GetBounds()
     return bool(top - floor <= 1e-6 * (right - left))
@@ -240,7 +259,8 @@ def annotate(view: Any, grains: Any, block: Any) -> None:
     show_text(view, time, "Upper Left Corner")
     cycle = PythonAnnotation(registrationName="cycle and phase", Input=grains)
     cycle.ArrayAssociation = "Field Data"
-    cycle.Expression = "'cycle %d, phase %3.0f deg' % (cycle[0] + 1, vibration_phase[0])"
+    staged = "stage" in grains.FieldData.keys()
+    cycle.Expression = ("'stage %d, ' % stage[0] + " if staged else "") + "'cycle %d, phase %3.0f deg' % (cycle[0] + 1, vibration_phase[0])"
     show_text(view, cycle, "Upper Right Corner")
     if block:
         motion = PythonAnnotation(registrationName="motion of the point mass", Input=block)
@@ -301,13 +321,18 @@ def show_profile(view: Any, height: float) -> None:
 
 
 def look_along_the_width(view: Any, trough: Any, foremost: Any, grains: Any) -> float:
-    """From the side and a little from above, conveying to the right, with room above the layer for its flight."""
+    """From the side and a little from above, conveying to the right, with room for the grains of all frames: above the layer for its
+    flight, and below a screen for those that pass it. The height up to which charts must reach."""
     left, right, front, back, floor, _ = trough.GetDataInformation().GetBounds()
     if foremost:
         front = foremost.GetDataInformation().GetBounds()[2]
+    low, high = floor, floor + 1.5 * (grains.GetDataInformation().GetBounds()[5] - floor)
+    if GRAIN_SPACE:
+        left, right = min(left, GRAIN_SPACE[0]), max(right, GRAIN_SPACE[1])
+        low, high = min(low, GRAIN_SPACE[2]), max(floor, GRAIN_SPACE[3])
     length, width = right - left, back - front
-    height = max(grains.GetDataInformation().GetBounds()[5] - floor, 0.1 * length)
-    focus = [(left + right) / 2, (front + back) / 2, floor + 0.52 * height]
+    height = max(high - low, 0.15 * length)
+    focus = [(left + right) / 2, (front + back) / 2, low + 0.35 * height + 0.15 * (high - low)]
     away = 3.0 * max(length, width, height)
     view.CameraParallelProjection = 1
     view.CameraFocalPoint = focus
@@ -315,8 +340,8 @@ def look_along_the_width(view: Any, trough: Any, foremost: Any, grains: Any) -> 
     view.CameraViewUp = [0.0, 0.0, 1.0]
     # The box as seen from there: turned by 17 degrees, tilted by 19; half its larger side plus margins.
     seen_length, seen_depth = 0.96 * length + 0.29 * width, 0.96 * width + 0.29 * length
-    view.CameraParallelScale = max(0.4 * seen_length, 0.78 * height + 0.25 * seen_depth)
-    return height
+    view.CameraParallelScale = max(0.4 * seen_length, 0.52 * height + 0.25 * seen_depth)
+    return max(high - floor, 0.1 * length)
 
 
 def main() -> None:
@@ -339,11 +364,13 @@ def main() -> None:
     quantity = chosen_quantity(view, grains)
     block, lane = show_point_mass(view, trough, quantity) if has_frames("point_mass.pvd") else (None, None)
     show_grains(view, grains, quantity)
+    if os.path.exists(os.path.join(FOLDER, "walls.pvd")) and has_frames("walls.pvd"):
+        show_walls(view)
     if os.path.exists(os.path.join(FOLDER, "contacts.pvd")) and has_frames("contacts.pvd"):
         open_contacts(view)
     annotate(view, grains, block)
     height = look_along_the_width(view, trough, lane or block, grains)
-    show_profile(view, 1.8 * height)
+    show_profile(view, 1.2 * height)
     Render(view)
 
 

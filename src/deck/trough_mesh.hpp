@@ -2,10 +2,15 @@
 
 #include "prepare/prepared_case.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace vibrotrough::deck {
+
+/// The names of the meshes of walls, of which a deck has those that its trough has: left and right, at the
+/// back and below the edge.
+inline constexpr std::array wall_files{"left.stl", "right.stl", "back.stl", "end.stl"};
 
 /// The STL text of a flat floor 0 <= x <= length, 0 <= y <= width, z = 0 (m). Its outermost nodes are exactly
 /// on the ends. The triangles have legs of about `edge` (m) and nearly equal length, because the engine

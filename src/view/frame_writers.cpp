@@ -68,14 +68,41 @@ float rounded(double value, double grain) {
     return static_cast<float>(std::round(value / grain) * grain);
 }
 
+/// The triangles of two meshes.
+vtkSmartPointer<vtkPolyData> joined(vtkPolyData& one, vtkPolyData& other) {
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkCellArray> triangles;
+    for (vtkPolyData* const mesh : {&one, &other}) {
+        vtkIdType const before = points->GetNumberOfPoints();
+        for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i) points->InsertNextPoint(mesh->GetPoint(i));
+        for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i) {
+            vtkIdType corners = 0;
+            vtkIdType const* nodes = nullptr;
+            mesh->GetCellPoints(i, corners, nodes);
+            triangles->InsertNextCell(3);
+            for (vtkIdType k = 0; k < 3; ++k) triangles->InsertCellPoint(before + nodes[k]);
+        }
+    }
+    auto all = vtkSmartPointer<vtkPolyData>::New();
+    all->SetPoints(points);
+    all->SetPolys(triangles);
+    return all;
+}
+
 }  // namespace
 
 void set_time(vtkPolyData& data, FrameSource const& source, double time) {
     // Frames are at whole steps: if rounding puts a frame just before the end of a cycle, it belongs to the
-    // next cycle.
-    double const turns = source.angular_frequency * time / (2.0 * std::numbers::pi);
-    double const cycle = std::floor(turns + 1e-9);
+    // next cycle, and to its stage.
+    constexpr double rounding = 1e-9;
+    double turns = source.angular_frequency * time / (2.0 * std::numbers::pi);
     set_number(data, "TimeValue", time);
+    if (!source.parts.empty()) {
+        scenario::DrivePart const& part = part_at(source.parts, time + rounding / source.parts[0].frequency);
+        turns = part.first_cycle + (time - part.start) / part.cycle_time();
+        set_number(data, "stage", part.stage + 1);
+    }
+    double const cycle = std::floor(turns + rounding);
     set_number(data, "cycle", cycle);
     set_number(data, "vibration_phase", 360.0 * std::max(0.0, turns - cycle));
 }
@@ -99,6 +126,13 @@ void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, do
         relative_[3 * i + 2] -= trough_z;
     }
     scales_.add(from_mean_, turns_, height_);
+    for (std::size_t i = 0; i < grains; ++i) {
+        float const* const p = &frame.position[3 * i];
+        double const r = frame.radius[i];
+        if (!space_) space_ = {p[0] - r, p[0] + r, p[2] - r, p[2] + r};
+        space_ = {std::min(space_->left, p[0] - r), std::max(space_->right, p[0] + r),
+                  std::min(space_->bottom, p[2] - r), std::max(space_->top, p[2] + r)};
+    }
 
     vtkNew<vtkPoints> points;
     points->SetData(view_of<vtkFloatArray>(frame.position, "Points", 3));
@@ -124,7 +158,12 @@ void GrainWriter::write(std::filesystem::path const& path, GrainFrame& frame, do
     write_vtp(path, *data_);
 }
 
-TroughWriter::TroughWriter(FrameSource const& source) : source_(source), rest_(read_stl(source.trough)) {
+TroughWriter::TroughWriter(FrameSource const& source, std::vector<std::filesystem::path> const& meshes)
+    : source_(source) {
+    for (auto const& path : meshes) {
+        auto const mesh = read_stl(path);
+        rest_ = rest_ ? joined(*rest_, *mesh) : mesh;
+    }
     moved_->ShallowCopy(rest_);
 }
 

@@ -4,9 +4,12 @@
 #include "view/contact_reader.hpp"
 #include "view/dump_reader.hpp"
 #include "view/frames.hpp"
+#include "view/scene.hpp"
 #include "view/trough_motion.hpp"
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -14,7 +17,8 @@
 /// Writers for the objects of a frame as .vtp files.
 namespace vibrotrough::view {
 
-/// Adds TimeValue (s), cycle (t / T, whole cycles) and vibration_phase (deg, 0 to 360) as field data.
+/// Adds TimeValue (s), cycle (whole cycles since t = 0) and vibration_phase (deg, 0 to 360) as field data; of
+/// a drive with stages also stage (from 1).
 void set_time(vtkPolyData& data, FrameSource const& source, double time);
 
 /// Writes the grains of one frame after another and reuses its memory.
@@ -32,20 +36,24 @@ class GrainWriter {
     double mean_velocity() const { return mean_velocity_; }
     /// How far the values of all frames written so far reach.
     ColourScales const& scales() const { return scales_; }
+    /// The space in which the grains of all frames written so far were; nothing before the first grain.
+    std::optional<GrainSpace> const& space() const { return space_; }
 
   private:
     FrameSource const& source_;
+    std::optional<GrainSpace> space_;
     std::vector<float> relative_, from_mean_, turns_, height_;
     double mean_velocity_ = 0;
     ColourScales scales_;
     vtkNew<vtkPolyData> data_;
 };
 
-/// Writes the displaced trough of one frame after another.
+/// Writes the displaced trough, or its walls, of one frame after another.
 class TroughWriter {
   public:
-    /// `source` must outlive the writer.
-    explicit TroughWriter(FrameSource const& source);
+    /// @param source  must outlive the writer
+    /// @param meshes  STL files of what moves, at rest
+    TroughWriter(FrameSource const& source, std::vector<std::filesystem::path> const& meshes);
     /// Writes the trough at `time` (s), with the wear of each triangle unless it is empty.
     /// @throws MissingError when the disk refuses
     void write(std::filesystem::path const& path, TroughPosition const& position, std::vector<float>& wear,

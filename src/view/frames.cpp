@@ -109,12 +109,16 @@ class FrameExport {
     FrameExport(FrameSource const& source, fs::path const& target)
         : source_(source),
           target_(target),
-          trough_(source),
+          trough_(source, {source.trough}),
           wear_(source),
           grains_(source),
           block_(trough_.bounds()) {
         if (source.point_mass) point_mass_.emplace(source, *source.point_mass);
         for (char const* const object : objects) core::make_folder(target / object);
+        if (!source.walls.empty()) {
+            walls_.emplace(source, source.walls);
+            core::make_folder(target / "walls");
+        }
         if (has_contacts(source.folder)) {
             contacts_.emplace();
             core::make_folder(target / "contacts");
@@ -127,6 +131,7 @@ class FrameExport {
         double const surface = trough_.bounds()[4] + position.z;
         grains_.write(target_ / "grains" / name, frame, surface, time);
         trough_.write(target_ / "trough" / name, position, wear_.at(frame.step, trough_.triangles()), time);
+        if (walls_) walls_->write(target_ / "walls" / name, position, no_wear_, time);
         write_profile(target_ / "profile" / name, source_, frame, grains_.relative_velocity(), surface, time);
         if (point_mass_) {
             auto const block = block_.at(point_mass_->at(time), position.z, grains_.mean_velocity());
@@ -150,6 +155,11 @@ class FrameExport {
             }
             write_collection(target_ / (object + ".pvd"), entries);
         }
+        if (walls_) {
+            std::vector<CollectionEntry> entries;
+            for (auto const& [time, name] : files_) entries.push_back({time, "walls/" + name});
+            write_collection(target_ / "walls.pvd", entries);
+        }
         if (!contacts_) return;
         std::vector<CollectionEntry> entries;
         for (auto const& [time, name] : *contacts_) entries.push_back({time, "contacts/" + name});
@@ -158,7 +168,7 @@ class FrameExport {
     bool with_contacts() const { return contacts_.has_value(); }
 
     int frames() const { return static_cast<int>(files_.size()); }
-    ColourScales const& scales() const { return grains_.scales(); }
+    GrainWriter const& grains() const { return grains_; }
 
   private:
     static constexpr std::array objects{"grains", "trough", "profile", "point_mass"};
@@ -170,6 +180,8 @@ class FrameExport {
     GrainWriter grains_;
     PointMassBlock block_;
     std::optional<PointMassMotion> point_mass_;
+    std::optional<TroughWriter> walls_;
+    std::vector<float> no_wear_;
     std::vector<std::pair<double, std::string>> files_;
     std::optional<std::vector<std::pair<double, std::string>>> contacts_;
     ContactFrame contact_frame_;
@@ -187,8 +199,9 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
                             .trough = target / "trough.pvd",
                             .point_mass = target / "point_mass.pvd",
                             .profile = target / "profile.pvd",
+                            .walls = source.walls.empty() ? fs::path() : target / "walls.pvd",
                             .contacts = frames.with_contacts() ? target / "contacts.pvd" : fs::path(),
-                            .scene = write_scene(source, {}, target)};
+                            .scene = write_scene(source, {}, {}, target)};
     frames.write_collections();
 
     DumpReader reader;
@@ -214,7 +227,7 @@ ExportedFrames export_frames(FrameSource const& source, fs::path const& target,
         }
     }
     frames.write_collections();
-    write_scene(source, frames.scales(), target);
+    write_scene(source, frames.grains().scales(), frames.grains().space(), target);
     exported.frames = frames.frames();
     return exported;
 }

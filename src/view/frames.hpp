@@ -26,8 +26,9 @@ struct FrameSource {
     std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z), and
                                    ///< perhaps contacts.STEP.dump and trough_contacts.STEP.dump
     std::filesystem::path trough;  ///< the STL of the trough at rest, m
-    double time_step;              ///< s
-    double angular_frequency;      ///< omega, rad/s
+    std::vector<std::filesystem::path> walls = {};  ///< those of its walls, which move with it; may be none
+    double time_step;                               ///< s
+    double angular_frequency;                       ///< omega, rad/s
     /// X(t) and Z(t); the displacement of the trough at t is X(t) - X(0) and Z(t) - Z(0).
     scenario::DriveMotion drive;
     double width;                                 ///< m, of the layer across the trough
@@ -53,6 +54,7 @@ struct ExportedFrames {
     std::filesystem::path point_mass;  ///< point_mass.pvd: the theory's point mass as a block beside the
                                        ///< layer; empty if its motion is not periodic
     std::filesystem::path profile;     ///< profile.pvd: velocity and solid fraction over height
+    std::filesystem::path walls;       ///< walls.pvd; empty if the trough has no walls of their own
     std::filesystem::path contacts;    ///< contacts.pvd; empty if the frames have no contacts
     std::filesystem::path scene;       ///< view_case.py: `paraview --state=<scene>` opens everything
 };

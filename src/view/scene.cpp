@@ -65,6 +65,7 @@ Colour colour_named(std::string_view name) {
 }
 
 std::filesystem::path write_scene(FrameSource const& source, ColourScales const& scales,
+                                  std::optional<GrainSpace> const& space,
                                   std::filesystem::path const& target) {
     // The trough's own largest speed sets the colours of velocities relative to it and the width of a chart.
     double speed = scenario::largest_speed({source.drive.along, {}}, source.angular_frequency);
@@ -78,6 +79,9 @@ std::filesystem::path write_scene(FrameSource const& source, ColourScales const&
     data.set("VELOCITY_REACH", fmt::format("{}", scales.velocity()));
     data.set("SPIN_REACH", fmt::format("{}", scales.spin()));
     data.set("HEIGHT_REACH", fmt::format("{}", scales.height()));
+    data.set("GRAIN_SPACE",
+             space ? fmt::format("({}, {}, {}, {})", space->left, space->right, space->bottom, space->top)
+                   : "None");
     core::write_file_atomically(target / "view_case.py", core::Template(scene_template, tags).render(data));
 
     std::filesystem::path const starter = target / "view.sh";

@@ -1,6 +1,6 @@
-"""Run by pvbatch: cases with no frame, with one, with frames without grains, and without a periodic point mass all open.
+"""Run by pvbatch: cases with no frame, with one, with frames without grains, without a periodic point mass, and with a wall all open.
 
-usage: check_poor_scenes.py FOLDER: the subfolders none, one, no_grains and no_point_mass are exports
+usage: check_poor_scenes.py FOLDER: the subfolders none, one, no_grains, no_point_mass and walls are exports
 """
 
 import os
@@ -21,7 +21,7 @@ def points(name):
 
 def main(folder):
     # name: times, grains, points of the block (None: the object does not exist)
-    wanted = {"none": (0, None, None), "one": (1, 500, 24), "no_grains": (1, 0, 24), "no_point_mass": (3, 500, None)}
+    wanted = {"none": (0, None, None), "one": (1, 500, 24), "no_grains": (1, 0, 24), "no_point_mass": (3, 500, None), "walls": (3, 500, None)}
     for name, (times, grains, block) in wanted.items():
         ResetSession()
         open_scene(os.path.join(folder, name))
@@ -32,6 +32,8 @@ def main(folder):
                 assert FindSource(source) is None, f"{name} has {source}"
             else:
                 assert points(source) == count, f"{name}: {points(source)} points of {source}"
+        wall = FindSource("rims of the walls")
+        assert (points("rims of the walls") == 4) if name == "walls" else (wall is None), name
         Render()
         picture = os.path.join(folder, name + ".png")
         SaveScreenshot(picture, GetActiveView(), ImageResolution=[400, 250])

@@ -1,5 +1,6 @@
 // Exports the sample's frames into a folder, for the tests that open it in ParaView: the whole sample, and in
-// the folder "poor" exports without frames, with one frame, without grains or without a periodic point mass.
+// the folder "poor" exports without frames, with one frame, without grains without a periodic point mass, or
+// with a wall.
 
 #include "view/frames.hpp"
 #include "view/table_vtk.hpp"
@@ -53,6 +54,12 @@ void export_poor(fs::path const& dumps, fs::path const& folder) {
     source = sample(dumps);
     source.point_mass.reset();
     view::export_frames(source, folder / "no_point_mass");
+
+    scenario::Triangle const one{{{0, 0, 0}, {0.036, 0, 0}, {0.036, 0, 0.02}}},
+        other{{{0, 0, 0}, {0.036, 0, 0.02}, {0, 0, 0.02}}};
+    std::ofstream(work / "left.stl") << scenario::stl_text("wall", {one, other});
+    source.walls = {work / "left.stl"};
+    view::export_frames(source, folder / "walls");
 }
 
 void export_maps(fs::path const& folder) {

@@ -52,7 +52,7 @@ def flow_row(name: str, feed: float, row: dict[str, str]) -> list[object]:
 
 
 def simulate(run: ValidationCase) -> None:
-    cases = {f"fed-{feed}": {"feed.mass_flow": f"{feed} t/h"} for feed in FEEDS}
+    cases: dict[str, dict[str, Any]] = {f"fed-{feed}": {"feed.mass_flow": f"{feed} t/h"} for feed in FEEDS}
     cases["fed-no-holes"] = {"feed.mass_flow": f"{FEEDS[1]} t/h", **NO_HOLES}
     cases["open"] = {"feed.mass_flow": f"{FEEDS[1]} t/h", **NO_SCREEN}
     flows, rows = [], []
@@ -93,10 +93,10 @@ def judge(run: ValidationCase) -> None:
     table = {row["case"]: row for row in run.table("fed.csv")}
     closed, trough = table["fed-no-holes"], table["open"]
     run.check("fed, no holes: t/h that pass", float(closed["through_t_per_h"]), 0, 1e-12)
-    for what, value, width in (("flow over the edge, t/h", "over_t_per_h", "outflow_half_width"), ("depth in the window, mm", "depth_mm", "depth_half_width_mm"),
-                               ("velocity efficiency", "velocity_efficiency", "velocity_half_width")):  # fmt: skip
+    for what, value, half_width in (("flow over the edge, t/h", "over_t_per_h", "outflow_half_width"), ("depth in the window, mm", "depth_mm", "depth_half_width_mm"),
+                                    ("velocity efficiency", "velocity_efficiency", "velocity_half_width")):  # fmt: skip
         run.check(f"fed, no holes: {what}, less that of an open trough", float(closed[value]) - float(trough[value]), 0,
-                  float(closed[width]) + float(trough[width]), because="both intervals over three packings")
+                  float(closed[half_width]) + float(trough[half_width]), because="both intervals over three packings")
     rows = [table[f"fed-{feed}"] for feed in FEEDS]
     efficiency, width = ([float(row[name]) for row in rows] for name in ("efficiency", "efficiency_half_width"))
     if run.control:

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/shell.hpp"
 #include "deck/atom_types.hpp"
+#include "deck/trough_mesh.hpp"
 #include "scenario/model/stage_motion.hpp"
 #include "view/frames.hpp"
 #include "view/scene.hpp"
@@ -69,6 +70,21 @@ std::vector<std::pair<int, std::string>> materials_of(prepare::PreparedCase cons
     return list;
 }
 
+/// The meshes of its walls that move with the trough.
+std::vector<fs::path> walls_in(fs::path const& packing) {
+    std::vector<fs::path> found;
+    for (std::string const name : deck::wall_files)
+        if (fs::exists(packing / name)) found.push_back(packing / name);
+    return found;
+}
+
+/// What the scene says of the drive: its stages, or its numbers.
+std::string drive_caption(prepare::PreparedCase const& prepared) {
+    if (!prepared.stages.empty()) return fmt::format("a drive in {} stages", prepared.stages.size());
+    return fmt::format("throw number {:.4g}, machine number {:.4g}", prepared.throw_number,
+                       prepared.machine_number);
+}
+
 /// "case ID", and from the second packing on its number.
 std::string title(campaign::PlannedCase const& planned, int packing) {
     return fmt::format("case {}{}", planned.id, packing == 1 ? "" : fmt::format(", packing {}", packing));
@@ -84,15 +100,14 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
     view::FrameSource const source{
         .folder = packing / "dump",
         .trough = packing / "trough.stl",
+        .walls = walls_in(packing),
         .time_step = planned.prepared->time.time_step,
         .angular_frequency = planned.prepared->angular_frequency,
         .drive = planned.prepared->motion,
         .width = planned.scenario().layer.width,
         .point_mass = theory_motion(*planned.prepared),
-        .caption =
-            fmt::format("{}, {}: throw number {:.4g}, machine number {:.4g}, friction {:.3g}",
-                        planned.scenario().campaign, title(planned, number), planned.prepared->throw_number,
-                        planned.prepared->machine_number, trough.friction),
+        .caption = fmt::format("{}, {}: {}, friction {:.3g}", planned.scenario().campaign,
+                               title(planned, number), drive_caption(*planned.prepared), trough.friction),
         .colour = colour,
         .parts = drive_parts(planned.prepared->stages),
         .steps_per_cycle = planned.prepared->time.steps_per_cycle,
@@ -185,8 +200,8 @@ into 'frames-2'.
 With contacts = true under [output], contacts.pvd holds the contacts of the grains with their forces.
 
 Four .pvd files are written for each case: the grains, the trough, the theory's point mass (a block that moves in step
-with the grains), and the velocity profile of the layer. The script view.sh beside them opens all four. Without --case,
-the table of all cases is written too. Prints the commands that open the files. Works while a case runs.
+with the grains), and the velocity profile of the layer; with walls a fifth. The script view.sh beside them opens them
+all. Without --case, the table of all cases is written too. Prints the commands that open the files. Works while a case runs.
 
 Exit codes:
     0  all well

@@ -75,9 +75,13 @@ std::vector<DrivePart> drive_parts(std::vector<Stage> const& stages) {
     return parts;
 }
 
-TroughState trough_at(std::vector<DrivePart> const& parts, double time) {
+DrivePart const& part_at(std::vector<DrivePart> const& parts, double time) {
     auto const next = std::ranges::upper_bound(parts, time, {}, &DrivePart::start);
-    DrivePart const& part = next == parts.begin() ? parts.front() : *std::prev(next);
+    return next == parts.begin() ? parts.front() : *std::prev(next);
+}
+
+TroughState trough_at(std::vector<DrivePart> const& parts, double time) {
+    DrivePart const& part = part_at(parts, time);
     double const share = std::clamp((time - part.start) / part.time, 0.0, 1.0);
     auto const [x, vx] = along_axis(part, part.from.along, part.to.along, share);
     auto const [z, vz] = along_axis(part, part.from.normal, part.to.normal, share);

@@ -40,6 +40,10 @@ struct TroughState {
     double vx, vz;  ///< m/s
 };
 
+/// The part at a time (s) after the start of the run; behind the last part, the last one.
+/// @pre there is a part
+DrivePart const& part_at(std::vector<DrivePart> const& parts, double time);
+
 /// The trough at a time (s) after the start of the run; behind the last part, as at its end.
 /// @pre there is a part
 TroughState trough_at(std::vector<DrivePart> const& parts, double time);
