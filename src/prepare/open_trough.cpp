@@ -6,14 +6,18 @@
 namespace vibrotrough::prepare {
 namespace {
 
-/// m, the way of a grain in a cycle, with the speed with which the trough throws it, or with that which the
-/// feed has after it fell to the floor and downhill to the edge: a collision may turn that in any direction.
-double longest_flight(OpenTrough const& open, PreparedCase const& c) {
+/// m/s, of a grain of the feed that fell to the floor and downhill to the edge: a collision may turn it in
+/// any direction.
+double speed_of_feed(OpenTrough const& open, PreparedCase const& c) {
     scenario::Scenario const& s = c.scenario;
     double const alpha = s.trough.inclination, downhill = std::max(0.0, -std::sin(alpha)) * s.layer.length;
     double const drop = std::cos(alpha) * open.feed_top + downhill;
-    double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
-    return std::max(2 * c.largest_speed, fed) / s.trough.frequency + 2 * c.largest_extent;
+    return std::sqrt(open.feed_speed * open.feed_speed + 2 * scenario::gravity * drop);
+}
+
+/// m, the way of a grain in a cycle, with the speed with which the trough throws it or with this one.
+double longest_flight(PreparedCase const& c, double fed) {
+    return std::max(2 * c.largest_speed, fed) / c.scenario.trough.frequency + 2 * c.largest_extent;
 }
 
 /// What has passed a screen falls below it, up to a cycle long, in all directions. The wall below the edge
@@ -21,7 +25,7 @@ double longest_flight(OpenTrough const& open, PreparedCase const& c) {
 void add_screen(OpenTrough& open, PreparedCase const& c, double fall) {
     scenario::Scenario const& s = c.scenario;
     double const grain = c.largest_extent, excursion = c.largest_excursion;
-    double const flight = longest_flight(open, c);
+    double const flight = longest_flight(c, speed_of_feed(open, c));
     open.box_bottom = -(grain + flight + fall + 3 * excursion);
     open.box_start -= open.bin * std::ceil(flight / open.bin);
     open.box_end =
@@ -50,7 +54,10 @@ OpenTrough open_trough(PreparedCase const& c) {
     open.out_x = length + excursion + grain;
     open.out_near_x = length - excursion - grain;
     open.out_z = -(excursion + grain);
-    double const flight = 2 * c.largest_speed * period + 2 * grain;
+    // A grain of the feed can be thrown to the edge, as far as a ballistic flight is long at most (v^2 / g),
+    // with the speed of its fall. The box of a longer trough is not made longer for it.
+    double const fed = speed_of_feed(open, c);
+    double const flight = longest_flight(c, way < fed * fed / scenario::gravity ? fed : 0);
     double const fall = scenario::gravity * period * period / 2;
     open.bin = length / std::round(length / (2 * mean_diameter(s)));
     open.box_start = -open.bin * std::ceil((excursion + 2 * grain) / open.bin);

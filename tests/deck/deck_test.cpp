@@ -78,6 +78,22 @@ TEST(Deck, GrainsAreTakenOutBeforeTheyLeaveTheBox) {
     EXPECT_LT(open.window_end, 0.2);
 }
 
+// On a short trough the feed reaches the edge with the speed of its fall: the box holds its flight until the
+// end of the cycle. In a long one it has lost that speed, and the box is as long as the trough throws.
+TEST(Deck, TheBoxOfAShortTroughHoldsWhatTheFallOfTheFeedThrowsOverTheEdge) {
+    for (char const* length : {"60 mm", "400 mm"}) {
+        std::string const text = with("height = \"12 mm\"\n", "", with("36 mm", length)) +
+                                 "[feed]\nmass_flow = \"0.1 t/h\"\nheight = \"60 mm\"\nlength = \"20 mm\"\n";
+        prepare::PreparedCase const c = prepare::prepare_case(
+            scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+        prepare::OpenTrough const& open = *c.domain.open;
+        double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * 9.81 * open.feed_top);
+        EXPECT_GT(fed, 2 * c.largest_speed);
+        EXPECT_EQ(open.box_end > open.out_x + fed / c.scenario.trough.frequency,
+                  c.scenario.layer.length < 0.1);
+    }
+}
+
 // m = rho pi / 6 sum d^3 over three classes of equal number.
 TEST(Deck, MassAndWeightOfThreeClasses) {
     scenario::Scenario const s =
