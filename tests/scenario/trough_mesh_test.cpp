@@ -228,6 +228,8 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(with("[grains]", "mesh = \"no.stl\"\n\n[grains]")), HasSubstr("there is no file"));
     EXPECT_THAT(error(with("[grains]", "mesh = \"../vee.stl\"\n\n[grains]")),
                 HasSubstr("not an allowed value"));
+    EXPECT_THAT(error(with("[grains]", "mesh = [\"one.stl\", \"other.stl\"]\n\n[grains]")),
+                HasSubstr("trough.mesh: is one file, and a list is given"));
     EXPECT_THAT(error(with("[grains]", "mesh_unit = \"m\"\n\n[grains]")),
                 HasSubstr("trough.mesh_unit: is the unit of a mesh, and trough.mesh is not given"));
     std::vector<Triangle> slope;
@@ -242,7 +244,8 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     add_rectangle(gap, {0, 0, 0}, {20, 0, 0}, {20, 18, 0}, {0, 18, 0});
     add_rectangle(gap, {22, 0, 0}, {36, 0, 0}, {36, 18, 0}, {22, 18, 0});
     write("vee.stl", gap);
-    EXPECT_THAT(error(on_mesh()), HasSubstr("there is a hole in plan at x = 20"));
+    EXPECT_THAT(error(on_mesh()),
+                testing::AllOf(HasSubstr("there is a hole in plan at x = 20"), HasSubstr("is a [screen]")));
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
         fail(fmt::format(
                  "there is a hole in plan at x = {}, y = {} from its corner, through which grains would fall",
                  given.text("layer.length", unit * (*hole)[0]), given.text("layer.width", unit * (*hole)[1])),
-             "close it: the surface must cover its length and width");
+             "close it: the surface must cover its length and width; a flat floor with square holes is a "
+             "[screen]");
     }
     double const size = smallest_diameter(scenario), grains = mesh.area * unit * unit / (size * size);
     if (grains > most_grains_on_floor) {

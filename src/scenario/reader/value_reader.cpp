@@ -34,7 +34,10 @@ class ValueReader {
         auto const known = choices(key_);
         if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
         if (key_.kind == KeyKind::file && node.is_string() && is_file_name(word)) return word;
-        fail(node, fmt::format("{} is not an allowed value", written(node)),
+        bool const are_files = key_.kind == KeyKind::file && node.is_array();
+        fail(node,
+             are_files ? "is one file, and a list is given"
+                       : fmt::format("{} is not an allowed value", written(node)),
              fmt::format("{}; allowed: {}", write_instead(key_), key_.range));
     }
 
