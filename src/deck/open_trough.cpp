@@ -14,6 +14,7 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
     constexpr double late_cycles = 3, late_grains = 10;  // of the feed, that found no room
     scenario::Scenario const& s = n.scenario;
     data.set("open", n.domain.open.has_value());
+    data.set("gate", false);
     for (char const* name : {"open_columns", "open_values", "open_first_values"})
         data.set(name, std::string());
     if (!n.domain.open) return;
@@ -23,6 +24,8 @@ void describe_open(core::TemplateData& data, prepare::PreparedCase const& n, int
              std::string(",${fed},${fed_mass},${left},${left_mass},${held_mass},${window_mass}"));
     data.set("open_first_values", std::string(",0,0,0,0,${held_mass},0"));
     prepare::OpenTrough const& open = *n.domain.open;
+    // A grain that falls from fill_top and is turned by another one flies up to 2 fill_top far.
+    if (s.layer.length - open.feed_end < 2 * n.fill_top) data.set("gate", fmt::format("{}", s.layer.length));
     double const flow = *s.feed.mass_flow;
     data.set("mass_flow", fmt::format("{}", flow));
     data.set("feeds_per_cycle", std::to_string(prepare::feeds_per_cycle));

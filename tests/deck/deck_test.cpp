@@ -60,6 +60,23 @@ TEST(Deck, AnOpenTroughIsFedAndDischarged) {
         EXPECT_EQ(periodic.find(part), std::string::npos) << part;
 }
 
+// A short trough is closed at its edge while its first grains come to rest, and only then; a long one has its
+// deck without a gate.
+TEST(Deck, OfAShortOpenTroughKeepsItsFirstGrainsFromTheEdge) {
+    for (char const* length : {"60 mm", "900 mm"}) {
+        std::string const text = with("height = \"12 mm\"\n", "", with("36 mm", length)) +
+                                 "[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"20 mm\"\n";
+        auto const prepared = prepare::prepare_case(
+            scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+        Deck const deck = make_deck(prepared, {1});
+        std::string const& settle = deck.settle_files.at(settle_file);
+        bool const is_short = prepared.scenario.layer.length < 0.1;
+        EXPECT_EQ(settle.find("primitive type 2 xplane 0.06") != std::string::npos, is_short);
+        EXPECT_EQ(settle.find("unfix           gate") < settle.find("write_restart"), is_short);
+        EXPECT_EQ(deck.files.at(drive_file).find("gate"), std::string::npos);
+    }
+}
+
 // A grain that has just not left the trough at the end of a cycle falls, and flies on with the trough's
 // largest speed, for a whole cycle before it is taken out.
 TEST(Deck, GrainsAreTakenOutBeforeTheyLeaveTheBox) {
