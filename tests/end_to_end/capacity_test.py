@@ -30,11 +30,17 @@ class Capacity(EndToEndTest):
         self.assertEqual(len(rows), len(feeds))
         self.assertEqual(sum(row["outcome"] == "finished" for row in rows), sum(one["carried"] for one in feeds))
 
+        # Each feed is simulated once, also one that was overfull.
+        starts = self.take_starts()
+        self.assertEqual(len(starts), len(set(starts)), starts)
+        self.assertEqual(len(starts), len(feeds))
+
         # The same call knows all of it, and a text says the same.
         again = self.search(campaign, "--precision", 1)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertRegex(again.stdout, r"the trough carries [\d.]+ t/h and not [\d.]+ t/h")
         self.assertEqual(len(again.stdout.splitlines()), len(feeds) + 2)
+        self.assertEqual(self.take_starts(), [])
 
     def test_wrong_input(self):
         closed = self.write_campaign({})

@@ -77,7 +77,7 @@ class CapacitySearch {
         if (ready_.is_interrupted) return interrupted;
         double const first = *ready_.plan.cases.front().scenario().feed.mass_flow;
         while (true) {
-            if (!simulate(options_.shared, ready_, wanted)) return interrupted;
+            if (!simulate_feeds(wanted)) return interrupted;
             look();
             auto const feed = learn::next_feed(trials(), first, precision_);
             if (!feed) return conclude();
@@ -86,6 +86,21 @@ class CapacitySearch {
     }
 
   private:
+    /// Simulates the feeds that have not ended. A failed case would be run again, and one that was overfull
+    /// would be so again. @return false when a signal stopped it
+    bool simulate_feeds(std::map<std::string, double>& wanted) {
+        std::set<std::string> overfull;
+        for (campaign::CaseOverview const& one :
+             campaign::survey(ready_.plan, campaign::activity_in(ready_.plan.folder)))
+            if (one.outcome == core::Outcome::overfull) overfull.insert(one.planned->id);
+        auto const all = ready_.plan.cases;
+        std::erase_if(ready_.plan.cases, [&](auto const& one) { return overfull.contains(one.id); });
+        bool const goes_on = ready_.plan.cases.empty() || simulate(options_.shared, ready_, wanted);
+        ready_.plan.cases = all;
+        if (goes_on) campaign::write_campaign_file(ready_.plan);
+        return goes_on;
+    }
+
     /// Reads how all feeds ended. @throws core::MissingError when one ended for a reason of its own
     void look() {
         tried_.clear();
