@@ -10,6 +10,7 @@ import signal
 import stat
 import subprocess
 import unittest
+from pathlib import Path
 
 from trough_program import PROGRAM, EndToEndTest, sample
 
@@ -64,13 +65,19 @@ class Surroundings(EndToEndTest):
         for part in parts:
             self.assertIn(part, error.splitlines()[-1])
 
+    def compile_locales(self, *names):
+        """The folder with these locales, each of which is compiled once."""
+        folder = Path(self.common.name) / "locales"
+        folder.mkdir(exist_ok=True)
+        for definition, characters, name in COMPILED:
+            if name in names and not (folder / name).exists():
+                subprocess.run(["localedef", "--no-archive", "-i", definition, "-f", characters, str(folder / name)], check=True)
+        return folder
+
     def test_every_command_in_twelve_locales(self):
         self.assertEqual(len(LOCALES), 12)
         self.assertEqual(sorted(commands()), sorted(ARGUMENTS))
-        folder = self.folder / "locales"
-        folder.mkdir()
-        for definition, characters, name in COMPILED:
-            subprocess.run(["localedef", "--no-archive", "-i", definition, "-f", characters, str(folder / name)], check=True)
+        folder = self.compile_locales(*(name for _, _, name in COMPILED))
         comma = subprocess.run(["locale", "decimal_point"], env={"LOCPATH": str(folder), "LC_ALL": "de_DE.UTF-8", "PATH": os.environ["PATH"]}, capture_output=True, text=True)
         self.assertEqual(comma.stdout, ",\n", "the test is about a decimal comma")
         campaign = self.finished_campaign(ONE, wanted=0)
@@ -89,7 +96,7 @@ class Surroundings(EndToEndTest):
 
         answers("run", plain)  # which probes the engine
         places = list(zip(LOCALES, itertools.cycle(VARIABLES)))
-        for name, some in itertools.groupby(sample(itertools.product(["--version", *ARGUMENTS], places), 10), key=lambda pair: pair[0]):
+        for name, some in itertools.groupby(sample(itertools.product(["--version", *ARGUMENTS], places), 11), key=lambda pair: pair[0]):
             ARGUMENTS.setdefault(name, ())
             wanted = answers(name, plain)
             for _, (place, variable) in some:
@@ -100,10 +107,10 @@ class Surroundings(EndToEndTest):
     def test_no_decimal_comma_reaches_engine_or_python(self):
         campaign = self.write_campaign(ONE)
         tables = []
-        subprocess.run(["localedef", "--no-archive", "-i", "de_DE", "-f", "UTF-8", str(self.folder / "de_DE.UTF-8")], check=True)
+        locales = self.compile_locales("de_DE.UTF-8")
         for place in ("C", "de_DE.UTF-8"):
             folder = self.folder / f"runs {place}"
-            environment = dict(os.environ, LC_ALL=place, LOCPATH=str(self.folder))
+            environment = dict(os.environ, LC_ALL=place, LOCPATH=str(locales))
             noted = self.folder / f"locale {place}"
             os.environ["VIBROTROUGH_TEST_BREAK"] = environment["VIBROTROUGH_TEST_BREAK"] = f'locale > "{noted}"'
             done = self.start(*self.run_arguments(campaign, folder), env=environment)
