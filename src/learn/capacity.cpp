@@ -17,16 +17,25 @@ double to_three_digits(double value) {
     return std::round(value / step) * step;
 }
 
+/// Sum over the packings of a mass flow, kg/s.
+double sum_of(store::CaseRecord const& record, std::optional<double> measure::OpenFlow::*flow) {
+    double sum = 0;
+    for (store::PackingRecord const& packing : record.packings) sum += (packing.open.*flow).value_or(0);
+    return sum;
+}
+
 }  // namespace
 
 bool is_overfed(core::Outcome outcome, store::CaseRecord const* record) {
     if (outcome == core::Outcome::overfull) return true;
-    if (outcome != core::Outcome::not_steady || record == nullptr || evaluate::unsteady_flow(*record).empty())
-        return false;
-    double difference = 0;
-    for (store::PackingRecord const& packing : record->packings)
-        difference += packing.open.outflow.value_or(0) - packing.open.inflow.value_or(0);
-    return difference < 0;
+    if (record == nullptr || record->packings.empty()) return false;
+    constexpr double found_no_room = 0.03;
+    double const inflow = sum_of(*record, &measure::OpenFlow::inflow);
+    double const asked =
+        record->scenario.feed.mass_flow.value_or(0) * static_cast<double>(record->packings.size());
+    if (core::has_result(outcome) && inflow < (1 - found_no_room) * asked) return true;
+    if (outcome != core::Outcome::not_steady || evaluate::unsteady_flow(*record).empty()) return false;
+    return sum_of(*record, &measure::OpenFlow::outflow) < inflow;
 }
 
 CapacityBounds capacity_bounds(std::vector<FeedTrial> const& trials) {

@@ -79,6 +79,15 @@ store::CaseRecord record_with(std::vector<double> const& outflows) {
     return record;
 }
 
+// What finds no room above the layer is not fed: in and out then agree at less than was asked for.
+TEST(Capacity, IsReachedWhereTheFeedFindsNoRoom) {
+    store::CaseRecord record = record_with({1, 1});
+    for (double const asked : {1.02, 1.05}) {
+        record.scenario.feed.mass_flow = asked;
+        EXPECT_EQ(is_overfed(core::Outcome::finished, &record), asked > 1.03) << asked;
+    }
+}
+
 bool is_refused(core::Outcome outcome, std::vector<double> const& outflows) {
     store::CaseRecord const record = record_with(outflows);
     return is_overfed(outcome, &record);

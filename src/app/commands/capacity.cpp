@@ -113,7 +113,12 @@ class CapacitySearch {
             if (!is_overfed && one.status != campaign::CaseStatus::ended)
                 throw core::MissingError(fmt::format("the feed of {:.4g} t/h has no result ({}): {}",
                                                      feed * kg_per_s_in_t_per_h, one.label(), one.message));
-            tried_.push_back({{feed, !is_overfed}, std::string(one.label()), one.message});
+            bool const found_no_room =
+                is_overfed && one.status == campaign::CaseStatus::ended && one.message.empty();
+            tried_.push_back(
+                {{feed, !is_overfed},
+                 std::string(one.label()),
+                 found_no_room ? "a part of the feed found no room above the layer" : one.message});
         }
         std::ranges::sort(tried_, {}, [](TriedFeed const& one) { return one.trial.mass_flow; });
         if (!options_.as_json) print_new();
@@ -211,8 +216,8 @@ void add_capacity(CLI::App& program, int& exit_code) {
         R"(The campaign file describes one open trough with a section [feed], which must say feed.height: the trough is full
 when the layer reaches it. The search begins with the feed of the file, doubles it while what is fed also leaves the
 trough, halves it while it does not, and then tries the geometric mean of the two, until both are within --precision.
-A feed is not carried when its case ends as 'overfull', or as 'not-steady' because the outflow is less than the inflow
-after measure.max_cycles. Near the capacity a trough fills slowly, so more cycles make the answer sharper.
+A feed is not carried when its case ends as 'overfull', when more than 3 % of it found no room, or as 'not-steady'
+because the outflow is less than the inflow after measure.max_cycles. Near the capacity a trough fills slowly, so more cycles make the answer sharper.
 
 Every feed is a case of the campaign: 'compare', 'report' and 'export' show them all, and feeds of a [sweep] over
 feed.mass_flow count as well. Ctrl-C stops cleanly, and the same command continues.
