@@ -18,8 +18,9 @@ struct FeedTrial {
 };
 
 /// Whether a case shows that its feed is not carried away: the layer reached the feed; more than 3 % of what
-/// was to be fed found no room; or the case is not steady and less left the trough than was fed, by more than chance explains (evaluate::unsteady_flow). A
-/// case that is not steady for another reason, such as a speed that drifts, does not show it.
+/// was to be fed found no room; or the case is not steady and less left the trough than was fed, by more than
+/// chance explains (evaluate::unsteady_flow). A case that is not steady for another reason, such as a speed
+/// that drifts, does not show it.
 /// @param record  of the case; nullptr when it has none
 bool is_overfed(core::Outcome outcome, store::CaseRecord const* record);
 

@@ -6,7 +6,6 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent.parent / "postprocess"))
 
-import capacity  # noqa: E402
 from validation_case import ValidationCase  # noqa: E402
 
 THROW_NUMBERS = [1.5, 2.0, 2.5]
@@ -53,9 +52,7 @@ def main() -> None:
     run = ValidationCase(FOLDER)
     if run.long:
         simulate(run)
-        capacity.simulate(run)
     judge(run)
-    capacity.judge(run)
     run.finish()
 
 
