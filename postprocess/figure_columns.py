@@ -4,7 +4,7 @@ import dataclasses
 import json
 import math
 import pathlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,19 +13,19 @@ from numpy.typing import NDArray
 
 from drawn_figures import read_note
 from figure_inputs import SYMBOLS, UNITS
-from figure_style import COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, corner, new_figure, one_line, plain, plain_axes, points, save, shown
+from figure_style import COLOURS, EFFICIENCY, GREY, MARKERS, Problem, TooMany, WrongInput, corner, new_figure, one_line, plain, plain_axes, points, save, shown
 
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
 
-# What theory, law and atlas say of the same case, as efficiencies of the table; the width of their lines, and the words for them.
+# What theory, law and atlas say of the same case, as efficiencies of the table; their lines, and the words for them.
 MODELS = {
-    "point-mass theory": ("efficiency_theory", 1.2, "thick lines"),
-    "rolling-layer law": ("efficiency_rolling_layer", 0.7, "thin lines"),
-    "atlas": ("efficiency_atlas", 0.35, "hairlines"),
+    "point-mass theory": ("efficiency_theory", "-", "solid"),
+    "rolling-layer law": ("efficiency_rolling_layer", "--", "dashed"),
+    "atlas": ("efficiency_atlas", ":", "dotted"),
 }
 # Quantities that are an efficiency times a number that is known of each case.
-OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow")
+OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow", "mass_flow_per_width")
 WHOLE = {"efficiency": "efficiency_whole_half_width"}
 MOST_SERIES = 24
 
@@ -62,7 +62,8 @@ class Shown:
 
 def suffix_of(column: Mapping[str, Any]) -> str:
     """The unit at the end of a column's name, "_m_per_s"."""
-    words = {"/": "_per_", "degree": "deg", "minute": "min", " ": "_"}
+    # One fraction of several units has one "per".
+    words = {"/h/m": "_per_h_m", "/": "_per_", "degree": "deg", "minute": "min", " ": "_"}
     unit = str(column["unit"]).lower()
     for old, new in words.items():
         unit = unit.replace(old, new)
@@ -80,7 +81,7 @@ def find_column(name: str, tables: Iterable["Table"]) -> Mapping[str, Any]:
         for column in table.columns:
             if column["name"] == name:
                 return column
-    raise Problem(f"no campaign has a column {shown(name)}; call this by 'vibrotrough plot DIR', which knows all names")
+    raise WrongInput(f"no campaign has a column {shown(name)}; call this by 'vibrotrough plot DIR', which knows all names")
 
 
 def shown_as(column: Mapping[str, Any], unit: str | None = None, factor: float = 1.0) -> Shown:
@@ -115,18 +116,21 @@ def read_table(output: pathlib.Path) -> Table:
         raise Problem(f"cannot read {path} ({one_line(error)}); call it by 'vibrotrough plot DIR'") from error
 
 
+def half_width_name(column: Mapping[str, Any]) -> str:
+    """The column with half the interval of a number, as far as the table has one."""
+    return WHOLE.get(str(column["name"]), f"{base_name(column)}_half_width{suffix_of(column)}")
+
+
 def half_width(y: Shown, row: Row) -> float:
     """Half the interval of a number; NaN where the table has none."""
-    suffix = suffix_of(y.column)
-    name = WHOLE.get(y.name, f"{base_name(y.column)}_half_width{suffix}")
-    value = row.get(name)
+    value = row.get(half_width_name(y.column))
     return math.nan if not isinstance(value, (int, float)) else y.factor * value
 
 
-def grouping(table: Table, x: Shown, by: str | None) -> list[Mapping[str, Any]]:
-    """The columns that tell the series apart: the one that is asked for, or the swept keys that are not on the axis."""
+def grouping(table: Table, x: Shown, by: Sequence[str] | None) -> list[Mapping[str, Any]]:
+    """The columns that tell the series apart: those that are asked for, or the swept keys that are not on the axis."""
     if by is not None:
-        return [find_column(by, [table])]
+        return [find_column(one, [table]) for one in by]
     swept = [one for one in table.columns if one["name"] in table.swept]
     return [one for one in swept if one["name"] != x.name and len({str(row.get(one["name"])) for row in table.rows}) > 1]
 
@@ -140,10 +144,10 @@ def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
     return ", ".join(words)
 
 
-def draw_models(axes: Axes, x: Shown, y: Shown, rows: list[Row], colour: str, dash: Any) -> set[str]:
-    """The theory, the law and the atlas at the cases, joined by thin lines. The names of those that were drawn."""
+def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colour: str) -> set[str]:
+    """The theory, the law and the atlas at the cases, joined by lines. The names of those that were drawn."""
     drawn = set()
-    for name, (column, width, _) in MODELS.items():
+    for name, (column, dash, _) in MODELS.items():
         values = []
         for row in rows:
             model, known = row.get(column), row.get("efficiency")
@@ -151,12 +155,17 @@ def draw_models(axes: Axes, x: Shown, y: Shown, rows: list[Row], colour: str, da
             scale = 1.0 if y.name == "efficiency" else y.of(row) / known / y.factor if known else math.nan
             values.append(math.nan if model is None else y.factor * scale * model)
         if np.isfinite(values).any():
-            axes.plot([x.of(row) for row in rows], values, color=colour, linestyle=dash, linewidth=width, marker="x", markersize=3 + 2 * width)
+            axes.plot(places, values, color=colour, linestyle=dash, linewidth=1.0, marker="x", markersize=4)
             drawn.add(name)
     return drawn
 
 
-def series_of(tables: list[Table], x: Shown, by: str | None) -> dict[str, list[Row]]:
+def words_of_models(drawn: set[str]) -> str:
+    """Which line is which model."""
+    return "; ".join(f"{words}: {name}" for name, (_, _, words) in MODELS.items() if name in drawn)
+
+
+def series_of(tables: list[Table], x: Shown, by: Sequence[str] | None) -> dict[str, list[Row]]:
     found: dict[str, list[Row]] = {}
     for table in tables:
         columns = grouping(table, x, by)
@@ -164,7 +173,7 @@ def series_of(tables: list[Table], x: Shown, by: str | None) -> dict[str, list[R
             words = [one for one in (table.name if len(tables) > 1 else "", label_of(row, columns)) if one]
             found.setdefault(", ".join(words), []).append(row)
     if len(found) > MOST_SERIES:
-        raise Problem(f"there are {len(found)} series, and {MOST_SERIES} can be told apart; choose with --by what tells them apart")
+        raise TooMany(f"there are {len(found)} series, and {MOST_SERIES} can be told apart; choose with --by what tells them apart")
     return found
 
 
@@ -179,9 +188,11 @@ def why_nothing(tables: list[Table], x: Shown, y: Shown) -> str:
     return f"no case has both {x.name} and {y.name}"
 
 
-def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str, y_name: str, by: str | None,
-                 unit: str | None, factor: float) -> list[pathlib.Path]:
-    """Draws the figure; returns the files. @raises Problem when a column is not there or holds no numbers"""
+def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str, y_name: str, by: Sequence[str] | None,
+                 unit: str | None, factor: float, kind: str | None = None) -> list[pathlib.Path]:
+    """Draws the figure; returns the files, which are called after `kind` or the columns. @raises Problem when a column is not there
+    or holds no numbers
+    """
     tables = [read_table(output) for output in outputs]
     x, y = shown_as(find_column(x_name, tables)), shown_as(find_column(y_name, tables), unit, factor)
     figure, axes = new_figure()
@@ -199,16 +210,16 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         axes.errorbar([x.of(row) for row in rows], [y.of(row) for row in rows], yerr=bars if np.isfinite(bars).any() else None, color=colour,
                       marker=MARKERS[(number + number // len(COLOURS)) % len(MARKERS)], linestyle="none", capsize=3, label=name)
         if base_name(y.column) in OF_EFFICIENCY:
-            models |= draw_models(axes, x, y, rows, colour, DASHES[number % len(DASHES)])
+            models |= draw_models(axes, [x.of(row) for row in rows], y, rows, colour)
     if not drawn:
-        raise Problem(why_nothing(tables, x, y))
+        raise WrongInput(why_nothing(tables, x, y))
     axes.set_xlabel(x.title)
     axes.set_ylabel(y.title)
-    lines = "; ".join(f"{words if len(models) > 1 else 'thin lines'}: {name}" for name, (_, _, words) in MODELS.items() if name in models)
+    lines = words_of_models(models)
     if len(series) > 1:
         axes.legend(frameon=False, fontsize=points(8), loc="best", title=lines or None, title_fontsize=points(8))
     elif lines:
         axes.set_title(lines, fontsize=points(8), color=GREY)
     corner(figure, tables[0].attributes, f"{left_out} of {left_out + drawn} cases are not known" if left_out else "")
     figure.tight_layout(rect=(0, 0.03, 1, 1))
-    return save(figure, target / f"{base_name(y.column)}-over-{base_name(x.column).rpartition('.')[2]}")
+    return save(figure, target / (kind or f"{base_name(y.column)}-over-{base_name(x.column).rpartition('.')[2]}"))

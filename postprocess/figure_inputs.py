@@ -88,12 +88,13 @@ def swept_inputs(columns: Columns, units: Mapping[str, str], attributes: Mapping
 
 def split_inputs(columns: Columns, inputs: list[Input]) -> tuple[Input, list[Input]]:
     """The input over which figures are drawn, and the others. It is the throw number where that varies, else the first
-    swept number.
+    swept number. A swept stroke is not among the others where the throw number follows from it: each would have one point.
     """
     gamma = Input("trough.throw_number", *SYMBOLS["trough.throw_number"], np.asarray(columns["throw_number"], dtype=float))
     numbers = [one for one in inputs if not one.is_text]
     if len(set(np.round(gamma.values, 9))) > 1 or not numbers:
-        return gamma, [one for one in inputs if one.key not in DRIVE]
+        follow = DRIVE if {one.key for one in inputs} & set(DRIVE) else STROKE
+        return gamma, [one for one in inputs if one.key not in follow]
     return numbers[0], [one for one in inputs if one is not numbers[0]]
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import vibrotrough
-from figure_inputs import STROKE, Input, panels, split_inputs
+from figure_inputs import Input, panels, split_inputs
 from figure_style import COLOURS, MARKERS, corner, new_figure, plain_axes, points, save
 
 if TYPE_CHECKING:
@@ -35,11 +35,7 @@ def residuals(source: "Source") -> Floats:
 def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
     over, others = split_inputs(source.campaign, source.inputs)
     values = residuals(source)
-    follows = len(others) == 1 and others[0].key in STROKE and over.key not in {one.key for one in source.inputs}
-    if not others or follows:
-        figure = draw_line(source, over, values)
-    else:
-        figure = draw_maps(source, over, others, values)
+    figure = draw_maps(source, over, others, values) if others else draw_line(source, over, values)
     missing = np.count_nonzero(~np.isfinite(values))
     corner(figure, source.attributes, f"{missing} of {len(values)} cases have no residual" if missing else "")
     return save(figure, output)

@@ -29,8 +29,16 @@ class Problem(Exception):
     """An error that the user can correct; its text is one line."""
 
 
+class WrongInput(Problem):
+    """What was asked for cannot be drawn, and the program ends as with any wrong input."""
+
+
 class TooNarrow(Problem):
     """A figure does not fit into the width that the user wants."""
+
+
+class TooMany(WrongInput):
+    """A figure has more series than can be told apart."""
 
 
 
@@ -59,7 +67,7 @@ def take_style(path: pathlib.Path) -> None:
     try:
         matplotlib.rc_params_from_file(path, fail_on_error=True, use_default_template=False)
     except (OSError, ValueError, KeyError) as error:
-        raise Problem(f"cannot use the style sheet {path} ({str(error).splitlines()[0]}); see matplotlib's style sheets") from error
+        raise WrongInput(f"cannot use the style sheet {path} ({str(error).splitlines()[0]}); see matplotlib's style sheets") from error
     target.style = path
 
 

@@ -9,6 +9,7 @@ theory. Prints the path of every file it wrote. Nothing of the theory is compute
 
 import argparse
 import concurrent.futures.process
+import functools
 import json
 import multiprocessing
 import os
@@ -29,12 +30,16 @@ import figure_spin
 import figure_tables
 import vibrotrough
 from drawn_figures import DrawnFigures, digest_of_data, read_note
-from figure_inputs import swept_inputs
-from figure_style import FORMATS, Problem, TooNarrow, one_line, shown, take_style, target
+from figure_inputs import split_inputs, swept_inputs
+from figure_style import FORMATS, Problem, TooMany, TooNarrow, WrongInput, one_line, shown, take_style, target
 from matplotlib import pyplot as plt
 from plot_campaign import plot_efficiency
 
-KINDS = ("efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles", "impacts", "partition", "segregation")
+KINDS = ("efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits", "spin", "rolling", "profiles", "impacts", "partition", "segregation")
+
+
+# What a machine does, and the columns that say it, the best first.
+MACHINE = {"speed": ("conveying_speed_m_per_s",), "mass_flow": ("mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")}
 
 
 class Source:
@@ -56,6 +61,21 @@ class Source:
     def row_of(self, case: str) -> dict[str, Any]:
         """The case's row of `vibrotrough compare`."""
         return next(row for row in self.overview["cases"] if row["case"] == case)
+
+    def known_column(self, names: Collection[str]) -> str | None:
+        """The first of these columns of `compare` that is known of any case."""
+        return next((name for name in names if any(row.get(name) is not None for row in self.overview["cases"])), None)
+
+    def column_of(self, key: str) -> str:
+        """The column of `compare` that holds a swept key."""
+        return next((str(one["column"]) for one in self.overview["swept"] if one["key"] == key), key.removeprefix("trough."))
+
+
+def plot_for_machine(source: Source, kind: str, column: str) -> list[pathlib.Path]:
+    """Speed or mass flow over the input over which the efficiency is drawn."""
+    over, others = split_inputs(source.campaign, source.inputs)
+    return figure_columns.plot_columns([source.output], source.output, source.column_of(over.key), column,
+                                       [source.column_of(one.key) for one in others], None, 1.0, kind)
 
 
 def draw(source: Source, only: Collection[str], cases: Collection[str]) -> Iterator[list[pathlib.Path]]:
@@ -108,10 +128,10 @@ def draw_cases(source: Source, only: Collection[str], cases: list[str]) -> Itera
 
 
 def drawn(name: str, file: pathlib.Path, draw_one: Callable[[], list[pathlib.Path]]) -> list[pathlib.Path]:
-    """Draws a figure. One that does not fit into the width, or whose file holds what cannot be drawn, is left out and named."""
+    """Draws a figure. One that cannot be read in print, or whose file holds what cannot be drawn, is left out and named."""
     try:
         return draw_one()
-    except TooNarrow as problem:
+    except (TooMany, TooNarrow) as problem:
         print(shown(f"figures.py: {name} is left out: {problem}"), file=sys.stderr)
     except Problem:
         raise
@@ -127,11 +147,14 @@ def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib
     table = source.directory / "campaign.h5"
 
     def efficiency() -> list[pathlib.Path]:
-        theory = {row["case"]: row["efficiency_theory"] for row in source.overview["cases"]}
-        return plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", theory)
+        rows = {row["case"]: row for row in source.overview["cases"]}
+        return plot_efficiency(source.directory, source.data / "theory_curves.csv", source.output / "efficiency", rows)
 
     if "efficiency" in only:
         yield drawn("efficiency", table, efficiency)
+    for kind, columns in MACHINE.items():
+        if kind in only and (column := source.known_column(columns)):
+            yield drawn(kind, table, functools.partial(plot_for_machine, source, kind, column))
     if "residuals" in only:
         yield drawn("residuals", table, lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
     if "budget" in only:
@@ -179,7 +202,8 @@ def main() -> None:
     warnings.filterwarnings("ignore", message="Warning: converting a masked element to nan")
     output = options.output or options.directory / "report"
     if options.x is not None:
-        figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y, options.by, options.unit, options.factor)])
+        figures = iter([figure_columns.plot_columns([output, *options.others], output, options.x, options.y,
+                                                    options.by and [options.by], options.unit, options.factor)])
     else:
         figures = draw(Source(options.directory, output), options.only or KINDS, options.case)
     for paths in figures:
@@ -190,5 +214,8 @@ def main() -> None:
 if __name__ == "__main__":
     try:
         main()
+    except WrongInput as problem:
+        print(shown(f"figures.py: {problem}"), file=sys.stderr)
+        sys.exit(2)
     except Problem as problem:
         sys.exit(shown(f"figures.py: {problem}"))

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 
 import vibrotrough
 from drawn_figures import read_note
+from figure_columns import draw_models, shown_as, words_of_models
 from figure_inputs import Input, panels, split_inputs, swept_inputs
 from figure_style import (COLOURS, DASHES, EFFICIENCY, GREY, MARKERS, Problem, characters_across, corner, is_narrow, new_figure, plain_axes,
                           points, save)  # fmt: skip
@@ -119,8 +120,8 @@ def read_atlas(path: pathlib.Path) -> dict[LineKey, tuple[NDArray[np.float64], N
 
 
 def rotates(columns: Columns) -> bool:
-    """Whether any case has grains that rotate freely, of which the rolling-layer law speaks."""
-    return "free" in list(columns.get("grain_rotation", ()))
+    """Whether any case has grains that rotate, of which the rolling-layer law speaks."""
+    return not {"free", "rolling"}.isdisjoint(columns.get("grain_rotation", ()))
 
 
 def same(value: float) -> float:
@@ -194,14 +195,15 @@ def draw_theory(axes: Axes, series: Series, rows: list[int], theory: dict[LineKe
             axes.fill_between(places, efficiency - bands[line], efficiency + bands[line], color=colour, alpha=0.12, linewidth=0)
 
 
-def draw_theory_at_cases(axes: Axes, series: Series, rows: list[int], theory: dict[str, float | None]) -> None:
-    """Over another input the program gives the theory at the cases only."""
+def draw_models_at_cases(axes: Axes, series: Series, rows: list[int], at_cases: dict[str, dict[str, Any]]) -> set[str]:
+    """Over another input the program gives theory, law and atlas at the cases only. The names of those that were drawn."""
     places, _ = series.over.places()
-    for number in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
-        members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == number), key=lambda row: places[row])
-        values = [theory.get(str(series.columns["case"][row])) for row in members]
-        axes.plot(places[members], [math.nan if value is None else value for value in values], linewidth=0.8, marker="x",
-                  markersize=5, color=COLOURS[number[0] % len(COLOURS)], linestyle=DASHES[number[0] % len(DASHES)])
+    efficiency, drawn = shown_as({"name": "efficiency", "unit": "1", "type": "number"}), set()
+    for colour, marker in sorted({(int(series.colours[row]), int(series.markers[row])) for row in rows}):
+        members = sorted((row for row in rows if (series.colours[row], series.markers[row]) == (colour, marker)), key=lambda row: places[row])
+        drawn |= draw_models(axes, [float(places[row]) for row in members], efficiency,
+                             [at_cases.get(str(series.columns["case"][row]), {}) for row in members], COLOURS[colour % len(COLOURS)])
+    return drawn
 
 
 def draw(axes: Axes, series: Series, rows: list[int]) -> None:
@@ -290,10 +292,8 @@ def label(figure: Figure, grid: list[Axes], series: Series, attributes: dict[str
 
 
 def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, output: pathlib.Path,
-                    at_cases: dict[str, float | None] | None = None) -> list[pathlib.Path]:
-    """Draws the figure; returns the files. `at_cases` is the theory's efficiency by case, for other inputs than the throw
-    number.
-    """
+                    at_cases: dict[str, dict[str, Any]] | None = None) -> list[pathlib.Path]:
+    """Draws the figure; returns the files. `at_cases` has the rows of `compare` by case, for other inputs than the throw number."""
     columns, units, attributes = read_campaign(directory / "campaign.h5")
     if len(columns.get("case", [])) == 0:
         raise Problem(f"{directory / 'campaign.h5'} holds no finished case; run the campaign first")
@@ -301,7 +301,7 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
     rolling = read_rolling_layer(theory_file) if theory_file and rotates(columns) else {}
     atlas = read_atlas(theory_file) if theory_file else {}
     series = Series(columns, units, attributes)
-    told = "; crosses: point-mass theory" if at_cases else ""
+    told, models = "", set[str]()
     if series.is_over_throw_number():
         told = ("; lines: point-mass theory" if theory else "") + ("; thin: rolling-layer law" if rolling else "")
         told += "; dots with a band: atlas, 95 %" if atlas else ""
@@ -321,13 +321,13 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
             draw_theory(one, series, rows, {key: line[:2] for key, line in atlas.items()}, {"linewidth": 1.2, "linestyle": ":"},
                         {key: line[2] for key, line in atlas.items()})
         elif at_cases:
-            draw_theory_at_cases(one, series, rows, at_cases)
+            models |= draw_models_at_cases(one, series, rows, at_cases)
         draw(one, series, rows)
         mark_uncertain(one, series, rows, draw_branches(one, series, rows))
         one.set_title(name, fontsize=points(9)) if len(shown) > 1 else None
     for one in grid[len(shown):]:
         one.set_visible(False)
-    taken = label(figure, grid[:len(shown)], series, attributes, told)
+    taken = label(figure, grid[:len(shown)], series, attributes, told + "".join(f"; {words}" for words in [words_of_models(models)] if words))
     figure.tight_layout(rect=(0, 0.02, 1, 1 - taken))
     return save(figure, output)
 

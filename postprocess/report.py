@@ -20,6 +20,7 @@ import jinja2
 import markupsafe
 
 from drawn_figures import DrawnFigures, digest_of_data, drawing_of, read_note, write_file
+from figure_columns import half_width_name
 from figure_style import Problem, one_line, plain, shown
 from report_reasons import reasons
 from report_words import conclusion
@@ -40,6 +41,8 @@ MODE_LETTERS = {
 WITHOUT_FAILURE = ("finished", "open", "running", "interrupted")
 FIGURES = [
     ("efficiency", "Velocity efficiency of the layer beside the theory"),
+    ("speed", "Conveying speed of the layer, and what the models say of the same cases"),
+    ("mass_flow", "Mass flow, and what the models say of the same cases"),
     ("residuals", "What the theory misses"),
     ("budget", "Statistical and numerical error"),
 ]
@@ -134,12 +137,28 @@ class Figures:
 WHAT_A_MACHINE_DOES = ("conveying_speed_m_per_s", "mass_flow_t_per_h", "mass_flow_per_width_t_per_h_m")
 
 
+# What only some readers look for: shown at the push of a button, so that the rest fits on a screen.
+MINOR = ("efficiency_half_width", "efficiency_numerical_error", "numerical_error_case", "larger_error", "mass_flow_per_width_t_per_h_m",
+         "power_per_area_w_per_m2", "added_mass_fraction", "damping_per_area_n_s_per_m3", "cycles_discarded", "wall_time_s")
+
+BEHIND_THE_MODES = 155  # position of a column
+
+
 def report_columns(overview: dict[str, Any]) -> list[Column]:
     """The columns that the report shows, from left to right, as campaign.json describes them."""
     shown = [dict(column, **column["report"]) for column in overview["columns"] if column["report"]]
     for column in shown:
+        column["error"] = half_width_name(column)
         column["heading"] = plain(column["heading"])
         column["unit"] = UNIT_SIGNS.get(column["shown_unit"], column["shown_unit"])
+    errors = {column["error"] for column in shown}
+    minor = {*MINOR} - ({"mass_flow_per_width_t_per_h_m"} if all(row.get("mass_flow_t_per_h") is None for row in overview["cases"]) else set())
+    for column in shown:
+        if column["name"] == "outcome":
+            column["position"] = BEHIND_THE_MODES  # own observables may be many, and this is looked for
+        column["minor"] = column["name"] in minor
+    # An interval stands in the cell of its number.
+    shown = [column for column in shown if column["name"] not in errors]
     inputs_end = min((column["position"] for column in shown if column["name"] == "efficiency"), default=0)
     return sorted(shown, key=lambda column: (column["position"] >= inputs_end and column["name"] not in WHAT_A_MACHINE_DOES,
                                              column["position"] >= inputs_end, column["position"]))
@@ -155,9 +174,11 @@ def cell(row: Case, column: Column) -> dict[str, Any]:
     """What is shown of a value, and what it is sorted by; unknown values are empty."""
     value = row.get(column["name"])
     if value is None or value == "":
-        return {"shown": "", "key": "", "text": column["type"] == "text"}
+        return {"shown": "", "key": "", "text": column["type"] == "text", "minor": column["minor"]}
     key = value if isinstance(value, (int, float)) else str(value)
-    return {"shown": written(value, column), "key": key, "text": column["type"] == "text"}
+    error = row.get(column["error"])
+    bars = f" \u00b1 {written(error, column).lstrip('+')}" if isinstance(error, float) else ""
+    return {"shown": written(value, column) + bars, "key": key, "text": column["type"] == "text", "minor": column["minor"]}
 
 
 def with_unit(shown: str, unit: str) -> str:
@@ -219,6 +240,8 @@ def render(directory: pathlib.Path, output: pathlib.Path) -> str:
         overview=overview,
         conclusion=conclusion(cases),
         reasons=reasons(overview),
+        engine=overview["engine_version"].replace(", git commit unknown", ""),
+        commit="" if overview["git_commit"] == "unknown" else f" ({overview['git_commit']})",
         mode_letters=MODE_LETTERS,
         plain=plain,
         script_digest=script_digest((folder / "report.html").read_text(encoding="utf-8")),

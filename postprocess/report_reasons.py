@@ -19,6 +19,7 @@ LONGEST_LABEL = 80
 RESOLUTION = 0.05
 # 95 %: the rolling-layer law misses layers that it was not fitted to with an rms error of 0.045 (validation/rolling_layer).
 LAW_HALF_WIDTH = 1.96 * 0.045
+FEWEST_DIAMETERS = 3  # the depth at which the atlas begins, to which its effect of depth refers
 
 
 def known(case: Case, *names: str) -> bool:
@@ -83,10 +84,10 @@ def effects_of(case: Case) -> list[str]:
     effects = case.get("atlas_effects") or {}
     sentences = []
     if depth := effects.get("of_depth"):
-        sentences.append(f"Depth: by the atlas, {effects['depth']:.1f} diameters instead of the fewest that it has change the efficiency by: "
+        sentences.append(f"By the atlas, a depth of {effects['depth']:.3g} instead of {FEWEST_DIAMETERS} diameters changes the efficiency by "
                          f"{amount(depth['value'], depth['half_width'])}.")
     if slope := effects.get("of_slope"):
-        sentences.append(f"Slope: by the atlas, its part of the difference from the theory is: {amount(slope['value'], slope['half_width'])}.")
+        sentences.append(f"By the atlas, the slope's part of the difference from the theory is {amount(slope['value'], slope['half_width'])}.")
     return sentences
 
 

@@ -95,6 +95,9 @@ class Case:
     def __init__(self, folder: pathlib.Path) -> None:
         self.folder = folder
 
+    def __repr__(self) -> str:
+        return f"<Case {self.folder.name} in {self.folder.parent.parent}>"
+
     @property
     def result(self) -> vibrotrough.File:
         """result.h5, with the series of cycles of each packing. @raises OSError when the case has none yet"""
@@ -137,6 +140,9 @@ class Campaign:
             self.file, output = self.file / "campaign.toml", output or self.file
         name = ask(self.program, "plan", self.file)["campaign"]  # which also says what is wrong with the file
         self.folder = pathlib.Path(output) if output else pathlib.Path("runs") / str(name)
+
+    def __repr__(self) -> str:
+        return f"<Campaign {self.file}, results in {self.folder}>"
 
     def plan(self) -> Any:
         """The cases, with the core time that each will probably take. @raises ProgramError when the file has a mistake"""

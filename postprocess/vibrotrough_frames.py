@@ -103,6 +103,9 @@ class Frame:
     radii: Floats  # m
     spins: Floats  # rad/s, (grains, 3)
 
+    def __repr__(self) -> str:
+        return f"<Frame: step {self.step}, cycle {self.cycle:.6g}, {self.time:.6g} s, {len(self.ids)} grains>"
+
     @property
     def heights(self) -> Floats:
         """Heights of the centres above the floor of the trough, m."""
@@ -133,6 +136,9 @@ class Contacts:
     normal_force: Floats  # N, (contacts, 3), on the first grain
     tangential_force: Floats  # N, (contacts, 3), on the first grain
     overlap: Floats  # m
+
+    def __repr__(self) -> str:
+        return f"<Contacts: step {self.step}, {np.count_nonzero(self.second)} of grains, {np.count_nonzero(self.second == 0)} with the trough>"
 
 
 def _dump(path: pathlib.Path) -> tuple[int, Floats, list[str], Floats]:
@@ -170,6 +176,9 @@ class Frames(Sequence[Frame]):
 
     def __init__(self, packing: Packing) -> None:
         self._packing = packing
+        if not packing.has("frames"):
+            raise FileNotFoundError(f"packing {packing.number} of {packing.case.folder} kept no frames; write output.frames_per_cycle = 20 and "
+                                    'output.frame_packings = "all" into the campaign file, and run it into a new folder')
         table = packing.table("dump/frames.csv")
         # A last frame that the engine did not finish has no dump behind its line.
         self._steps = [int(step) for step in table["step"] if packing.file(f"dump/frames.{int(step)}.dump").is_file()]
@@ -245,6 +254,9 @@ class ContactFrames(Sequence[Contacts]):
 
     def __init__(self, packing: Packing) -> None:
         self._packing, self._frames = packing, packing.frames
+        if not packing.has("contacts"):
+            raise FileNotFoundError(f"packing {packing.number} of {packing.case.folder} kept no contacts; write output.contacts = true into the "
+                                    "campaign file, and run it into a new folder")
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -357,7 +369,7 @@ class Packing:
 
     @functools.cached_property
     def contacts(self) -> ContactFrames:
-        """@raises OSError when the packing kept no frames"""
+        """@raises OSError when the packing kept no contacts"""
         return ContactFrames(self)
 
     def phases(self) -> dict[str, vibrotrough.Array]:

@@ -37,6 +37,12 @@ except ImportError as error:
     raise ImportError(f"the compiled theory is missing ({error}); in a checkout of Vibrotrough: pip install --no-build-isolation ./postprocess") from error
 
 
+# What others call the inputs.
+MEANINGS = {"mu": "friction", "k": "machine_number", "gamma": "throw_number", "e": "restitution", "beta": "vibration_angle_deg", "alpha": "inclination_deg",
+            "frequency": "frequency_hz", "stroke": "stroke_mm", "amplitude": "amplitude_mm", "speed": "rpm", "vibration_angle": "vibration_angle_deg",
+            "inclination": "inclination_deg"}  # fmt: skip
+
+
 class CoexistingMotion(NamedTuple):
     """One of the motions to which different starts lead."""
 
@@ -165,13 +171,16 @@ def _in_base_units(inputs: Mapping[str, ArrayLike], known: Mapping[str, tuple[st
     given_as: dict[str, str] = {}
     for name, values in inputs.items():
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
+            near = [one for one in [MEANINGS.get(name.lower())] if one in known] or difflib.get_close_matches(name, known, 1)
             raise TypeError(f"{name} is not an input; " + (f"did you mean {near[0]}?" if near else "inputs are " + ", ".join(known)))
         base, factor = known[name]
         if base in columns:
             raise TypeError(f"{given_as[base]} and {name} are both given; leave one out")
         given_as[base] = name
-        columns[base] = np.asarray(values, dtype=np.float64) * factor
+        try:
+            columns[base] = np.asarray(values, dtype=np.float64) * factor
+        except (TypeError, ValueError):
+            raise TypeError(f"{name} takes numbers, in the unit that ends its name, and not {str(values):.60}") from None
     return columns
 
 

@@ -67,6 +67,13 @@ function showNoAnswer(message) {
   document.getElementById("reason").dataset.trust = 2;
 }
 
+/// In per cent of the first, to a tenth: rounding noise is not a difference.
+function differenceText(a, b) {
+  if (!a || !Number.isFinite(b)) return "\u2013";
+  const tenths = Math.round(1000 * (b / a - 1)) / 10;
+  return `${tenths > 0 ? "+" : ""}${showNumber(tenths)} %`;
+}
+
 /// Both machines side by side: what differs of the inputs, and the answers.
 function showComparison() {
   const both = page.answers.length === 2 && page.answers.every((one) => one);
@@ -82,6 +89,6 @@ function showComparison() {
   for (const [title, value] of answered) rows.push([title, ...page.answers.map(value)]);
   const head = make("tr", {}, make("td"), ...["A", "B", say("difference")].map((text) => make("th", { scope: "col" }, text)));
   const lines = rows.map(([title, a, b]) => make("tr", {}, make("th", { scope: "row" }, title), make("td", {}, showNumber(a)), make("td", {}, showNumber(b)),
-    make("td", {}, a ? `${b >= a ? "+" : ""}${showNumber(100 * (b / a - 1))} %` : "\u2013")));
+    make("td", {}, differenceText(a, b))));
   document.getElementById("comparison-table").replaceChildren(make("thead", {}, head), make("tbody", {}, ...lines));
 }

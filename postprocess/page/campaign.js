@@ -20,7 +20,7 @@ function casePoints() {
     if (!Number.isFinite(x) || !Number.isFinite(y)) return [];
     const bar = isSpeed ? one.conveying_speed_half_width_m_per_s : one.mass_flow_half_width_t_per_h;
     return [{ kind: isLikeMachine(one) ? "simulated" : "simulated other", x, y: y * factor, bar: (bar || 0) * factor,
-      title: `${say("campaign_case")} ${one.case}: ${showNumber(y * factor)} ${isSpeed ? page.speedUnit : "t/h"}` }];
+      title: `${say("campaign_case")} ${one.label || one.case}: ${showNumber(y * factor)} ${isSpeed ? page.speedUnit : "t/h"}` }];
   });
 }
 
@@ -38,7 +38,7 @@ function showCases() {
   put("campaign-title", say("campaign_title", page.campaignName));
   const head = [say("campaign_case"), "\u0393", ...Object.keys(caseColumns).map(axisTitle), `${say("speed")} [${page.speedUnit}]`, "t/h", ""];
   const pm = (value, bar) => (Number.isFinite(value) ? `${showNumber(value)} \u00b1 ${showNumber(bar, 2)}` : "\u2013");
-  const rows = page.cases.slice(0, 200).map((one) => make("tr", {}, make("th", { scope: "row" }, one.case), make("td", {}, showNumber(one.throw_number)),
+  const rows = page.cases.slice(0, 200).map((one) => make("tr", {}, make("th", { scope: "row" }, one.label || one.case), make("td", {}, showNumber(one.throw_number)),
     ...Object.keys(caseColumns).map((name) => make("td", {}, showNumber(caseValue(one, name)))),
     make("td", {}, pm(one.conveying_speed_m_per_s * speedFactor(), one.conveying_speed_half_width_m_per_s * speedFactor())),
     make("td", {}, pm(one.mass_flow_t_per_h, one.mass_flow_half_width_t_per_h)), make("td", {}, make("button", { type: "button", click: () => takeCase(one) }, say("use_case")))));

@@ -154,11 +154,14 @@ function markPart(one, x, y) {
 function pointsOnCurve() { return [...casePoints(), ...measuredPoints()]; }
 
 function showCurveLegend() {
+  const drawn = curves.slice(0, page.machines.length).flatMap((curve) => (curve ? curve.points.filter(Boolean) : []));
+  const isShown = { "band of-atlas": drawn.some(({ answer }) => answer.model === ofAtlas), band: drawn.some(({ answer }) => answer.model !== ofAtlas) };
+  for (const of of ["atlas", "layer", "mass", "rule"]) isShown[of] = drawn.some(({ answer }) => Number.isFinite(answer[quantityOf().of(of)]));
   const entries = [["atlas", "by_atlas"], ["layer", "by_layer"], ["mass", "by_mass"], ["rule", "by_rule"], ["band of-atlas", "band_atlas"], ["band", "band_models"], ["own", "your_point"]];
   if (wantedFlows().length > 0) entries.push(["asked", "asked_line"]);
   if (page.cases.length > 0) entries.push(["simulated", "simulated_same"], ["simulated other", "simulated_other"]);
   if (page.measured && page.measured.points.length > 0) entries.push(["measured", "measured"]);
-  document.getElementById("curve-legend").replaceChildren(...entries.map(([key, word]) => make("li", {}, make("span", { class: `key ${key}`, "aria-hidden": "true" }), say(word))));
+  document.getElementById("curve-legend").replaceChildren(...entries.filter(([key]) => isShown[key] !== false).map(([key, word]) => make("li", {}, make("span", { class: `key ${key}`, "aria-hidden": "true" }), say(word))));
   const answer = page.answers[page.active];
   put("curve-text", answer ? `${axisTitle(page.curveAxis)} ${fieldNumber(machine()[page.curveAxis])}: ${["atlas", "layer", "mass"].map((of) => `${say(`by_${of}`)} ${speedText(answer[`${of}_speed`])}`).join(", ")}.` : "");
 }

@@ -51,7 +51,7 @@ function showDesigns() {
   document.getElementById("design-section").hidden = page.designs.length === 0;
   if (page.designs.length === 0) return;
   put("design-asked", page.designs.map((one) => `${page.designs.length > 1 ? `${one.name}: ` : ""}${say("design_asked", showNumber(one.wanted_t_per_h), percent(one.confidence))}`
-    + `${one.untested ? ` ${say("design_untested")}` : ""}${one.assumed.length > 0 ? ` ${say("design_assumed", one.assumed.map((name) => `${say(name)} ${fieldNumber(one.machines[0].settings[name])}`).join(", "))}` : ""}`).join(" "));
+    + `${one.untested ? ` ${say("design_untested")}` : ""}${one.assumed.length > 0 ? ` ${say("design_assumed", one.assumed.map((name) => `${axisTitle(name)}: ${fieldNumber(one.machines[0].settings[name])}`).join(", "))}` : ""}`).join(" "));
   const head = ["", axisTitle("stroke_mm"), axisTitle("rpm"), axisTitle("depth_mm"), say("model"), `${say("flow")} [t/h]`, "95 %", say("design_probability")];
   document.getElementById("design-table").replaceChildren(make("thead", {}, make("tr", {}, ...head.map((text) => make("th", { scope: "col" }, text)))),
     make("tbody", {}, ...proposals().flatMap(rowsOfProposal)));

@@ -22,7 +22,7 @@ function drawFrame(now) {
   const wasDirty = work.dirty;
   if (work.dirty) { work.dirty = false; showAnswers(); }
   const curvesDone = growCurves(until);
-  if (wasDirty || !work.curvesDone) { drawCurves(); showGap(); }
+  if (wasDirty || !work.curvesDone) { drawCurves(); showGap(); showCurveLegend(); }
   work.curvesDone = curvesDone;
   if (wasDirty) { drawMotion(); drawMapFrame(); }
   const mapDone = curvesDone && isSeen("map") ? growMap(until) : !isSeen("map") || !curvesDone ? false : true;
@@ -43,7 +43,6 @@ function showAnswers() {
   else showNoAnswer(page.problem);
   showComparison();
   showDesignNow();
-  showCurveLegend();
   if (!document.documentElement.dataset.answered) document.documentElement.dataset.answered = performance.now();
 }
 

@@ -26,7 +26,8 @@ def make_table(columns, folder, name):
     rows = [{"case": f"{height} {rolling}", "layer.height": height, "grains.rolling_friction": rolling, "efficiency": efficiency(height, rolling),
              "efficiency_half_width": 0.02, "efficiency_whole_half_width": 0.03, "outcome": "finished", "efficiency_theory": 0.55,
              "conveying_speed_m_per_s": SPEED_SCALE * efficiency(height, rolling), "conveying_speed_half_width_m_per_s": 0.01,
-             "efficiency_rolling_layer": 0.7 if rolling == 0 else None}
+             "efficiency_rolling_layer": 0.7 if rolling == 0 else None,
+             "mass_flow_per_width_t_per_h_m": 20 * height / 0.006, "mass_flow_per_width_half_width_t_per_h_m": 2.0}
             for rolling in (0.0, 0.1) for height in HEIGHTS]  # fmt: skip
     rows.append({"case": "failed", "layer.height": 0.1, "grains.rolling_friction": 0.0, "efficiency": None, "outcome": "lost-grains"})
     (folder / "data").mkdir(parents=True, exist_ok=True)
@@ -63,14 +64,25 @@ def check_numbers(scripts, outputs):
     lines = [line.get_ydata()[0] for line in axes.lines if line.get_marker() == "x"]
     expected = [60 * SPEED_SCALE * one for one in (0.55, 0.7, 0.55)] * 2
     assert len(lines) == len(expected) and all(map(math.isclose, lines, expected)), lines
+    # Dashes tell the models apart, also in black and white.
+    assert [line.get_linestyle() for line in axes.lines if line.get_marker() == "x"] == ["-", "--", "-"] * 2
+    assert axes.get_legend().get_title().get_text() == "solid: point-mass theory; dashed: rolling-layer law"
     assert "2 of 14 cases are not known" in [text.get_text() for text in figure.texts]
 
 
 def check_whole_interval(scripts, outputs):
     """Of an efficiency the bars are those of the whole interval."""
-    figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency", "grains.rolling_friction", None, 1.0)
+    figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency", ["grains.rolling_friction"], None, 1.0)
     low, high = figure.axes[0].containers[0][2][0].get_segments()[0][:, 1]
     assert math.isclose(high - low, 0.06)
+
+
+def check_flow_of_a_metre(scripts, outputs):
+    """The mass flow of a metre of width has the bars and the models of the speed, and its name has no unit in it."""
+    figure, path = drawn_by(scripts, outputs[:1], "layer.height", "mass_flow_per_width_t_per_h_m", [], None, 1.0)
+    axes = figure.axes[0]
+    assert path.name == "mass_flow_per_width-over-height" and axes.get_ylabel() == "mass flow per width  [t/h/m]", (path, axes.get_ylabel())
+    assert axes.containers[0].has_yerr and len([line for line in axes.lines if line.get_marker() == "x"]) == 2
 
 
 def check_that_only_speeds_have_a_theory(scripts, outputs):
@@ -84,7 +96,7 @@ def check_mistakes(scripts, outputs):
         x, y = asked
         done = subprocess.run(["/usr/bin/python3", "-B", scripts / "figures.py", outputs[0], "--output", outputs[0], "--x", x, "--y", y],
                               capture_output=True, text=True)
-        assert done.returncode == 1 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
+        assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
 
 
 def main():
@@ -96,6 +108,7 @@ def main():
     check_numbers(scripts, outputs)
     check_whole_interval(scripts, outputs)
     check_that_only_speeds_have_a_theory(scripts, outputs)
+    check_flow_of_a_metre(scripts, outputs)
     check_mistakes(scripts, outputs)
 
 

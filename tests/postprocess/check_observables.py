@@ -223,6 +223,15 @@ def check_waves(folder):
     assert np.isnan(found[:2]).all()
 
 
+def expect_missing(cure, read):
+    try:
+        read()
+    except FileNotFoundError as error:
+        assert cure in str(error), error
+        return
+    raise AssertionError(f"was read, without {cure}")
+
+
 def check_reading(folder):
     """Frames are read when they are asked for; a damaged one is named; tables count a repeated step once."""
     start = some_places(5)
@@ -233,6 +242,14 @@ def check_reading(folder):
     assert np.allclose(frames[1].positions, start) and list(frames[1].ids) == [1, 2, 3, 4, 5]
     assert [one.step for one in frames[1:3]] == [500, 1000] and len(packing.cycles("frames")[1].frames) == 2
     assert packing.cycles("frames")[1].start.step == 1000
+    assert repr(frames[1]) == f"<Frame: step 500, cycle 0.5, {PERIOD / 2:.6g} s, 5 grains>", repr(frames[1])
+    # What was not kept is told at once, with the line of the campaign file that keeps it.
+    expect_missing("output.contacts = true", lambda: made.open().contacts)
+    kept = (made.packing / "dump/frames.csv").read_text()
+    (made.packing / "dump/frames.csv").unlink()
+    expect_missing('output.frame_packings = "all"', lambda: made.open().frames)
+    expect_missing('output.frame_packings = "all"', lambda: made.open().contacts)
+    made.write("dump/frames.csv", kept)
     made.write("dump/frames.1000.dump", (made.packing / "dump/frames.1000.dump").read_text()[:-40])
     try:
         made.open().frames[2]

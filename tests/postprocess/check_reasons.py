@@ -56,11 +56,11 @@ def check_the_atlas():
     """Depth and slope by the atlas; what its interval hides gets no number, and what it tells is no longer called unknown."""
     told_of = {"depth": 4.2, "of_depth": {"value": -0.08, "half_width": 0.03}, "of_slope": {"value": 0.01, "half_width": 0.04}}
     found = told([dict(CASE, atlas_effects=told_of)])
-    assert found["Why theory"][0].endswith("Depth: by the atlas, 4.2 diameters instead of the fewest that it has change the efficiency by: \u22120.08 \u00b1 0.03. "
-                                           "Slope: by the atlas, its part of the difference from the theory is: too little to tell (\u00b1 0.04)."), found["Why theory"][0]
+    assert found["Why theory"][0].endswith("By the atlas, a depth of 4.2 instead of 3 diameters changes the efficiency by \u22120.08 \u00b1 0.03. "
+                                           "By the atlas, the slope's part of the difference from the theory is too little to tell (\u00b1 0.04)."), found["Why theory"][0]
     assert not any("not varied" in sentence for sentence in found["What known"]), found["What known"]
     level = told([dict(CASE, atlas_effects={**told_of, "of_slope": None})])
-    assert "Slope: by" not in level["Why theory"][0] and any(sentence.startswith("Slope: not varied") for sentence in level["What known"]), level
+    assert "the slope's part" not in level["Why theory"][0] and any(sentence.startswith("Slope: not varied") for sentence in level["What known"]), level
 
 
 def check_a_long_name():

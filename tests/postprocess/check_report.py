@@ -38,11 +38,15 @@ PROBE = """<script>
     document.querySelector(`th[data-column=${name}] button`).click();
     seen.push(order());
   }
+  const visible = () => Array.from(document.querySelectorAll("#cases thead th")).filter((one) => one.offsetWidth > 0).map((one) => one.dataset.column);
+  const few = visible();
+  document.getElementById("all-columns").click();
+  const many = visible();
   const width = document.querySelector("figure svg").getBoundingClientRect().width;
   document.documentElement.style.width = "400px";  // a telephone: headless windows are at least 500 wide
   const probe = document.createElement("output");
   probe.id = "probe";
-  probe.textContent = JSON.stringify({seen, title: document.title, drawn: document.querySelectorAll("figure svg path").length,
+  probe.textContent = JSON.stringify({seen, few, many, title: document.title, drawn: document.querySelectorAll("figure svg path").length,
     width, narrow: document.querySelector("figure svg").getBoundingClientRect().width,
     sorted: document.querySelector("th[data-column=outcome]").getAttribute("aria-sort"), page: document.body.scrollWidth});
   document.body.append(probe);
@@ -111,6 +115,8 @@ def check_page(page):
     assert page.count("<svg") == len(re.findall(r"<figcaption", page)) >= 4
     assert "lost-grains" in words.text and "restitution" in words.text
     assert "\u03b7, theory" in words.text and "+0.270" in words.text and "friction_layer" not in page, "columns of the table"
+    assert re.search(r">0\.820? \u00b1 0\.130?<", page), "an interval stands in the cell of its number"
+    assert re.findall(r'data-column="([a-z_]*half_width[a-z_]*)"', page) == ["efficiency_half_width"], "the statistical part, at the push of a button"
     assert 'title="Velocity efficiency' in page, "a heading says what it means"
     assert "\u03b1 = -2.86\u00b0" in words.text, "what is the same in all cases is said once"
     assert "amplitude r =" not in words.text and "stroke = 12 mm" in words.text and "turns = 810 1/min" in words.text
@@ -201,6 +207,46 @@ def check_swept(scripts, folder, work):
         text = (other / "report" / "efficiency.svg").read_text(encoding="utf-8")
         assert wanted in text and unwanted not in text, f"{wanted} is not in the figure, or {unwanted} is"
         assert "grain rolling friction" in (other / "report" / "residuals.svg").read_text(encoding="utf-8")
+    check_models_over_the_swept_key(scripts, other)
+    check_stroke(scripts, other)
+
+
+def check_models_over_the_swept_key(scripts, folder):
+    """With the throw number the same in all cases, efficiency, speed and mass flow are drawn over the swept key, with the lines of the
+    theory, the law and the atlas.
+    """
+    data = folder / "report" / "data" / "campaign.json"
+    overview = json.loads(data.read_text(encoding="utf-8"))
+    key = "grains.rolling_friction"
+    overview["swept"] = [{"key": key, "column": key}]
+    overview["columns"].append({"name": key, "key": key, "unit": "1", "type": "number", "meaning": "", "report": None})
+    for number, row in enumerate(overview["cases"]):
+        row |= {key: 0.05 + 0.15 * number, "efficiency_theory": 0.5, "efficiency_rolling_layer": 0.6, "efficiency_atlas": 0.7, "efficiency_atlas_half_width": 0.08}
+    data.write_text(json.dumps(overview), encoding="utf-8")
+    run_script(scripts, "figures.py", folder, "--only", "efficiency", "--only", "speed", "--only", "mass_flow")
+    for kind, title in (("efficiency", "velocity efficiency"), ("speed", "conveying speed"), ("mass_flow", "mass flow")):
+        text = (folder / "report" / f"{kind}.svg").read_text(encoding="utf-8")
+        for words in (title, "grain rolling friction", "solid: point-mass theory", "dashed: rolling-layer law", "dotted: atlas"):
+            assert words in text, f"{kind}: {words}"
+    assert sum("models say of the same cases" in one for one in figures_in(scripts, folder)) == 2
+
+
+def check_stroke(scripts, folder):
+    """A swept stroke sets the throw number, which is the scale: one series. With a swept frequency it is a series of its own."""
+    import numpy as np
+
+    sys.path.insert(0, str(scripts))
+    from plot_campaign import Series
+
+    columns = {"case": np.array(["a", "b", "c"]), "throw_number": np.array([1.4, 1.6, 2.0]), "vibration_angle": np.full(3, 0.5),
+               "swept/trough.stroke": np.array([0.007, 0.008, 0.010]), "swept/trough.frequency": np.array([16.0, 16.0, 17.0])}
+    units = {"swept/trough.stroke": "m", "swept/trough.frequency": "Hz"}
+    alone = Series(columns, units, {"swept_keys": "trough.stroke"})
+    assert alone.is_over_throw_number() and set(alone.colours) == {0} and set(alone.markers) == {0} and len(alone.panels) == 1
+    both = Series(columns, units, {"swept_keys": "trough.stroke trough.frequency"})
+    assert len(set(both.colours)) == 3, "the throw number does not tell the stroke"
+
+
 def figures_in(scripts, folder):
     (report,) = run_script(scripts, "report.py", folder)
     return re.findall(r"<figcaption>Figure \d+\. ([^<]*)<", report.read_text(encoding="utf-8"))
@@ -281,6 +327,9 @@ def check_in_browser(browser, report, work):
     assert seen["seen"] == [f"{a} {b} {c}", f"{c} {a} {b}", f"{b} {a} {c}", f"{c} {a} {b}", f"{a} {c} {b}", f"{c} {a} {b}"], seen
     assert seen["title"] == "sample \u00b7 Vibrotrough" and seen["drawn"] > 100 and seen["width"] > 300, seen
     assert seen["sorted"] == "ascending", seen
+    # The button shows what only some readers look for.
+    assert {"wall_time_s", "cycles_discarded"} & set(seen["many"]) and not {"wall_time_s", "cycles_discarded"} & set(seen["few"]), seen
+    assert set(seen["few"]) < set(seen["many"]) and "outcome" in seen["few"], seen
     # The page itself fits into 400 pixels; tables and figures stay readable and scroll within it.
     assert seen["page"] <= 400 and seen["narrow"] > 500, seen
     said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
