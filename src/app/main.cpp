@@ -7,15 +7,20 @@
 #include "app/with_vtk.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
+#include "core/nearest.hpp"
 #include "core/text.hpp"
+#include "scenario/reader/other_words.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -116,6 +121,48 @@ explains a command. Example:
     add_theory_calibrate(*theory, exit_code);
 }
 
+/// Names of the commands of a command.
+std::vector<std::string_view> commands_of(CLI::App const& command) {
+    std::vector<std::string_view> names;
+    for (CLI::App const* one : command.get_subcommands([](CLI::App const*) { return true; }))
+        names.push_back(one->get_name());
+    return names;
+}
+
+/// The option of a command that is meant by one that it does not have: by spelling, or by meaning, as in a
+/// campaign file ("--mu" is --friction). Empty when none is.
+std::string option_meant(CLI::App const& command, std::string const& given) {
+    std::vector<std::string_view> names;
+    for (CLI::Option const* one : command.get_options())
+        for (std::string const& name : one->get_lnames()) names.emplace_back(name);
+    std::string word =
+        given.substr(given.find_first_not_of('-'), given.find('=') - given.find_first_not_of('-'));
+    std::string_view meant;
+    std::string key(scenario::key_in_other_words(word));
+    key.erase(0, key.rfind('.') + 1);
+    std::ranges::replace(key, '_', '-');
+    if (auto const found = std::ranges::find(names, key); found != names.end()) meant = *found;
+    if (meant.empty()) meant = core::nearest_word(word, names);
+    return meant.empty() ? "" : fmt::format("--{}", meant);
+}
+
+/// The words that a command does not know, in the order in which they were written. CLI11 turns it round.
+std::string unknown_words(CLI::App const& command, std::string const& path, int argc, char** argv) {
+    std::vector<std::string> rest = command.remaining();
+    std::string said, meant;
+    for (int i = 1; i < argc; ++i) {
+        std::string const word = argv[i];
+        auto const unknown = std::ranges::find(rest, word);
+        if (unknown == rest.end()) continue;
+        rest.erase(unknown);
+        said += " " + word;
+        bool const is_option = word.starts_with("-") && word.find_first_not_of("-.0123456789") != word.npos;
+        if (is_option && meant.empty()) meant = option_meant(command, word);
+    }
+    if (!meant.empty()) return fmt::format("{} does not know{}; did you mean {}?", path, said, meant);
+    return fmt::format("{} does not know{}; see '{} --help'", path, said, path);
+}
+
 /// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt
 /// command.
 std::string describe(CLI::ParseError const& error, CLI::App const& program, int argc, char** argv) {
@@ -126,14 +173,18 @@ std::string describe(CLI::ParseError const& error, CLI::App const& program, int 
         auto const named =
             command->get_subcommands([&](CLI::App const* one) { return one->get_name() == word; });
         if (named.empty()) {
-            if (!command->get_subcommands([](CLI::App const*) { return true; }).empty()) {
-                problem = fmt::format("there is no command '{}'", word);
-            }
+            auto const commands = commands_of(*command);
+            if (commands.empty()) break;
+            std::string_view const nearest = core::nearest_word(word, commands);
+            problem = fmt::format("there is no command '{}'", word);
+            if (!nearest.empty()) return fmt::format("{}; did you mean '{} {}'?", problem, path, nearest);
             break;
         }
         command = named.front();
         path += " " + word;
     }
+    bool const is_extra = dynamic_cast<CLI::ExtrasError const*>(&error) != nullptr;
+    if (is_extra && commands_of(*command).empty()) return unknown_words(*command, path, argc, argv);
     return fmt::format("{}; see '{} --help'", problem, path);
 }
 

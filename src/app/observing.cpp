@@ -190,9 +190,8 @@ std::string missing(std::string const& needs) {
             of_all);
     if (needs == "contacts")
         return fmt::format(
-            "no packing keeps contacts, which are written of layers of spheres alone: write contacts = true "
-            "and frames_per_cycle = 20 under [output] in "
-            "the campaign file{}, and run it again",
+            "no packing keeps contacts (layers of spheres can): write contacts = true and frames_per_cycle = "
+            "20 under [output] in the campaign file{}, and run it again",
             of_all);
     return fmt::format("no packing has the file {}",
                        needs == "cycles" ? "cycles.csv" : core::harmless(needs));

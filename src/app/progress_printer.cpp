@@ -24,8 +24,8 @@ std::string const& name_of(campaign::PlannedCase const& planned) {
 }
 
 std::string describe(campaign::Progress const& progress) {
-    std::string text =
-        fmt::format("{} done, {} running, {} left", progress.finished, progress.running, progress.left);
+    std::string text = fmt::format("{} done, {} running, {} waiting", progress.finished, progress.running,
+                                   std::max(0, progress.left - progress.running));
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
     text += fmt::format("; packings {}/{}; {} elapsed", progress.packings_done, progress.packings,
                         clock_time(progress.elapsed));

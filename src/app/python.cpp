@@ -134,7 +134,10 @@ int script_exit_code(std::string const& script, std::vector<std::string> const& 
 
 void run_script(std::string const& script, std::vector<std::string> const& arguments,
                 std::string const& python, std::vector<std::string> const& modules) {
-    int const code = script_exit_code(script, arguments, python, modules);
+    check_script(script, script_exit_code(script, arguments, python, modules));
+}
+
+void check_script(std::string const& script, int code) {
     if (code == 130 || code == 128 + 2)
         throw core::MissingError(fmt::format("{} was interrupted; run the command again", script));
     if (code != 0) {

@@ -25,4 +25,7 @@ int script_exit_code(std::string const& script, std::vector<std::string> const& 
 /// @throws core::MissingError when there is no such folder
 std::filesystem::path script_folder();
 
+/// @throws core::MissingError when a script ended with another exit code than 0
+void check_script(std::string const& script, int code);
+
 }  // namespace vibrotrough::app

@@ -34,13 +34,13 @@ void add_observed(std::vector<Column>& columns, std::span<store::Observable cons
                 one.unit == "1" ? "" : std::string_view(*words).substr(one.name.size());
             Column mean = column_of(one.name, one, one.meaning, place);
             mean.terminal =
-                TerminalView{.heading = heading, .subheading = unit, .priority = 4, .only_when_known = true};
+                TerminalView{.heading = heading, .subheading = unit, .priority = 1, .only_when_known = true};
             mean.report = ReportView{.heading = heading};
             Column half_width = column_of(
                 one.name + "_half_width", one,
                 fmt::format("Half-width of the interval of {} at measure.confidence", one.name), place + 1);
             half_width.terminal =
-                TerminalView{.heading = "+-", .subheading = unit, .priority = 3, .only_when_known = true};
+                TerminalView{.heading = "+-", .subheading = unit, .priority = 0, .only_when_known = true};
             mean.words = half_width.words = words;
             columns.push_back(std::move(mean));
             columns.push_back(std::move(half_width));

@@ -1,6 +1,7 @@
 #include "compare/select.hpp"
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "core/text.hpp"
 #include "store/reference.hpp"
 
@@ -131,6 +132,16 @@ std::string advice_of(std::span<Column const> columns, std::string_view name) {
             begin = end + 1;
         }
     }
+    std::vector<std::string_view> names{"speed"};  // an older name, and a common word
+    for (Column const& column : columns) {
+        std::string const unit = column.unit == "1" ? "" : unit_suffix(column.unit);
+        std::string_view const column_name = column.name;
+        names.push_back(column_name);
+        if (column_name.ends_with(unit))
+            names.push_back(column_name.substr(0, column_name.size() - unit.size()));
+    }
+    if (auto const nearest = core::nearest_word(name, names); !nearest.empty())
+        return fmt::format("did you mean {}?", nearest);
     if (similar.empty()) return "the columns are " + all;
     return fmt::format("similar ones are {}; 'vibrotrough quantities' describes all", similar);
 }

@@ -3,6 +3,7 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,21 @@ bool is_unknown(std::vector<Cells> const& lines, std::size_t column) {
                        [&](Cells const& line) { return line[column] == "-"; });
 }
 
+/// Shows again what fits into the place of a wide column that was dropped, the most important first.
+void put_back(std::vector<bool>& keep, Columns const& columns, std::vector<Cells> const& lines,
+              std::vector<int> const& priority, std::function<bool()> const& fits) {
+    std::vector<std::size_t> dropped;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (!keep[i] && !(columns[i]->terminal->only_when_known && is_unknown(lines, i)))
+            dropped.push_back(i);
+    }
+    std::ranges::stable_sort(dropped, std::greater{}, [&](std::size_t i) { return priority[i]; });
+    for (std::size_t const i : dropped) {
+        keep[i] = true;
+        keep[i] = fits();
+    }
+}
+
 /// Which columns are shown in `width` characters: the least important are dropped, and first of all those
 /// that are the same in all rows.
 std::vector<bool> chosen(Columns const& columns, std::vector<Cells> const& lines,
@@ -69,6 +85,7 @@ std::vector<bool> chosen(Columns const& columns, std::vector<Cells> const& lines
         if (priority[least] >= always_shown) break;
         keep[least] = false;
     }
+    put_back(keep, columns, lines, priority, [&] { return width == 0 || needed() <= width; });
     return keep;
 }
 
@@ -84,7 +101,10 @@ std::string dropped_note(Columns const& columns, std::vector<bool> const& keep, 
             values += fmt::format("{}{} {}", values.empty() ? "" : ", ", view.heading, first[i]);
             if (columns[i]->unit != "1") values += fmt::format(" {}", view.subheading);
         } else {
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", view.heading);
+            if (view.heading == "+-") continue;  // of the column before it
+            std::string_view const space = names.empty() ? "" : ", ";
+            names += view.subheading.empty() ? fmt::format("{}{}", space, view.heading)
+                                             : fmt::format("{}{} ({})", space, view.heading, view.subheading);
         }
     }
     std::string note;

@@ -247,7 +247,10 @@ bool CsvReader::next() {
         fail(fmt::format("there are more than {} rows", format_.most_rows), "use a smaller table");
     if (cells_.size() != columns_.size())
         fail(fmt::format("expected {} values, one per column, but found {}", columns_.size(), cells_.size()),
-             "write one value per column");
+             separator_ == ',' && cells_.size() > columns_.size()
+                 ? "write one value per column; numbers with a decimal comma need a semicolon or a tab "
+                   "between the cells"
+                 : "write one value per column");
     return true;
 }
 

@@ -51,6 +51,7 @@ ut_system* unit_system() {
             // The database has "degree" and "arc_degree" but not the abbreviations that engineers write.
             std::unique_ptr<ut_unit, FreeUnit> const degree(ut_get_unit_by_name(read.get(), "arc_degree"));
             ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+            ut_map_name_to_unit("Grad", UT_ASCII, degree.get());  // German; else a giga-radian
             std::unique_ptr<ut_unit, FreeUnit> const tonne(ut_get_unit_by_name(read.get(), "metric_ton"));
             ut_map_name_to_unit("to", UT_ASCII, tonne.get());  // German plants write to/h
         }

@@ -74,16 +74,15 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
 std::string describe(CheckedItem const& item, int cases) {
     Finding const& finding = item.worst;
     std::string const where = cases == 1 ? ""
-                                         : fmt::format(" in {} of {} cases, worst in case {}",
+                                         : fmt::format(" in {} of {} cases (case {} is the worst)",
                                                        item.cases_beyond_limit, cases, item.worst_case);
     std::string const refused = finding.severity == Severity::error
                                     ? fmt::format(" ({} {:.3g} it is an error)",
                                                   finding.at_least ? "below" : "above", finding.hard_limit)
                                     : "";
-    return fmt::format("{}: {} is {:.3g}{}, {} {:.3g}{}{}; {}", finding.key, finding.item, finding.measured,
-                       finding.unit == "1" ? "" : " " + finding.unit,
-                       finding.at_least ? "at least" : "at most", finding.limit, refused, where,
-                       finding.advice);
+    return fmt::format("{}: {} is {:.3g}{}{}; usual is {} {:.3g}{}; {}", finding.key, finding.item,
+                       finding.measured, finding.unit == "1" ? "" : " " + finding.unit, where,
+                       finding.at_least ? "at least" : "at most", finding.limit, refused, finding.advice);
 }
 
 }  // namespace vibrotrough::deck

@@ -267,6 +267,32 @@ void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c
                             "lengthen the box: the mesh moves by more than the length of the box"));
 }
 
+/// Told only where they are unusual, with the slip of a unit that would explain it.
+void check_unusual_drive(std::vector<Finding>& findings, scenario::Trough const& trough) {
+    auto const add = [&](Finding finding, char const* unit) {
+        finding.unit = unit;
+        findings.push_back(std::move(finding));
+    };
+    if (trough.frequency < theory::smallest_usual_frequency)
+        add(least("frequency", "trough.frequency", trough.frequency, theory::smallest_usual_frequency, 0,
+                  "check its unit: troughs run at 1 to 120 Hz; were Hz meant, not rpm?"),
+            "Hz");
+    if (trough.frequency > theory::largest_usual_frequency)
+        add(most("frequency", "trough.frequency", trough.frequency, theory::largest_usual_frequency, never,
+                 "check its unit: troughs run at 1 to 120 Hz; were rpm meant, not Hz?"),
+            "Hz");
+    if (trough.vibration_angle > 0 && trough.vibration_angle < theory::smallest_usual_angle)
+        add(least("vibration angle", "trough.vibration_angle",
+                  trough.vibration_angle * 180 / std::numbers::pi,
+                  theory::smallest_usual_angle * 180 / std::numbers::pi, 0,
+                  "check its unit: 20 to 45 degrees are usual; were radians meant?"),
+            "deg");
+    if (trough.friction > theory::largest_usual_friction)
+        add(most("friction", "trough.friction", trough.friction, theory::largest_usual_friction, never,
+                 "it is mostly 0.1 to 1"),
+            "1");
+}
+
 /// Numbers that hardly any machine or material has. They are told only where they are unusual.
 void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
     double const omega = 2 * std::numbers::pi * c.scenario.trough.frequency;
@@ -276,13 +302,14 @@ void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& 
             "machine number", "trough.amplitude", machine_number, theory::largest_usual_machine_number, never,
             "lower it, or write stroke for the distance between the ends of the vibration, which is "
             "twice the amplitude: troughs bear 3 to 6 times gravity"));
+    check_unusual_drive(findings, c.scenario.trough);
     constexpr double lightest_usual = 30;  // kg/m3, foamed polystyrene
     double lightest = c.scenario.grains.density;
     for (scenario::Material const& material : c.materials)
         lightest = std::min(lightest, material.grains.density);
     if (lightest < lightest_usual) {
         Finding light = least("density of the grains", "grains.density", lightest, lightest_usual, 0,
-                              "check its unit: 0.6 t/m3 are 600 kg/m3");
+                              "check its unit, or that of bulk_density: 0.6 t/m3 are 600 kg/m3");
         light.unit = "kg/m3";
         findings.push_back(light);
     }

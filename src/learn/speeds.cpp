@@ -1,12 +1,14 @@
 #include "learn/speeds.hpp"
 
 #include "core/csv.hpp"
+#include "core/nearest.hpp"
 #include "learn/machine_keys.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -36,13 +38,41 @@ constexpr std::array<Column, 10> known_columns{{
     {"uncertainty_m_per_min", 0, 6e4},
 }};
 
+std::string all_names() {
+    std::string names = "the names are";
+    for (Column const& column : known_columns)
+        names += fmt::format("{} {}", &column == known_columns.data() ? "" : ",", column.name);
+    return names;
+}
+
+/// The column that is meant by another name; else all.
+std::string name_instead(std::string const& given) {
+    static std::map<std::string_view, std::string_view> const meanings{
+        {"U/min", "rpm"},
+        {"1/min", "rpm"},
+        {"turns", "rpm"},
+        {"stroke", "stroke_mm"},
+        {"amplitude", "amplitude_mm"},
+        {"frequency", "frequency_hz"},
+        {"speed", "speed_m_per_s"},
+        {"v", "speed_m_per_s"},
+        {"vibration_angle", "vibration_angle_deg"},
+        {"inclination", "inclination_deg"}};
+    std::vector<std::string_view> names;
+    for (Column const& column : known_columns) names.push_back(column.name);
+    auto const meant = meanings.find(given);
+    auto const nearest = meant == meanings.end() ? core::nearest_word(given, names) : meant->second;
+    return nearest.empty() ? all_names() : fmt::format("did you mean {}?", nearest);
+}
+
 class Table {
   public:
     Table(std::string_view text, std::string const& path)
         : reader_(text, path, {.comments = true, .blanks = true, .most_columns = 100}) {
         for (std::string const& name : reader_.columns()) {
             if (std::ranges::none_of(known_columns, [&](Column const& c) { return c.name == name; }))
-                reader_.fail(fmt::format("'{}' is not a column that is known here", name), all_names());
+                reader_.fail(fmt::format("'{}' is not a column that is known here", name),
+                             name_instead(name));
         }
         exactly_one("stroke_mm", "amplitude_mm");
         exactly_one("rpm", "frequency_hz");
@@ -80,13 +110,6 @@ class Table {
     }
 
   private:
-    static std::string all_names() {
-        std::string names = "the names are";
-        for (Column const& column : known_columns)
-            names += fmt::format("{} {}", &column == known_columns.data() ? "" : ",", column.name);
-        return names;
-    }
-
     void at_most_one(std::string_view one, std::string_view other) const {
         if (has(one) && has(other))
             reader_.fail(fmt::format("{} and {} are given both", one, other), "keep one of the two columns");
@@ -135,6 +158,18 @@ std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const&
     return speeds;
 }
 
+namespace {
+
+/// The slip of a unit that would explain a speed above the trough's own; nothing where none does.
+std::string slip_of_speed(MeasuredSpeed const& one, double fastest) {
+    constexpr double smallest_usual = 1e-4;  // m, of an amplitude
+    if (one.amplitude < smallest_usual) return "; were stroke and amplitude written in m, not mm?";
+    if (std::abs(one.speed) / 60 <= fastest) return "; were m/min meant (speed_m_per_min)?";
+    return std::abs(one.speed) / 1000 <= fastest ? "; were mm/s meant?" : "";
+}
+
+}  // namespace
+
 std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds) {
     std::vector<std::string> sentences;
     auto const tell_first = [&](auto const& is_unusual, auto const& sentence) {
@@ -143,7 +178,7 @@ std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds
             sentences.push_back(fmt::format("line {}: {}", found->line, sentence(*found)));
     };
     auto const unusual = [](MeasuredSpeed const& s) {
-        return theory::unusual_numbers({s.frequency, s.amplitude, {}, {}});
+        return theory::unusual_numbers({s.frequency, s.amplitude, {}, {}, s.vibration_angle});
     };
     tell_first([&](MeasuredSpeed const& s) { return !unusual(s).empty(); },
                [&](MeasuredSpeed const& s) { return unusual(s).front(); });
@@ -155,15 +190,8 @@ std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds
                [&](MeasuredSpeed const& s) {
                    return fmt::format(
                        "a speed of {:.3g} m/s is more than the trough's own largest speed of "
-                       "{:.3g} m/s; were m/min meant (speed_m_per_min)?",
-                       s.speed, fastest(s));
-               });
-    tell_first([](MeasuredSpeed const& s) { return s.vibration_angle && *s.vibration_angle < 1.6 * degree; },
-               [](MeasuredSpeed const& s) {
-                   return fmt::format(
-                       "a vibration angle of {:.3g} degrees is unusual: 20 to 45 are usual; were "
-                       "radians meant ({:.3g} degrees)?",
-                       *s.vibration_angle / degree, *s.vibration_angle / degree / degree);
+                       "{:.3g} m/s{}",
+                       s.speed, fastest(s), slip_of_speed(s, fastest(s)));
                });
     return sentences;
 }

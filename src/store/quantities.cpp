@@ -156,7 +156,7 @@ std::vector<Quantity> flow_quantities() {
          {{.place = 140,
            .format = "{:.3f}",
            .position = 160,
-           .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 4},
+           .terminal = TerminalView{.heading = "speed", .subheading = "m/s", .priority = 8},
            .report = ReportView{"speed"}}}},
         {"conveying_speed_half_width",
          "m/s",
@@ -182,7 +182,7 @@ std::vector<Quantity> flow_quantities() {
            .position = 164,
            .terminal =
                TerminalView{
-                   .heading = "mass flow", .subheading = "t/h", .priority = 6, .only_when_known = true},
+                   .heading = "mass flow", .subheading = "t/h", .priority = 8, .only_when_known = true},
            .report = ReportView{"mass flow"}},
           {.place = 220}}},
         {"mass_flow_half_width",
@@ -209,7 +209,7 @@ std::vector<Quantity> flow_quantities() {
            .position = 166,
            .terminal =
                TerminalView{
-                   .heading = "mass flow", .subheading = "t/h per m", .priority = 2, .only_when_known = true},
+                   .heading = "mass flow", .subheading = "t/h per m", .priority = 5, .only_when_known = true},
            .report = ReportView{"mass flow per width"}}}},
         {"mass_flow_per_width_half_width",
          "kg s-1 m-1",

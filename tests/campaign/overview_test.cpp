@@ -34,6 +34,8 @@ TEST_F(Overview, OpenThenRunningThenInterrupted) {
     }
     EXPECT_EQ(look().label(), "interrupted");
     EXPECT_EQ(look().packings_done, 1);
+    fs::remove_all(planned.packing_folder(1));
+    EXPECT_EQ(look().label(), "open") << "what was begun has ended";
     EXPECT_FALSE(look().result);
 }
 

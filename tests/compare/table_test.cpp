@@ -318,6 +318,17 @@ TEST(Table, LeavesOutTheLeastTellingColumnsAndSaysSo) {
     EXPECT_EQ(to_table(rows, {.width = 0}), to_table(rows));
 }
 
+// What a machine does is kept on a narrow terminal, and what is left out is named so that it can be told
+// apart.
+TEST(Table, KeepsTheSpeedOnANarrowTerminal) {
+    auto rows = some_rows();
+    rows[1].throw_number = 1.25;
+    auto const lines = lines_of(to_table(rows, {.width = 80}));
+    EXPECT_NE(lines[0].find("speed"), std::string::npos) << lines[0];
+    EXPECT_EQ(lines.back().find("mode, mode"), std::string::npos) << lines.back();
+    EXPECT_EQ(lines.back().find("+-"), std::string::npos) << lines.back();
+}
+
 TEST(Table, ColoursSignAndSizeOfTheDifference) {
     Row row = some_rows()[0];
     row.set("efficiency_whole_half_width", 0.02);

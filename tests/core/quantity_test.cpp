@@ -48,6 +48,7 @@ TEST(Quantity, WhatGermanPlantsWrite) {
     EXPECT_NEAR(core::parse_quantity("960 U/min", "Hz"), 16, 16 * rounding);
     EXPECT_NEAR(core::parse_quantity("960 Umdrehungen / min", "Hz"), 16, 16 * rounding);
     EXPECT_NEAR(core::parse_quantity("12 to/h", "kg/s"), 12 / 3.6, 4 * rounding);
+    EXPECT_NEAR(core::parse_quantity("30 Grad", "radian"), std::acos(-1.0) / 6, rounding) << "no giga-radian";
     EXPECT_NEAR(core::parse_quantity("2 m/min", "m/s"), 2.0 / 60, rounding);
     EXPECT_NEAR(core::parse_quantity("20 m3/h", "m3/s"), 20.0 / 3600, rounding);
 }

@@ -197,7 +197,7 @@ class Run(EndToEndTest):
     def test_progress_on_a_terminal_and_in_a_file(self):
         campaign = self.write_campaign({"measure.packings": 1})
         plain = self.run_campaign(campaign).stderr
-        self.assertRegex(plain, r"(?m)^0 done, \d running, 1 left; packings 0/1; 0:00 elapsed$")
+        self.assertRegex(plain, r"(?m)^0 done, \d running, \d waiting; packings 0/1; 0:00 elapsed$")
         # A case is named by what is swept: here nothing.
         self.assertRegex(plain, r"(?m)^case [0-9a-f]{12}: finished$")
         self.assertNotRegex(plain, r"[\r\x1b]")

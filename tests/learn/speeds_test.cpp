@@ -78,8 +78,20 @@ TEST(Speeds, SlipsOfUnitsAreTold) {
     };
     EXPECT_EQ(told("9.7,960,30,0.2"), "");
     EXPECT_THAT(told("9.7,960,30,12"), testing::HasSubstr("line 2: a speed of 12 m/s is more than"));
+    // Only a slip that explains the number is offered.
+    EXPECT_THAT(told("9.7,960,30,12"), testing::HasSubstr("were m/min meant"));
+    EXPECT_THAT(told("9.7,960,30,200"), testing::HasSubstr("were mm/s meant?"));
+    EXPECT_THAT(told("9.7,960,30,900"), testing::Not(testing::HasSubstr("meant")));
+    EXPECT_THAT(told("0.0097,960,30,0.2"), testing::HasSubstr("written in m, not mm?"));
     EXPECT_THAT(told("9.7,16,30,0.005"), testing::HasSubstr("were 16 Hz meant, not rpm?"));
     EXPECT_THAT(told("9.7,960,0.52,0.2"), testing::HasSubstr("were radians meant (29.8 degrees)?"));
+}
+
+TEST(Speeds, AnotherNameOfAColumnIsUnderstood) {
+    expect_refused("stroke,rpm,speed_m_per_s\n1,2,3\n", "did you mean stroke_mm?");
+    expect_refused("stroke_mm,U/min,speed_m_per_s\n1,2,3\n", "did you mean rpm?");
+    expect_refused("stroke_mm,rpm,speed_m_per_sec\n1,2,3\n", "did you mean speed_m_per_s?");
+    expect_refused("stroke_mm,rpm,colour\n1,2,3\n", "the names are");
 }
 
 TEST(Speeds, WrongTablesAreRefused) {

@@ -248,8 +248,52 @@ TEST(CampaignFile, SeveralMistakesAreToldAtOnce) {
             << error.what();
         EXPECT_NE(error.problems()[1].find("'12,5 mm' has a decimal comma; write 12.5 mm"), std::string::npos)
             << error.what();
-        EXPECT_NE(error.problems()[2].find("engin: unknown section"), std::string::npos) << error.what();
+        EXPECT_NE(error.problems()[2].find("engin: unknown section; did you mean [engine]?"),
+                  std::string::npos)
+            << error.what();
     }
+}
+
+// What is not even TOML is named as what people meant by it, and hides no other mistake.
+TEST(CampaignFile, NumbersThatAreNotTomlAreNamed) {
+    std::string text = with("throw_number = 2.0", "throw_number = 2,5");
+    text = std::regex_replace(text, std::regex("height = \"12 mm\""), "height = 12 mm   # deep");
+    text = std::regex_replace(text, std::regex("length = \"36 mm\""), "length = 36,5 mm");
+    text += "[engin]\ncontact = \"hooke\"\n";
+    try {
+        scenario::parse_campaign(text, "c.toml");
+        FAIL() << "accepted";
+    } catch (core::InputError const& error) {
+        ASSERT_EQ(error.problems().size(), 4u) << error.what();
+        for (char const* told :
+             {"throw_number: '2,5' has a decimal comma; write throw_number = 2.5",
+              "height: '12 mm' is a text without quotes; write height = \"12 mm\"",
+              "length: '36,5 mm' has a decimal comma; write length = \"36.5 mm\"", "engin: unknown section"})
+            EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << told << "\n"
+                                                                               << error.what();
+    }
+    // A heading or a list that cannot be read ends the reading: what follows would be misunderstood.
+    EXPECT_NE(error_of(with("[trough]", "[trough")).find("TOML"), std::string::npos);
+    EXPECT_NE(error_of(with("throw_number = 2.0", "throw_number = = 2")).find("TOML"), std::string::npos);
+}
+
+// A percentage is a number, as on the command line; other texts are not.
+TEST(CampaignFile, PercentagesAreNumbers) {
+    std::string const plain = with("throw_number = 2.0", "throw_number = 2.0");
+    auto const with_friction = [&](char const* value) {
+        return std::regex_replace(plain, std::regex("friction = 0.23"), fmt::format("friction = {}", value));
+    };
+    auto const campaign = scenario::parse_campaign(with_friction("\"30 %\""), "c.toml");
+    EXPECT_EQ(campaign.cases.at(0).trough.friction, 0.3);
+    EXPECT_NE(error_of(with_friction("\"0.3\"")).find("write friction = 0.3 without quotes"),
+              std::string::npos);
+    EXPECT_NE(error_of(with_friction("\"0,3\"")).find("'0,3' has a decimal comma; write 0.3"),
+              std::string::npos);
+    EXPECT_NE(error_of(with_friction("\"smooth\"")).find("needs a plain number"), std::string::npos);
+    EXPECT_NE(error_of(with("height = \"12 mm\"", "height = \"4 d\"")).find("write layer.diameters = 4"),
+              std::string::npos);
+    EXPECT_NE(error_of(with("length = \"36 mm\"", "length = \"10 d\"")).find("diameters of the grains"),
+              std::string::npos);
 }
 
 // What people write who know a quantity by another word.

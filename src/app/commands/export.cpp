@@ -85,9 +85,11 @@ std::string drive_caption(prepare::PreparedCase const& prepared) {
                        prepared.machine_number);
 }
 
-/// "case ID", and from the second packing on its number.
+/// "case ID (layer.height 6 mm)", and from the second packing on its number.
 std::string title(campaign::PlannedCase const& planned, int packing) {
-    return fmt::format("case {}{}", planned.id, packing == 1 ? "" : fmt::format(", packing {}", packing));
+    std::string const swept = planned.label.empty() ? "" : fmt::format(" ({})", planned.label);
+    return fmt::format("case {}{}{}", planned.id, swept,
+                       packing == 1 ? "" : fmt::format(", packing {}", packing));
 }
 
 /// Exports the frames that a packing of a case has written so far. None when there are no frames.

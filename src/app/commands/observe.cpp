@@ -29,8 +29,9 @@ struct ObserveArguments {
 };
 
 /// One line for a number, or for a curve where to find it.
-std::string line_of(store::Observable const& observable, store::ObservedCase const& one) {
-    std::string text = fmt::format("  {}: ", one.id);
+std::string line_of(store::Observable const& observable, store::ObservedCase const& one,
+                    std::string const& name) {
+    std::string text = fmt::format("  {}: ", name);
     if (observable.is_number()) {
         auto const& [mean, half_width, steadiness] = one.values.front();
         text += mean ? fmt::format("{:.5g}", *mean) : "unknown";
@@ -45,15 +46,30 @@ std::string line_of(store::Observable const& observable, store::ObservedCase con
                               one.discarded + one.measured, one.discarded);
 }
 
-void print_text(std::vector<Observed> const& observed, std::string const& folder) {
+/// A case by what distinguishes it.
+std::string name_in(campaign::Plan const& plan, std::string const& id) {
+    auto const found = std::ranges::find(plan.cases, id, &campaign::PlannedCase::id);
+    return found == plan.cases.end() || found->label.empty() ? id : found->label;
+}
+
+void print_text(std::vector<Observed> const& observed, campaign::Plan const& plan,
+                std::string const& folder) {
+    bool is_of_one_packing = false;
     for (auto const& [observable, missing] : observed) {
         if (!missing.empty()) continue;
         std::string const over =
             observable.is_number() ? "" : fmt::format(" over {} [{}]", observable.over, observable.over_unit);
         fmt::print("{} [{}]{}: {}\n", observable.name, observable.unit, over,
                    core::harmless(observable.meaning));
-        for (store::ObservedCase const& one : observable.cases) fmt::print("{}", line_of(observable, one));
+        for (store::ObservedCase const& one : observable.cases) {
+            fmt::print("{}", line_of(observable, one, name_in(plan, one.id)));
+            is_of_one_packing = is_of_one_packing || one.packings.size() == 1;
+        }
     }
+    if (is_of_one_packing)
+        fmt::print(
+            "an interval is unbounded where one packing was measured, because it does not tell how packings "
+            "differ; frame_packings = \"all\" keeps the frames of all\n");
     std::string const word = core::shell_word(folder);
     fmt::print("kept in {}/{} and campaign.h5; numbers are columns of: vibrotrough compare {}\n",
                core::harmless(folder), campaign::observables_file, word);
@@ -89,7 +105,7 @@ int run_observe(ObserveArguments const& options) {
     if (options.json) {
         fmt::print("{}", campaign::to_json(measured));
     } else {
-        print_text(found.observed, options.folder);
+        print_text(found.observed, plan, options.folder);
     }
     return all_well;
 }

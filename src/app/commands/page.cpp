@@ -82,6 +82,8 @@ Json cases_of(std::string const& folder) {
     for (compare::Row const& row : compared.rows) {
         Json const all = compare::to_object(row, compared.columns);
         Json one;
+        auto const planned = std::ranges::find(plan.cases, row.id, &campaign::PlannedCase::id);
+        one["label"] = planned == plan.cases.end() ? "" : planned->label;
         for (std::string_view const column : page_columns)
             if (all.contains(column)) one[std::string(column)] = all.at(std::string(column));
         cases.push_back(std::move(one));

@@ -170,7 +170,11 @@ int run_plot(PlotArguments const& options) {
     drawing.insert(drawing.end(), columns.begin(), columns.end());
     for (std::string const& kind : options.only) drawing.insert(drawing.end(), {"--only", kind});
     for (std::string const& id : options.cases) drawing.insert(drawing.end(), {"--case", id});
-    if (finished) run_script("figures.py", drawing, options.python, modules);
+    if (finished) {
+        int const code = script_exit_code("figures.py", drawing, options.python, modules);
+        if (code == wrong_input) return wrong_input;  // it has said what
+        check_script("figures.py", code);
+    }
     if (options.report) run_script("report.py", arguments, options.python, modules);
     return all_well;
 }
@@ -201,9 +205,10 @@ void add_plot(CLI::App& program, int& exit_code) {
     command
         ->add_option("--only", options->only, "Draw only this kind of figure; repeat the option for several")
         // The kinds are named below, with what each shows.
-        ->check(CLI::IsMember({"efficiency", "residuals", "budget", "cycles", "portraits", "spin", "rolling",
-                               "profiles", "impacts", "partition", "segregation"})
-                    .description(""))
+        ->check(
+            CLI::IsMember({"efficiency", "speed", "mass_flow", "residuals", "budget", "cycles", "portraits",
+                           "spin", "rolling", "profiles", "impacts", "partition", "segregation"})
+                .description(""))
         ->type_name("KIND")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -244,7 +249,9 @@ void add_plot(CLI::App& program, int& exit_code) {
                      "Colours and marks that tell series apart stay")
         ->type_name("FILE");
     command->footer(R"(Kinds of figures:
-  efficiency  velocity efficiency over throw number: DEM with error bars, the theory as lines
+  efficiency  velocity efficiency over the throw number or a swept key: DEM with error bars, the models as lines
+  speed       conveying speed over the same input, beside the theory, the rolling-layer law and the atlas
+  mass_flow   mass flow likewise
   residuals   DEM minus theory
   budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
   cycles      for each case: velocity efficiency of every cycle, with the discarded start-up shaded

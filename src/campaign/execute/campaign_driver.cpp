@@ -342,7 +342,7 @@ class Driver {
         for (RunningPacking const& one : progress_.engines) {
             under_way += one.planned->prepared->work(one.cycles);
             taken += one.time;
-            core_time += one.elapsed * one.ranks;
+            core_time += one.core_time;
             cores += one.ranks;
         }
         int const not_started = std::max(0, progress_.packings - progress_.packings_done - progress_.running);

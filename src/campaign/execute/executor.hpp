@@ -48,6 +48,7 @@ struct RunningPacking {
     int ranks;                                         ///< MPI ranks of its engine
     PackingTime time = {};                             ///< what `elapsed` consists of
     double silent_for = 0;  ///< s without a new cycle, when that is far more than a cycle took; else 0
+    double core_time = 0;   ///< s, processor time of its engine so far, all ranks
 };
 
 /// Runs packings: on this machine, or on a cluster. An executor knows no policy: it runs what it is given.

@@ -89,7 +89,8 @@ class LocalExecutor : public Executor {
             int const cycles = one.run->cycles(), wanted = one.order.packing.cycles;
             double const to_go = cycles > 0 ? one.run->seconds_per_cycle() * (wanted - cycles) : -1;
             shown.push_back({one.order.planned, one.order.packing.number, cycles, wanted, one.run->estimate(),
-                             one.elapsed(), to_go, one.ranks, one.run->time(), one.run->silent_for()});
+                             one.elapsed(), to_go, one.ranks, one.run->time(), one.run->silent_for(),
+                             one.run->core_time()});
         }
         return shown;
     }

@@ -164,6 +164,12 @@ PackingTime PackingRun::time() const {
             std::chrono::duration<double>(now - settled_at).count(), has_settled_ ? 1 : 0};
 }
 
+double PackingRun::core_time() const {
+    // What the engine took in the end is known when it has ended.
+    double const so_far = core_time_ > 0 || !process_ ? core_time_ : process_->core_time();
+    return core_time_of_pauses_ + so_far;
+}
+
 void PackingRun::seal() {
     auto const cycle = last_checkpoint(engine_folder());
     if (!cycle || *cycle <= sealed_cycle_) return;

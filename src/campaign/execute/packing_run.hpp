@@ -62,7 +62,7 @@ class PackingRun {
     /// What this run has taken.
     PackingTime time() const;
     /// s, processor time of the engine in this run, all ranks.
-    double core_time() const { return core_time_of_pauses_ + core_time_; }
+    double core_time() const;
 
     /// What was measured, once the packing is finished.
     evaluate::EvaluatedPacking take_evaluated() { return std::move(evaluated_.value()); }

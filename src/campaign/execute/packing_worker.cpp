@@ -140,17 +140,18 @@ std::optional<deck::PackingPlan> find_wanted(CaseDecision const& decision, int p
 WorkResult finish_if_enough(KnownCase const& known, CaseDecision const& decision,
                             std::string const& engine_version, evaluate::EvaluatedPackings evaluated) {
     PlannedCase const& planned = *known.planned;
+    std::string const name = planned.label.empty() ? fmt::format("case {}", planned.id)
+                                                   : fmt::format("case {} ({})", planned.id, planned.label);
     if (decision.result.empty()) {
         auto const missing = std::ranges::count_if(
             decision.wanted, [&](deck::PackingPlan const& packing) { return !is_done(known, packing); });
         return {WorkResult::finished,
-                fmt::format("case {}: {} packings are missing; 'vibrotrough run' starts those that no task "
-                            "works on",
-                            planned.id, missing)};
+                fmt::format("{}: {} packing{} missing; 'vibrotrough run' starts those that no task works on",
+                            name, missing, missing == 1 ? " is" : "s are")};
     }
     auto const result =
         finish_case(planned, engine_version, {decision.result, decision.cycles}, std::move(evaluated));
-    return {WorkResult::finished, fmt::format("case {}: {}", planned.id, name_of(result.outcome))};
+    return {WorkResult::finished, fmt::format("{}: {}", name, name_of(result.outcome))};
 }
 
 }  // namespace

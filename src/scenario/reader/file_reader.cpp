@@ -1,6 +1,7 @@
 #include "scenario/reader/file_reader.hpp"
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "core/quantity.hpp"
 #include "core/text.hpp"
 #include "scenario/reader/design_reader.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -78,6 +80,42 @@ unsigned line_nested_too_deeply(std::string_view text) {
     return 0;
 }
 
+/// Begin and length of a line, which counts from 1.
+std::pair<std::size_t, std::size_t> line_at(std::string_view text, unsigned line) {
+    std::size_t begin = 0;
+    for (; line > 1 && begin < text.size(); --line)
+        begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    return {begin, std::min(text.find('\n', begin), text.size()) - begin};
+}
+
+/// Whether a line is one key with its value, so that those around it can be read without it.
+bool is_key_with_value(std::string const& line) {
+    static std::regex const whole(R"(\s*[A-Za-z_][\w.-]*\s*=[^[\]{}"']*("[^"]*"[^[\]{}"']*)?\s*)");
+    return line.size() < 1000 && std::regex_match(line, whole);
+}
+
+/// Says what is wrong with a line that is not TOML: most are numbers as people write them.
+[[noreturn]] void throw_unreadable(FilePosition place, std::string const& line, std::string_view told) {
+    static std::regex const value(
+        R"(\s*([A-Za-z_][\w.-]*)\s*=\s*([+-]?[\d.,]*\d)(\s*)([^#"'\s][^#"']*?)?\s*(#.*)?)");
+    static std::regex const comma(R"([+-]?\d+,\d+)");
+    std::smatch parts;
+    if (line.size() < 1000 && std::regex_match(line, parts, value)) {
+        std::string const key = parts[1], unit = parts[4];
+        std::string number = parts[2];
+        std::string const written = number + parts[3].str() + unit;
+        bool const has_comma = std::regex_match(number, comma);
+        std::ranges::replace(number, ',', '.');
+        if (has_comma || !unit.empty())
+            throw_at(place, key,
+                     fmt::format("'{}' {}", core::harmless(written),
+                                 has_comma ? "has a decimal comma" : "is a text without quotes"),
+                     unit.empty() ? fmt::format("write {} = {}", key, number)
+                                  : fmt::format("write {} = \"{} {}\"", key, number, core::harmless(unit)));
+    }
+    throw_at(place, "TOML", core::printable(told, 300), "write key = value lines under [section] headings");
+}
+
 constexpr std::string_view key_advice = "see 'vibrotrough keys' for all keys";
 
 /// Reads a campaign file.
@@ -88,11 +126,11 @@ class CampaignFileReader {
             throw_at({file_, {line, 1}}, "TOML", "keys are nested too deeply",
                      "write key = value lines under [section] headings");
         }
-        try {
-            root_ = toml::parse(text, file);
-        } catch (toml::parse_error const& error) {
-            throw_at({file_, position_of(error.source())}, "TOML", core::printable(error.description(), 300),
-                     "write key = value lines under [section] headings");
+        std::string readable(text);
+        // A line that cannot be read is left out, so that a person sees all mistakes at once.
+        while (!parse(readable)) {
+            constexpr std::size_t most = 10;
+            if (problems_.size() == most) throw core::InputError(all_problems());
         }
     }
 
@@ -106,6 +144,24 @@ class CampaignFileReader {
     }
 
   private:
+    /// Reads the text, or keeps what is wrong with a line and empties it.
+    /// @returns whether the text was read
+    /// @throws core::InputError with all problems when the line is not one key with its value
+    bool parse(std::string& text) {
+        try {
+            root_ = toml::parse(text, file_);
+            return true;
+        } catch (toml::parse_error const& error) {
+            Position const where = position_of(error.source());
+            auto const [begin, length] = line_at(text, where.line);
+            std::string const line = text.substr(begin, length);
+            attempt([&] { throw_unreadable({file_, where}, line, error.description()); });
+            if (!is_key_with_value(line)) throw core::InputError(all_problems());
+            text.replace(begin, length, std::string(length, ' '));
+            return false;
+        }
+    }
+
     [[noreturn]] void fail(Position where, std::string_view key, std::string_view wrong,
                            std::string_view instead) const {
         throw_at({file_, where}, key, wrong, instead);
@@ -147,6 +203,11 @@ class CampaignFileReader {
         return names;
     }
 
+    static std::string_view nearest_section(std::string_view name) {
+        auto const names = sections_of_keys();
+        return core::nearest_word(name, names);
+    }
+
     void read_section(toml::key const& name, toml::node const& node) {
         Position const where = position_of(name.source());
         if (name.str() == "run" && node.is_table()) {
@@ -167,9 +228,11 @@ class CampaignFileReader {
         }
         if (!is_section(name.str()) && name.str() != "sweep") {
             std::string_view const meant = section_in_other_words(name.str());
-            if (!meant.empty())
+            // A section's name that is written almost right.
+            std::string_view const near = meant.empty() ? nearest_section(name.str()) : meant;
+            if (!near.empty())
                 fail(where, core::printable(name.str(), 60), "unknown section",
-                     fmt::format("did you mean [{}]?", meant));
+                     fmt::format("did you mean [{}]?", near));
             fail(where, core::printable(name.str(), 60), "unknown section",
                  fmt::format("the sections are {}, sweep, zip, points, points_from, sample, domain, exclude "
                              "and run",

@@ -1,5 +1,6 @@
 #include "scenario/reader/keys.hpp"
 
+#include "core/nearest.hpp"
 #include "scenario/reader/key_fields.hpp"
 #include "scenario/reader/other_words.hpp"
 
@@ -24,20 +25,6 @@ std::vector<Key> const& table() {
         return all;
     }();
     return rows;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            std::size_t const substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-        }
-    }
-    return row.back();
 }
 
 }  // namespace
@@ -139,7 +126,7 @@ std::string key_reference() {
 std::string_view nearest_key(std::string_view path) {
     if (path.size() > 64) return {};
     if (auto const meant = key_in_other_words(path); !meant.empty()) return meant;
-    auto const distance = [&](Key const& key) { return edit_distance(path, key.path); };
+    auto const distance = [&](Key const& key) { return core::edit_distance(path, key.path); };
     auto const nearest = std::ranges::min_element(table(), {}, distance);
     return distance(*nearest) <= 4 ? nearest->path : std::string_view{};
 }

@@ -132,7 +132,11 @@ class ValueReader {
 
     /// The value as the user wrote it, for a message.
     static std::string written(toml::node const& node) {
-        if (auto const* text = node.as_string()) return fmt::format("'{}'", core::printable(text->get(), 60));
+        if (auto const* text = node.as_string()) {
+            std::string const shown = core::harmless(text->get());
+            return shown.size() > 60 ? fmt::format("'{}'", core::printable(shown, 60))
+                                     : fmt::format("'{}'", shown);
+        }
         if (auto const* whole = node.as_integer()) return std::to_string(whole->get());
         if (auto const* number = node.as_floating_point()) return fmt::format("{}", number->get());
         return "this value";
@@ -145,22 +149,53 @@ class ValueReader {
         try {
             return core::parse_quantity(**node.as_string(), std::string(key_.unit));
         } catch (core::QuantityError const& error) {
-            if (key_.path == "layer.height" && is_in_diameters(**node.as_string()))
-                fail(node, fmt::format("{} is a depth in diameters of the grains", written(node)),
-                     "write it without a unit as layer.diameters");
-            fail(node, core::printable(error.what(), 300), write_instead(key_));
+            if (key_.unit == "m" && is_in_diameters(**node.as_string())) fail_diameters(node);
+            fail_as_told(node, error);
         }
     }
 
+    /// The unit "d" is a day, which nobody means who writes a length.
+    [[noreturn]] void fail_diameters(toml::node const& node) const {
+        std::string const text = **node.as_string();
+        std::string const number = text.substr(0, text.find_first_not_of("0123456789."));
+        if (key_.path == "layer.height")
+            fail(node, fmt::format("{} is a depth in diameters of the grains", written(node)),
+                 fmt::format("write layer.diameters = {}", number));
+        fail(node, fmt::format("{} is a length in diameters of the grains", written(node)),
+             write_instead(key_));
+    }
+
+    /// What is wrong with a number, with its own advice where it has one.
+    [[noreturn]] void fail_as_told(toml::node const& node, core::QuantityError const& error) const {
+        std::string const told = core::harmless(error.what()).substr(0, 300);
+        auto const advice = told.find("; write ");
+        if (advice == told.npos) fail(node, told, write_instead(key_));
+        fail(node, told.substr(0, advice), told.substr(advice + 2));
+    }
+
     double plain_number(toml::node const& node) const {
-        if (node.is_string())
-            fail(node, fmt::format("{} is a text, but the key needs a plain number", written(node)),
-                 write_instead(key_));
+        if (node.is_string()) return number_in_text(node);
         if (key_.kind == KeyKind::integer && !node.is_integer())
             fail(node, fmt::format("{} is not a whole number", written(node)), write_instead(key_));
         if (!node.is_number()) fail(node, "is not a number", write_instead(key_));
         return *node.value<double>() +
                0.0;  // -0 becomes 0: it would be written as "-0" and read as another text
+    }
+
+    /// "30 %" is 0.3, as on the command line; any other text is a slip.
+    double number_in_text(toml::node const& node) const {
+        std::string const text = **node.as_string();
+        std::optional<double> number;
+        try {
+            number = core::parse_number(text);
+        } catch (core::QuantityError const& error) {
+            if (std::string_view(error.what()).find("comma") != std::string_view::npos)
+                fail_as_told(node, error);
+        }
+        if (number && text.find('%') != text.npos && key_.kind != KeyKind::integer) return *number;
+        fail(node, fmt::format("{} is a text, but the key needs a plain number", written(node)),
+             number ? fmt::format("write {} = {} without quotes", last_name(key_.path), *number)
+                    : write_instead(key_));
     }
 
     Key const& key_;

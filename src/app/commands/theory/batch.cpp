@@ -48,8 +48,9 @@ void run_theory_batch(TheoryBatchArguments const& options) {
     } else {
         store::write_theory_answers(output, table, answer.points, answer.motions);
     }
-    fmt::print("{} points, {:.3f} microseconds of CPU per solution, written to {}\n", table.points.size(),
-               1e6 * answer.cpu_seconds_per_solution, core::harmless(output));
+    std::size_t const count = table.points.size();
+    fmt::print("{} point{}, {:.1f} microseconds of CPU per solution, written to {}\n", count,
+               count == 1 ? "" : "s", 1e6 * answer.cpu_seconds_per_solution, core::harmless(output));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "app/exit_code.hpp"
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
+#include "core/quantity.hpp"
 #include "theory/friction_test.hpp"
 
 #include <memory>
@@ -65,9 +66,22 @@ void forward(TheoryFrictionArguments const& options, theory::ShakeTest const& te
                motion.max_relative_displacement, motion.mode);
 }
 
+/// A slip in amplitudes, as a number. A length has a message of its own.
+double read_slip(std::string const& text) {
+    constexpr char const* option = "--max-relative-displacement";
+    try {
+        core::parse_quantity(text, "m");
+    } catch (core::QuantityError const&) {
+        return read_number_within(option, text, "1.5", 1e-9, 1000);
+    }
+    throw core::InputError(
+        fmt::format("{} {}: is a length; divide it by the amplitude r and write the number without a unit, "
+                    "for example {} 1.5",
+                    option, text, option));
+}
+
 void inverse(TheoryFrictionArguments const& options, theory::ShakeTest const& test) {
-    double const x =
-        read_number_within("--max-relative-displacement", *options.displacement, "1.5", 1e-9, 1000);
+    double const x = read_slip(*options.displacement);
     double const dx =
         options.uncertainty ? read_number_within("--uncertainty", *options.uncertainty, "0.05", 0, 1000) : 0;
     theory::FrictionEstimate const estimate = theory::friction_from_shake(test, x, dx);

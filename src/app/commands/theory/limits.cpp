@@ -4,6 +4,7 @@
 #include "app/commands/theory/options.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 #include <cmath>
 #include <memory>
@@ -69,7 +70,8 @@ Json answers(TheoryLimitsArguments const& options, Inputs const& in) {
 
 void print_text(Json const& json, Inputs const& in) {
     auto const line = [&](char const* words, char const* key) {
-        fmt::print("{:<68} {:.6f}\n", words, json[key].get<double>());
+        fmt::print("{:<68} {}\n", words,
+                   core::without_sign_of_zero(fmt::format("{:.6f}", json[key].get<double>())));
     };
     line("throw number of a flight of one cycle, sqrt(1 + pi^2) (Eq. 15)",
          "throw_number_of_whole_cycle_flight");

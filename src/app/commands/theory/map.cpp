@@ -88,6 +88,7 @@ void run_theory_map(TheoryMapArguments const& options) {
     }
     int const jobs = options.jobs ? read_count("--jobs", *options.jobs, "2", 1, 4096) : 0;
     theory::Inputs const fixed = options.motion.given();
+    options.motion.tell_unusual();
     refuse_given_axis(fixed, x);
     refuse_given_axis(fixed, y);
     theory::Inputs complete = fixed;

@@ -15,7 +15,9 @@ namespace {
 bool is_range(std::string const& text, std::smatch& ends) {
     static std::regex const with_word(R"((.+?) (?:to|bis) (.+))");
     static std::regex const with_dash(R"(\s*(\d[\d.,]*)\s*(?:-|\xE2\x80\x93)\s*(\d.*))");
-    return std::regex_match(text, ends, with_word) || std::regex_match(text, ends, with_dash);
+    static std::regex const between_units(R"((.+?) (?:-|\xE2\x80\x93) (\d.*))");  // "25 deg - 35 deg"
+    return std::regex_match(text, ends, with_word) || std::regex_match(text, ends, with_dash) ||
+           std::regex_match(text, ends, between_units);
 }
 
 /// What is wrong with a value.
@@ -24,13 +26,21 @@ std::string problem_of(std::string const& text, core::QuantityError const& error
     return is_range(text, ends) ? "is a range, and here one value is needed" : error.what();
 }
 
+/// The problem with what to write, unless it says that itself.
+std::string with_advice(std::string const& problem, std::string const& advice) {
+    return problem.find("; write ") == problem.npos ? fmt::format("{}; {}", problem, advice) : problem;
+}
+
 double read_quantity(std::string const& option, std::string const& text, std::string const& unit,
                      std::string const& example) {
     try {
         return core::parse_quantity(text, unit);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format("{} {}: {}; write a number with its unit, for example {} \"{}\"",
-                                           option, text, problem_of(text, error), option, example));
+        throw core::InputError(fmt::format(
+            "{} {}: {}", option, text,
+            with_advice(
+                problem_of(text, error),
+                fmt::format("write a number with its unit, for example {} \"{}\"", option, example))));
     }
 }
 
@@ -47,8 +57,9 @@ double read_number(std::string const& option, std::string const& text, std::stri
     try {
         return core::parse_number(text);
     } catch (core::QuantityError const& error) {
-        throw core::InputError(fmt::format("{} {}: {}; write for example {} {}", option, text,
-                                           problem_of(text, error), option, example));
+        throw core::InputError(fmt::format(
+            "{} {}: {}", option, text,
+            with_advice(problem_of(text, error), fmt::format("write for example {} {}", option, example))));
     }
 }
 

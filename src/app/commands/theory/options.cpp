@@ -178,7 +178,12 @@ std::optional<theory::Machine> TheoryOptions::machine() const {
 }
 
 void TheoryOptions::tell_unusual() const {
-    theory::MachineNumbers numbers{frequency(), amplitude(), {}, given().get(Input::friction)};
+    theory::Inputs const inputs = given();
+    theory::MachineNumbers numbers{frequency(), amplitude(), {}, inputs.get(Input::friction)};
+    numbers.is_stroke = stroke_.has_value();
+    numbers.is_turns = rpm_.has_value();
+    if (auto const tangent = inputs.get(Input::tan_vibration_angle))
+        numbers.vibration_angle = std::atan(*tangent);
     if (numbers.frequency && numbers.amplitude) {
         double const omega = 2 * std::numbers::pi * *numbers.frequency;
         numbers.machine_number = omega * omega * *numbers.amplitude / gravity();

@@ -42,6 +42,7 @@ void run_theory_sensitivity(TheorySensitivityArguments const& options) {
                    s.elasticity);
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
+    options.motion.tell_unusual();
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ void run_theory_trace(TheoryTraceArguments const& options) {
         options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
     theory::Conveyor const input = options.motion.conveyor();
     auto const machine = options.motion.machine();
+    options.motion.tell_unusual();
     if (auto const law = options.rolling.law()) {
         write(options, samples, trace_rolling(options, input, *law, samples, machine));
         return;
