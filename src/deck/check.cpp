@@ -1,12 +1,12 @@
 #include "deck/check.hpp"
 
 #include "deck/estimates.hpp"
+#include "deck/findings.hpp"
 #include "prepare/softness.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 
@@ -14,28 +14,6 @@
 
 namespace vibrotrough::deck {
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-/// A finding whose limits are upper limits.
-Finding most(std::string item, std::string key, double measured, double limit, double hard_limit,
-             std::string advice) {
-    Severity const severity = measured > hard_limit ? Severity::error
-                              : measured > limit    ? Severity::warning
-                                                    : Severity::fine;
-    return {severity, std::move(item), std::move(key), measured,         "1",
-            false,    limit,           hard_limit,     std::move(advice)};
-}
-
-/// A finding whose limits are lower limits.
-Finding least(std::string item, std::string key, double measured, double limit, double hard_limit,
-              std::string advice) {
-    Severity const severity = measured < hard_limit           ? Severity::error
-                              : measured < limit * (1 - 1e-9) ? Severity::warning
-                                                              : Severity::fine;
-    return {severity, std::move(item), std::move(key), measured,         "1",
-            true,     limit,           hard_limit,     std::move(advice)};
-}
 
 bool is_block(scenario::Scenario const& s) {
     return s.layer.block != scenario::Block::none;
