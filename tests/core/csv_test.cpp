@@ -174,7 +174,8 @@ TEST(Csv, NumberErrorsNameLineAndColumn) {
     EXPECT_EQ(number_error_of("a,speed\n1,x\n", {.numbers = CsvNumbers::any}),
               "t.csv:2: column speed: 'x' is not a number; write a number such as 0.5");
     EXPECT_EQ(number_error_of("a,b\n1,2,3\n"),
-              "t.csv:2: expected 2 values, one per column, but found 3; write one value per column");
+              "t.csv:2: expected 2 values, one per column, but found 3; write one value per column; numbers "
+              "with a decimal comma need a semicolon or a tab between the cells");
     EXPECT_EQ(number_error_of("a,b\n1\n"),
               "t.csv:2: expected 2 values, one per column, but found 1; write one value per column");
     CsvReader table("a,b\n1,\n", "t.csv");

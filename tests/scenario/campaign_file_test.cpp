@@ -281,7 +281,7 @@ TEST(CampaignFile, NumbersThatAreNotTomlAreNamed) {
 TEST(CampaignFile, PercentagesAreNumbers) {
     std::string const plain = with("throw_number = 2.0", "throw_number = 2.0");
     auto const with_friction = [&](char const* value) {
-        return std::regex_replace(plain, std::regex("friction = 0.23"), fmt::format("friction = {}", value));
+        return std::regex_replace(plain, std::regex("friction = 0.23"), std::string("friction = ") + value);
     };
     auto const campaign = scenario::parse_campaign(with_friction("\"30 %\""), "c.toml");
     EXPECT_EQ(campaign.cases.at(0).trough.friction, 0.3);

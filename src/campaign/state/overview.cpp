@@ -125,9 +125,10 @@ CaseOverview survey_without_result(PlannedCase const& planned, bool has_driver) 
             "failure.json is damaged or is not a file; remove it and run again";
     } else if (has_driver) {
         if (has_unfinished_packing(planned, finished)) overview.status = CaseStatus::running;
-    } else if (!fault.empty() || has_unfinished_packing(planned, finished)) {
+    } else if (!fault.empty() || has_unfinished_packing(planned, finished) ||
+               overview.packings_done >= planned.scenario().measure.packings) {
         overview.status = CaseStatus::interrupted;
-    }  // else its folder was only prepared, or the packings that were begun have ended
+    }  // else its folder was only prepared, or the packings that were begun have ended and others are to come
     if (!fault.empty()) {
         overview.fault = fault;
         if (overview.status != CaseStatus::failed) overview.message = fault;
