@@ -80,7 +80,7 @@ std::string describe(CheckedItem const& item, int cases) {
                                     ? fmt::format(" ({} {:.3g} it is an error)",
                                                   finding.at_least ? "below" : "above", finding.hard_limit)
                                     : "";
-    return fmt::format("{}: {} is {:.3g}{}{}; usual is {} {:.3g}{}; {}", finding.key, finding.item,
+    return fmt::format("{}: {} is {:.3g}{}{}; it should be {} {:.3g}{}; {}", finding.key, finding.item,
                        finding.measured, finding.unit == "1" ? "" : " " + finding.unit, where,
                        finding.at_least ? "at least" : "at most", finding.limit, refused, finding.advice);
 }

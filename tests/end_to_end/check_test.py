@@ -136,7 +136,7 @@ class Check(EndToEndTest):
     def test_warnings_are_shown_and_errors_refused(self):
         warned = self.write_campaign({"grains.youngs_modulus": "1 MPa", "measure.packings": 1, "measure.max_cycles": 24})
         done = self.run_campaign(warned, wanted=None)
-        self.assertRegex(done.stderr, r"(?m)^check: \d findings? .*\n  warning: layer.length: periodic length / diameter is 5, at least 8; lengthen")
+        self.assertRegex(done.stderr, r"(?m)^check: \d findings? .*\n  warning: layer.length: periodic length / diameter is 5; it should be at least 8; lengthen")
 
         # Grains like jelly under a violent trough: 30 % of overlap and more.
         jelly = {"grains.youngs_modulus": "0.1 MPa", "trough.throw_number": 20.0, "trough.amplitude": "30 mm"}

@@ -126,7 +126,7 @@ TEST(CampaignFile, ErrorsNamePositionProblemAndCure) {
         "c.toml:9:12: trough.friction: -0.23 is out of range; write friction = 0.23, in the range 0 to 5");
     EXPECT_EQ(error_of(with("friction = 0.23", "friction = \"0.23\"")),
               "c.toml:9:12: trough.friction: '0.23' is a text, but the key needs a plain number; write "
-              "friction = 0.23");
+              "friction = 0.23 without quotes");
     EXPECT_EQ(
         error_of(with("friction = 0.23", "friction = nan")),
         "c.toml:9:12: trough.friction: nan is out of range; write friction = 0.23, in the range 0 to 5");

@@ -33,8 +33,8 @@ TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
     EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8d\"")),
                 HasSubstr("'8d' is a depth in diameters of the grains"));
     EXPECT_THAT(error_of(with("height = \"12 mm\"", "height = \"8 d\"")),
-                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains; write it without a "
-                          "unit as layer.diameters"));
+                HasSubstr("layer.height: '8 d' is a depth in diameters of the grains; write "
+                          "layer.diameters = 8"));
 }
 
 // A swept value has the unit of the section's own value, and mm without one.
