@@ -11,7 +11,7 @@
     many = vibrotrough.theory.solve(throw_number=throw_number, tan_vibration_angle=0.5, friction=friction)
     print(many.velocity_efficiency.shape)                               # (2, 201)
 
-Inputs are those of `vibrotrough theory batch`, by name, in the unit that ends the name; numbers or arrays, which numpy spreads over each other. NaN says that a motion does not have that input. Needed are
+Inputs are those of `vibrotrough theory batch`, by name, in the unit that ends the name; numbers or arrays, which numpy spreads over each other: two of them make a map, as above. NaN says that a motion does not have that input. Needed are
 one of throw_number, machine_number, frequency_hz and rpm (the last two with an amplitude), one of vibration_angle_deg and tan_vibration_angle, and friction.
 
 What layers of spheres do, from those that were simulated once for all:

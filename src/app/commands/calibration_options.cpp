@@ -21,8 +21,8 @@ namespace vibrotrough::app {
 char const* const calibration_help =
     R"(The first line of the file names its columns, in any order: stroke_mm or amplitude_mm (half the stroke); rpm or
 frequency_hz; vibration_angle_deg; inclination_deg (uphill positive; level if it is missing); speed_m_per_s or
-speed_m_per_min; and uncertainty_m_per_s, its standard uncertainty (one standard deviation). An angle that is free or
-fixed needs no column. Each further line is one measurement. Decimal commas are read when the separator is a semicolon
+speed_m_per_min; and uncertainty_m_per_s or uncertainty_m_per_min, its standard uncertainty (one standard
+deviation). An angle that is free or fixed needs no column. Each further line is one measurement. Decimal commas are read when the separator is a semicolon
 or a tab.
 
 Prints the median and the 95 % interval of each free quantity, how far the Markov chains can be trusted (R-hat at most
