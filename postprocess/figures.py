@@ -71,8 +71,11 @@ class Source:
         return next((str(one["column"]) for one in self.overview["swept"] if one["key"] == key), key.removeprefix("trough."))
 
 
-def plot_for_machine(source: Source, kind: str, column: str) -> list[pathlib.Path]:
-    """Speed or mass flow over the input over which the efficiency is drawn."""
+def plot_for_machine(source: Source, kind: str) -> list[pathlib.Path]:
+    """Speed or mass flow over the input over which the efficiency is drawn; nothing where no case has it."""
+    column = source.known_column(MACHINE[kind])
+    if column is None:
+        return []
     over, others = split_inputs(source.campaign, source.inputs)
     return figure_columns.plot_columns([source.output], source.output, source.column_of(over.key), column,
                                        [source.column_of(one.key) for one in others], None, 1.0, kind)
@@ -152,9 +155,9 @@ def draw_general(source: Source, only: Collection[str]) -> Iterator[list[pathlib
 
     if "efficiency" in only:
         yield drawn("efficiency", table, efficiency)
-    for kind, columns in MACHINE.items():
-        if kind in only and (column := source.known_column(columns)):
-            yield drawn(kind, table, functools.partial(plot_for_machine, source, kind, column))
+    for kind in MACHINE:
+        if kind in only:
+            yield drawn(kind, table, functools.partial(plot_for_machine, source, kind))
     if "residuals" in only:
         yield drawn("residuals", table, lambda: figure_residuals.plot_residuals(source, source.output / "residuals"))
     if "budget" in only:

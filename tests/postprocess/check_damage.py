@@ -124,7 +124,7 @@ def main(scripts, sample, columns, work, every):
     for what, happen in itertools.islice(changes(folder, scripts), 0, None, int(every)):
         undo = happen()
         # Figures of the campaign read campaign.h5 and the notes, those of a case its result.h5, and both show names.
-        of_campaign = ("efficiency", "residuals", "budget")
+        of_campaign = ("efficiency", "speed", "mass_flow", "residuals", "budget")
         of_case = tuple(kind for kind in figures.KINDS if kind not in of_campaign)
         kinds = of_case if what.startswith("result.h5") else figures.KINDS if what.startswith(("campaign named", "label ")) else of_campaign
 
