@@ -32,7 +32,7 @@ inference::Bounds logs_of(inference::Bounds const& b) {
 /// others about it, as many as differential evolution needs (ten for each parameter).
 std::vector<std::vector<double>> starts_about(inference::Hyperparameters const& best,
                                               std::vector<inference::Bounds> const& bounds) {
-    constexpr double spread = 0.3, room = 1e-3;  // in logarithms
+    constexpr double spread = 0.15, room = 1e-3;  // in logarithms
     std::vector<double> middle{std::log(best.deviation)};
     for (double const length : best.lengths) middle.push_back(std::log(length));
     if (best.extra_noise > 0) middle.push_back(std::log(best.extra_noise));
@@ -42,8 +42,12 @@ std::vector<std::vector<double>> starts_about(inference::Hyperparameters const& 
     for (std::size_t i = 0; i < chains + 10 * bounds.size(); ++i) {
         std::vector<double> point;
         for (std::size_t p = 0; p < bounds.size(); ++p) {
-            double const value = middle[p] + (i < chains ? 0 : normal(random));
-            point.push_back(std::clamp(value, bounds[p].low + room, bounds[p].high - room));
+            auto const [low, high] = bounds[p];
+            double value = std::clamp(middle[p], low + room, high - room) + (i < chains ? 0 : normal(random));
+            // Reflected at the bounds: what lay on one of them would never leave it.
+            if (value > high) value = 2 * high - value;
+            if (value < low) value = 2 * low - value;
+            point.push_back(value);
         }
         starts.push_back(std::move(point));
     }

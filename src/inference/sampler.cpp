@@ -45,15 +45,16 @@ class Walk {
             else
                 start_at(chains_.back(), settings.starts.at(static_cast<std::size_t>(c)));
         }
-        if (!settings.starts.empty()) archive_ = settings.starts;
+        keeps_archive_ = !settings.starts.empty();
+        if (keeps_archive_) archive_ = settings.starts;
     }
 
     /// Fills the archive. What it holds after half of the steps, when chains may still be on their way, is
-    /// thrown away.
+    /// thrown away; but not points about the peak, without which a few chains span too small a space.
     void warm_up(int steps) {
         for (int i = 1; i <= steps; ++i) {
             for (Chain& chain : chains_) step(chain);
-            if (i == steps / 2) archive_.clear();
+            if (i == steps / 2 && !keeps_archive_) archive_.clear();
             if (i % steps_per_archive_entry != 0) continue;
             for (Chain const& chain : chains_) archive_.push_back(chain.at);
         }
@@ -145,6 +146,7 @@ class Walk {
     std::vector<Bounds> const& bounds_;
     std::vector<Chain> chains_;
     std::vector<Point> archive_;
+    bool keeps_archive_ = false;
     long steps_ = 0, accepted_ = 0;
 };
 

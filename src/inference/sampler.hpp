@@ -30,8 +30,8 @@ struct SamplerSettings {
     int points_per_start =
         2000;  ///< random points within the bounds among which each chain chooses its start
     /// Points about the highest density, one for each chain or more, where they are known: chains begin at
-    /// the first of them, and all of them begin the archive. With many parameters no random point is near
-    /// enough.
+    /// the first of them, and all of them stay in the archive. With many parameters no random point is near
+    /// enough. They should be ten for each parameter, and scatter by a third of what the density does or so.
     std::vector<std::vector<double>> starts{};
 };
 

@@ -194,7 +194,7 @@ class Engineer(EndToEndTest):
         self.assertEqual(by_mass, by_volume, "600 kg/m3 times 20 m3/h are 12 t/h")
         answer = self.call("design", "--mass-flow", "12 tons/h", *TROUGH, "--friction", "0.3")
         self.assertEqual(answer.returncode, 2, answer.stdout + answer.stderr)
-        self.assertIn("t/h", answer.stderr)
+        self.assertIn("write t for metric tonnes", answer.stderr)
 
 
 class Researcher(EndToEndTest):

@@ -47,7 +47,7 @@ class WrongInput(EndToEndTest):
 
     def test_wrong_keys(self):
         self.refuse(campaign_text({"trough.frictoin": 0.3}), "frictoin", "unknown key", "did you mean trough.friction?")
-        self.refuse(campaign_text().replace("[trough]", "[through]"), "through", "unknown section", "trough, grains")
+        self.refuse(campaign_text().replace("[trough]", "[through]"), "through", "unknown section", "did you mean [trough]?")
         # What is missing has no place of its own: its section's heading.
         self.refuse(campaign_text({"trough.friction": None}), "trough]", "trough.friction: is missing")
         self.refuse(campaign_text({"layer.grains": None}), "layer]", "exactly one of height, diameters, grains, block, feed.mass_flow is needed")

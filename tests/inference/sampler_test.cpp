@@ -83,8 +83,9 @@ TEST(Sampler, NanIsImpossible) {
 }
 
 // Twelve parameters, each within a hundredth of its bounds' width: among random points none is near, but
-// chains that begin at the peak draw the density. Its mean square distance is 12; tolerance: a quarter of it,
-// which is five standard deviations of the mean of 400 independent draws.
+// chains that begin at the peak draw the density. Its mean square distance is 12, with
+// a standard deviation of sqrt(24); tolerance: a quarter of it, five standard deviations of the mean of 70
+// independent draws.
 TEST(Sampler, ManyParametersNeedStartsAboutThePeak) {
     constexpr std::size_t parameters = 12;
     auto const density = [](std::span<double const> p) {
@@ -94,8 +95,10 @@ TEST(Sampler, ManyParametersNeedStartsAboutThePeak) {
     };
     SamplerSettings settings;
     settings.chains = 4;
+    settings.warm_up = 400;
+    settings.draws = settings.most_draws = 2000;
     std::mt19937_64 random(1);
-    std::normal_distribution<double> normal(0, 0.01);
+    std::normal_distribution<double> normal(0, 0.003);
     for (int i = 0; i < 124; ++i) {
         std::vector<double> point(parameters, 0.0);
         if (i >= settings.chains)

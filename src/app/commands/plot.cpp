@@ -249,8 +249,8 @@ void add_plot(CLI::App& program, int& exit_code) {
                      "Colours and marks that tell series apart stay")
         ->type_name("FILE");
     command->footer(R"(Kinds of figures:
-  efficiency  velocity efficiency over the throw number or a swept key: DEM with error bars, the models as lines
-  speed       conveying speed over the same input, beside the theory, the rolling-layer law and the atlas
+  efficiency  velocity efficiency over throw number or swept key: DEM with error bars and models
+  speed       conveying speed over the same, beside the theory, the rolling-layer law and the atlas
   mass_flow   mass flow likewise
   residuals   DEM minus theory
   budget      statistical and numerical error of the cases that 'vibrotrough convergence' studied
