@@ -44,7 +44,7 @@ class DesignTest(unittest.TestCase):
         for probability in (said["models"][0]["probability"], second["probability"]):
             self.assertIn("not known" if probability is None else f"{100 * probability:#.3g} %", table)
         self.assertIn("Asked for are 8.00 t/h with a probability of 95.0 %.", b.text("design-asked"))
-        self.assertIn("Rolling friction of the grains 0.1", b.text("design-asked"))
+        self.assertIn("Rolling friction of the grains: 0.1", b.text("design-asked"))
         # The mass flow that was asked is a line at its height, over the stroke.
         self.assertEqual(b.run("[document.getElementById('curve-axis').value, document.getElementById('curve-quantity').value]"), ["stroke_mm", "flow"])
         self.assertEqual(b.run("document.querySelectorAll('#curve .asked').length"), 1)
