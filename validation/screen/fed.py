@@ -111,8 +111,11 @@ def draw(run: ValidationCase) -> None:
     table = [row for row in run.table("fed.csv") if row["case"] in {f"fed-{feed}" for feed in FEEDS}]
     figure, axes = new_figure(size=(6.4, 4.0), layout="constrained")
     feed, efficiency, width = ([float(row[name]) for row in table] for name in ("feed_t_per_h", "efficiency", "efficiency_half_width"))
-    axes.errorbar([one / 0.024 for one in feed], efficiency, width, fmt=MARKERS[0] + "-", color=COLOURS[0], capsize=3)
+    per_width = [one / 0.024 for one in feed]
+    axes.errorbar(per_width, efficiency, width, fmt=MARKERS[0] + "-", color=COLOURS[0], capsize=3)
     axes.set_xscale("log")
+    axes.set_xticks(per_width, [f"{one:g}" for one in per_width])
+    axes.set_xticks([], minor=True)
     axes.set_ylim(0, 1.05)
     axes.set_xlabel("feed per width of the screen  [t/h/m]")
     axes.set_ylabel("efficiency of screening  [-]")
