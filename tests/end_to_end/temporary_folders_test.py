@@ -134,8 +134,9 @@ class TemporaryFolders(EndToEndTest):
         older = self.temporary / "vibrotrough-engine-a1B2c3"  # of an older version: nobody knows whether its owner lives
         older.mkdir()
 
-        living = self.start("run", campaign, "--output", self.folder / "other", "--liggghts", self.engine)
-        wait_until(lambda: engines_in(self.folder / "other"), "an engine of the next run ran", living)
+        living = self.start("run", campaign, "--output", self.folder / "other", "--liggghts", self.engine, "--jobs", 2)
+        # Both, so that none of them is stopped after its folder is made and before it is locked.
+        wait_until(lambda: len(engines_in(self.folder / "other")) == 2, "both engines of the next run ran", living)
         os.kill(living.pid, signal.SIGSTOP)  # so that no packing of it ends between the looks
         in_use = set(self.left()) - {older.name}
         self.assertEqual(in_use & set(dead), set(), "the next run removes what the dead one left")
