@@ -66,7 +66,7 @@ char const* source_of(AddedMassSource source) {
         case AddedMassSource::maker:
             break;
     }
-    return "as makers count, 10 to 25 %";
+    return "as makers count";
 }
 
 /// The exciter of a machine under its layer.

@@ -28,10 +28,10 @@ std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const
     return atlas::load_at(place);
 }
 
-void settle_added_mass(ChosenDesign& found) {
-    if (!found.task.machine || found.task.machine->added_mass_source == AddedMassSource::given) return;
-    MovedMachine& machine = *found.task.machine;
-    if (auto const load = load_of(found.task, found.design)) {
+void settle_added_mass(DesignTask& task, RiskDesign const& design) {
+    if (!task.machine || task.machine->added_mass_source == AddedMassSource::given) return;
+    MovedMachine& machine = *task.machine;
+    if (auto const load = load_of(task, design)) {
         auto const [value, half_width] = load->added_mass;
         machine.added_mass = {value, half_width / atlas::deviations_in_half_width};
         machine.added_mass_source = AddedMassSource::atlas;
@@ -53,7 +53,7 @@ ChosenDesign design_with_exciter(DesignTask const& task,
         double const by_mass = amplitude * machine.added_mass.sd * material / machine.moving_mass(material);
         one.errors.amplitude = std::hypot(task.errors.amplitude, by_mass);
         ChosenDesign found = find(one);
-        settle_added_mass(found);
+        settle_added_mass(found.task, found.design);
         machine = *found.task.machine;
         depth = found.design.depth;
         double const under_it = amplitude_of(machine, task.space.frequency.low, material_on(task, depth));

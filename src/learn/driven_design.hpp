@@ -15,9 +15,9 @@ double material_on(DesignTask const& task, double depth);
 /// among them, or the diameter of its grains is not known.
 std::optional<atlas::LayerLoad> load_of(DesignTask const& task, RiskDesign const& design);
 
-/// Sets the added mass of the machine of a design, unless it was given, to what the layers of the atlas have,
+/// Sets the added mass of the machine of a task, unless it was given, to what the layers of the atlas have,
 /// if load_of() knows it.
-void settle_added_mass(ChosenDesign& found);
+void settle_added_mass(DesignTask& task, RiskDesign const& design);
 
 /// Designs a machine whose stroke follows from its exciter: repeats a search with the stroke that the exciter
 /// gives under the layer of the machine found before, until it stays within a thousandth. It begins with the

@@ -54,10 +54,10 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     found.design.throw_number = 2;
     found.design.depth = 0.018;
     MovedMachine& machine = *found.task.machine;
-    settle_added_mass(found);
+    settle_added_mass(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
     found.task.grain_diameter = 0.0045;  // 4 grains
-    settle_added_mass(found);
+    settle_added_mass(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::atlas);
     EXPECT_GT(machine.added_mass.mean, 0.05);
     EXPECT_LT(machine.added_mass.mean, 0.35);
@@ -70,13 +70,13 @@ TEST(DrivenDesign, AddedMassIsThatOfTheAtlas) {
     EXPECT_GT(json.at("power_by_atlas_half_width").get<double>(), 0);
     EXPECT_THAT(design_text(found.task, found.design), testing::HasSubstr(" W by the atlas of layers"));
     found.task.grain_diameter = 0.001;  // 18 grains: deeper than the layers of the atlas
-    settle_added_mass(found);
+    settle_added_mass(found.task, found.design);
     EXPECT_EQ(machine.added_mass_source, AddedMassSource::maker);
     EXPECT_NEAR(machine.added_mass.mean, 0.175, 1e-12);
     machine.added_mass = {0.4};
     machine.added_mass_source = AddedMassSource::given;
     found.task.grain_diameter = 0.0045;
-    settle_added_mass(found);
+    settle_added_mass(found.task, found.design);
     EXPECT_EQ(machine.added_mass.mean, 0.4);
 }
 

@@ -37,7 +37,7 @@ WITHOUT_TESTS = {"app"}
 IN_PYTHON = {"end_to_end", "clusters"}
 # Tests of a room that compare pages or start ParaView find no mistake of arithmetic, and take long.
 LEFT_OUT = "InTheDocs|InParaView|RenderCase"
-# How an answer begins that is no name of a test, because ctest itself failed.
+# How an answer begins where ctest itself failed, so that it does not name a test.
 NO_TEST = "ctest: "
 
 TITLE = """# The last run of the mutants

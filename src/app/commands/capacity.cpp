@@ -217,7 +217,8 @@ void add_capacity(CLI::App& program, int& exit_code) {
 when the layer reaches it. The search begins with the feed of the file, doubles it while what is fed also leaves the
 trough, halves it while it does not, and then tries the geometric mean of the two, until both are within --precision.
 A feed is not carried when its case ends as 'overfull', when more than 3 % of it found no room, or as 'not-steady'
-because the outflow is less than the inflow after measure.max_cycles. Near the capacity a trough fills slowly, so more cycles make the answer sharper.
+because the outflow is less than the inflow after measure.max_cycles. Near the capacity a trough fills slowly, so more
+cycles make the answer sharper.
 
 Every feed is a case of the campaign: 'compare', 'report' and 'export' show them all, and feeds of a [sweep] over
 feed.mass_flow count as well. Ctrl-C stops cleanly, and the same command continues.

@@ -84,11 +84,7 @@ learn::ChosenDesign find_machine(DesignArguments const& options, learn::DesignTa
                        round == 1 ? "" : fmt::format(", with the stroke under its layer, {}", round));
         return models ? choose_machine(one, *models) : learn::ChosenDesign{one, propose_machine(one)};
     };
-    if (!task.machine || !task.machine->exciter) {
-        learn::ChosenDesign found = find(task);
-        settle_added_mass(found);
-        return found;
-    }
+    if (!task.machine || !task.machine->exciter) return find(task);
     try {
         return learn::design_with_exciter(task, find);
     } catch (std::invalid_argument const& error) {
@@ -110,8 +106,9 @@ VerifiedDesign find_design(DesignArguments const& options, learn::DesignTask tas
 }
 
 int run_design(DesignArguments const& options) {
-    VerifiedDesign const found = find_design(options, read_task(options));
+    VerifiedDesign found = find_design(options, read_task(options));
     if (found.is_interrupted) return interrupted;
+    settle_added_mass(found.task, found.design);
     learn::DesignTask const& task = found.task;
     learn::RiskDesign const& design = found.design;
     if (!options.campaign.empty()) {

@@ -263,8 +263,9 @@ void add_predict(CLI::App& program, int& exit_code) {
         R"(Without --at: what the atlas says of each case of the campaign, before anything is simulated. The atlas is a
 surface over layers of spheres that were simulated once for all (validation/atlas). It prints the velocity efficiency
 with the half-width of its 95 % interval, the speed, the point mass beside it, the mean power that the trough gives to
-the layer, and the share of the layer's mass that moves with the trough. It names what of a case lies outside of the atlas: a layer of another kind has no prediction; one beyond the ranges of the atlas is an extrapolation, up to
-a quarter of a range. JSON has a list with case, efficiency, half_width, speed_m_per_s, efficiency_theory, inside,
+the layer, and the share of the layer's mass that moves with the trough. It names what of a case lies outside of the
+atlas: a layer of another kind has no prediction; one beyond the ranges of the atlas is an extrapolation, up to a
+quarter of a range. JSON has a list with case, efficiency, half_width, speed_m_per_s, efficiency_theory, inside,
 outside (names), and added_mass_fraction, damping (over mass of the layer times omega) and power_per_area_w_per_m2, each
 with its half-width.
 
