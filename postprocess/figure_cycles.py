@@ -24,6 +24,7 @@ def plot_cycles(source: "Source", case: str, result: vibrotrough.File, output: p
     row = source.row_of(case)
     for number, axes in enumerate(columns[:, 0]):
         draw_packing(axes, result, number, row)
+    show_cycles(columns[0, 0], result, shown)
     last = columns[-1, 0]
     last.set_xlabel("cycle  [-]")
     figure.supylabel("velocity efficiency \u03b7 of each cycle  [-]", fontsize=points(10))
@@ -35,6 +36,16 @@ def plot_cycles(source: "Source", case: str, result: vibrotrough.File, output: p
     corner(figure, source.attributes, note)
     figure.tight_layout(rect=(0, 0.02, 1, 1 - 0.4 / height))
     return save(figure, output)
+
+
+def show_cycles(axes: Axes, result: vibrotrough.File, shown: int) -> None:
+    """The interval of one short packing may be many times as wide as its cycles scatter, which would then look like a straight line."""
+    cycles = np.concatenate([result[f"series/{number + 1}/efficiency"] for number in range(shown)])
+    low, high = np.min(cycles), np.max(cycles)
+    beyond = 0.5 * (high - low)
+    bottom, top = axes.get_ylim()
+    if beyond > 0 and (bottom < low - 2 * beyond or top > high + 2 * beyond):
+        axes.set_ylim(max(bottom, low - beyond), min(top, high + beyond))
 
 
 def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping[str, Any]) -> None:

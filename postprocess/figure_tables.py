@@ -78,9 +78,14 @@ def plot_partition(source: "Source", case: str, result: vibrotrough.File, output
     size, stays, low, high, model = (column(result, "partition", name) for name in ("diameter", "stays", "stays_low", "stays_high", "stays_by_model"))
     if len(size) == 0:
         return []
+    # d50 lies on a line that takes all spheres as large as the opening to stay.
+    opening = size[0] / column(result, "partition", "relative_diameter")[0]
+    corners = [at for at in range(1, len(size)) if size[at - 1] < opening < size[at]]
+    along = np.insert(1e3 * size, corners, 1e3 * opening)
     _, axes = new_figure()
-    axes.errorbar(1e3 * size, stays, [np.nan_to_num(stays - low), np.nan_to_num(high - stays)], color=COLOURS[0], marker="o", markersize=4, capsize=2, label="measured")
-    axes.plot(1e3 * size, model, color=COLOURS[2], linestyle=DASHES[2], label="one attempt in each cycle (Gaudin)")
+    axes.plot(along, np.insert(stays, corners, 1), color=COLOURS[0])
+    axes.errorbar(1e3 * size, stays, [np.nan_to_num(stays - low), np.nan_to_num(high - stays)], color=COLOURS[0], linestyle="none", marker="o", markersize=4, capsize=2, label="measured")
+    axes.plot(along, np.insert(model, corners, 1), color=COLOURS[2], linestyle=DASHES[2], label="one attempt in each cycle (Gaudin)")
     cut = float(result["case/cut_size"])
     if np.isfinite(cut):
         axes.plot([1e3 * cut], [0.5], color=COLOURS[1], marker="d", linestyle="none", label=f"d50 {1e3 * cut:.3g} mm")

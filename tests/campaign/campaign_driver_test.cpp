@@ -2,7 +2,9 @@
 
 #include "campaign_folder.hpp"
 
+#include <chrono>
 #include <deque>
+#include <thread>
 
 namespace vibrotrough::campaign {
 namespace {
@@ -14,9 +16,10 @@ class ScriptedExecutor : public Executor {
   public:
     using Script = std::function<EndedPacking(PackingOrder const&)>;
     /// What makes an executor can capture nothing.
-    static inline Script script;           ///< how a packing ends
-    static inline std::vector<int> begun;  ///< numbers of the packings that were run
-    static inline bool is_a_cluster;       ///< whose tasks go on without the driver
+    static inline Script script;                      ///< how a packing ends
+    static inline std::vector<int> begun;             ///< numbers of the packings that were run
+    static inline bool is_a_cluster;                  ///< whose tasks go on without the driver
+    static inline std::vector<RunningPacking> shown;  ///< what it says of what runs
 
     std::vector<PackingActivity> given_before() override { return {}; }
     std::string submit(std::vector<PackingOrder> const& orders) override {
@@ -36,7 +39,7 @@ class ScriptedExecutor : public Executor {
     }
     bool is_idle() const override { return queue_.empty(); }
     void interrupt() override {}
-    std::vector<RunningPacking> running() const override { return {}; }
+    std::vector<RunningPacking> running() const override { return shown; }
     bool outlives_driver() const override { return is_a_cluster; }
 
   private:
@@ -45,7 +48,9 @@ class ScriptedExecutor : public Executor {
 
 class Silent : public Observer {
   public:
-    void progressed(Progress const&) override {}
+    std::vector<Progress> seen;
+
+    void progressed(Progress const& progress) override { seen.push_back(progress); }
     void case_ended(PlannedCase const&, core::Outcome, std::string const&) override {}
 };
 
@@ -65,7 +70,8 @@ class CampaignDriver : public CampaignFolder {
                                     return std::make_unique<ScriptedExecutor>();
                                 },
                                 [](fs::path const&) { return std::vector<PackingActivity>(); }};
-        Silent observer;
+        observer = {};
+        ScriptedExecutor::shown.clear();
         return run_campaign(plan, campaign_file, *make_policy(), kind, inputs, Until::done, observer);
     }
 
@@ -73,6 +79,7 @@ class CampaignDriver : public CampaignFolder {
         return [=](PackingOrder const& order) { return EndedPacking{order.id(), outcome, "as it was told"}; };
     }
 
+    Silent observer;
     fs::path campaign_file = own_folder.path() / "campaign.toml";
 };
 
@@ -90,6 +97,28 @@ TEST_F(CampaignDriver, TriesAgainAsOftenAsAsked) {
 TEST_F(CampaignDriver, GivesUpTheOtherPackingsOfACaseThatFailed) {
     EXPECT_EQ(run(failing(core::Outcome::lost_grains)).failed, 1);
     EXPECT_EQ(ScriptedExecutor::begun, (std::vector<int>{1}));
+}
+
+// An engine on a busy machine has less than a core of its own: what is left costs core-hours as what was
+// done.
+TEST_F(CampaignDriver, EstimatesTheCostFromTheCostSoFar) {
+    int tries = 0;
+    auto const busy = [&](PackingOrder const& order) {
+        ScriptedExecutor::shown.clear();
+        if (tries++ == 0) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+            RunningPacking one{order.planned, order.packing.number, 1, order.packing.cycles, {}, 1.1, 1, 1};
+            one.core_time = 0.11;
+            ScriptedExecutor::shown = {one};
+        }
+        return EndedPacking{order.id(), core::Outcome::engine_crashed, "as it was told", 0, 0.04};
+    };
+    run(busy, 1);
+    auto const known = std::ranges::find_if(
+        observer.seen, [](Progress const& one) { return one.time_to_go > 0 && !one.engines.empty(); });
+    ASSERT_NE(known, observer.seen.end());
+    EXPECT_NEAR(known->core_time, 0.15, 1e-12);
+    EXPECT_NEAR(known->core_time_to_go, known->time_to_go * 0.15 / known->elapsed, 1e-12);
 }
 
 // Files that are damaged are found when the result is made. Their packings are then unfinished again, and are

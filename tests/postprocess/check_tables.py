@@ -1,4 +1,4 @@
-"""The figures of impacts, partition and segregation: what they draw is what the tables say, and a result without a table gives none.
+"""The figures of impacts, partition, cycles and segregation: what they draw is what the tables say, and a result without a table gives none.
 
 usage: check_tables.py POSTPROCESS
 """
@@ -10,6 +10,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, sys.argv[1])
+import figure_cycles  # noqa: E402
 import figure_tables  # noqa: E402
 
 
@@ -17,7 +18,7 @@ class Source:
     attributes = {"campaign": "sample", "program_version": "0.2.0"}
 
     def row_of(self, case):
-        return {"case": case, "throw_number": 2.0}
+        return {"case": case, "throw_number": 2.0, "efficiency_theory": None}
 
 
 def drawn(plot, result):
@@ -45,13 +46,51 @@ def check_impacts():
 
 
 def check_partition():
-    result = {"partition/diameter": np.array([0.002, 0.004]), "partition/stays": np.array([0.25, 1]), "partition/stays_low": np.array([0.2, 0.9]),
+    result = {"partition/diameter": np.array([0.002, 0.004]), "partition/relative_diameter": np.array([0.5, 1]), "partition/stays": np.array([0.25, 1]), "partition/stays_low": np.array([0.2, 0.9]),
               "partition/stays_high": np.array([0.35, 1]), "partition/stays_by_model": np.array([0.5, 1]), "case/cut_size": np.array(0.003)}  # fmt: skip
     axes = drawn(figure_tables.plot_partition, result)
-    line, _, (bars,) = axes.containers[0]
+    points, _, (bars,) = axes.containers[0]
+    line = axes.lines[0]
+    assert list(points.get_xdata()) == [2, 4] and points.get_linestyle() == "None"
     assert list(line.get_xdata()) == [2, 4] and list(line.get_ydata()) == [0.25, 1]
     np.testing.assert_allclose([bar[:, 1] for bar in bars.get_segments()], [[0.2, 0.35], [0.9, 1]])
     assert "d50 3 mm" in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def check_partition_through_the_opening():
+    """d50 lies on the lines between the sizes; one through the opening, of which all spheres stay: 2 mm + (0.5 - 0.2) / (1 - 0.2) * (3 mm - 2 mm)."""
+    result = {"partition/diameter": np.array([0.002, 0.004]), "partition/relative_diameter": np.array([2 / 3, 4 / 3]), "partition/stays_by_model": np.array([0.4, 1]),
+              "case/cut_size": np.array(0.002375), **{f"partition/{name}": np.array([0.2, 1]) for name in ("stays", "stays_low", "stays_high")}}  # fmt: skip
+    axes = drawn(figure_tables.plot_partition, result)
+    curves = {line.get_label(): line for line in axes.lines}
+    measured, model, d50 = axes.lines[0], curves["one attempt in each cycle (Gaudin)"], curves["d50 2.38 mm"]
+    np.testing.assert_allclose(np.interp(d50.get_xdata(), *measured.get_data()), d50.get_ydata())
+    np.testing.assert_allclose(measured.get_xdata(), [2, 3, 4])
+    assert list(measured.get_ydata()) == [0.2, 1, 1] and list(model.get_ydata()) == [0.4, 1, 1]
+    # Without holes all stay.
+    closed = {**result, "partition/relative_diameter": np.full(2, np.inf), "case/cut_size": np.array(np.nan)}
+    assert list(drawn(figure_tables.plot_partition, closed).lines[0].get_xdata()) == [2, 4]
+
+
+def check_cycles_are_seen():
+    """The interval of one packing, sixty times as wide as the cycles scatter, does not make them a straight line."""
+    result = {"packings/seed": np.arange(2), "packings/cycles_discarded": np.zeros(2), "packings/efficiency": np.array([0.8, 0.8]),
+              "packings/efficiency_half_width": np.array([6.0, 0.02]), "packings/verdict": ["steady", "steady"], "series/1/efficiency": np.array([0.75, 0.85, 0.8]),
+              "series/2/efficiency": np.array([0.8, 0.82, 0.78])}  # fmt: skip
+    kept = []
+    figure_cycles.save = lambda figure, path: kept.append(figure) or [path]
+    low, high = figure_limits(kept, result)
+    assert low <= 0.75 and high >= 0.85 and high - low <= 0.25, (low, high)
+    # An interval that is not much wider is seen as a whole.
+    result["packings/efficiency_half_width"] = np.array([0.07, 0.02])
+    low, high = figure_limits(kept, result)
+    assert low < 0.73 and high > 0.87, (low, high)
+
+
+def figure_limits(kept, result):
+    kept.clear()
+    figure_cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
+    return kept[0].axes[0].get_ylim()
 
 
 def check_segregation():
@@ -66,6 +105,8 @@ def check_segregation():
 
 check_impacts()
 check_partition()
+check_partition_through_the_opening()
+check_cycles_are_seen()
 check_segregation()
 for plot in (figure_tables.plot_impacts, figure_tables.plot_partition, figure_tables.plot_segregation):
     assert drawn(plot, {}) is None

@@ -241,6 +241,7 @@ class Driver {
         PlannedCase const& planned = *one.known.planned;
         one.in_hand.erase(ended.id.packing);
         progress_.core_time += ended.core_time;
+        core_time_of_ended_ += ended.core_time;
         if (!ended.failure) {
             remaining_time_.done(planned.prepared->work(ended.cycles), ended.time);
             take_in(one, ended);
@@ -338,15 +339,15 @@ class Driver {
         progress_.elapsed = remaining_time_.elapsed();
         double under_way = 0, core_time = 0;
         PackingTime taken;
-        int cores = 0;
         for (RunningPacking const& one : progress_.engines) {
             under_way += one.planned->prepared->work(one.cycles);
             taken += one.time;
             core_time += one.core_time;
-            cores += one.ranks;
         }
         int const not_started = std::max(0, progress_.packings - progress_.packings_done - progress_.running);
         progress_.time_to_go = remaining_time_.seconds(under_way, taken, not_started);
+        // On a busy machine an engine has less than its core.
+        double const cores = (core_time_of_ended_ + core_time) / progress_.elapsed;
         progress_.core_time_to_go = progress_.time_to_go < 0 ? -1 : progress_.time_to_go * cores;
         Progress shown = progress_;
         shown.core_time += core_time;
@@ -367,6 +368,7 @@ class Driver {
     std::map<PackingId, int> attempts_;            ///< failed ones of this run
     std::vector<PackingOrder> orders_;             ///< not yet submitted
     RemainingTime remaining_time_;
+    double core_time_of_ended_ = 0;  ///< s, of the packings that ended in this run
     Progress progress_;
     Summary summary_;
     bool have_taken_stock_ = false;
