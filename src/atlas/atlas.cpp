@@ -45,8 +45,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     return all;
 }
 
-/// The place of a layer in the atlas, in the order of inputs().
-Place place_of(prepare::PreparedCase const& p) {
+Place numbers_of(prepare::PreparedCase const& p) {
     scenario::Scenario const& s = p.scenario;
     scenario::Trough const& t = s.trough;
     double const diameter = mean_diameter(s);
@@ -85,7 +84,7 @@ std::vector<Outside> out_of_range(prepare::PreparedCase const& p, Place const& p
 Answer predict(prepare::PreparedCase const& prepared) {
     Answer answer{{}, {}, {}, of_another_kind(prepared)};
     if (!answer.is_inside()) return answer;
-    Place const place = place_of(prepared);
+    Place const place = numbers_of(prepared);
     answer.outside = out_of_range(prepared, place);
     if (is_far_outside(place)) return answer;
     auto const value = value_at(place);
@@ -99,10 +98,15 @@ Answer predict(prepare::PreparedCase const& prepared) {
     return answer;
 }
 
+std::optional<Place> place_of(prepare::PreparedCase const& prepared) {
+    if (!of_another_kind(prepared).empty()) return {};
+    return numbers_of(prepared);
+}
+
 std::optional<Effects> effects(prepare::PreparedCase const& prepared) {
     if (!predict(prepared).is_inside()) return {};
     constexpr double noticeable = 0.1;  // diameters
-    Place const place = place_of(prepared);
+    Place const place = numbers_of(prepared);
     Effects found{place[depth_input], {}, {}};
     Place other = place;
     other[depth_input] = inputs()[depth_input].low;

@@ -30,6 +30,10 @@ struct Answer {
 /// the ranges has one, which is an extrapolation, up to a quarter of a range beyond it.
 Answer predict(prepare::PreparedCase const& prepared);
 
+/// The numbers without a dimension of a layer, in the order of inputs(), whether they lie within the ranges
+/// or not; nothing for a layer of another kind.
+std::optional<Place> place_of(prepare::PreparedCase const& prepared);
+
 /// What single inputs change, by the atlas.
 struct Effects {
     double depth;  ///< of the layer, in diameters

@@ -19,8 +19,9 @@ int main(int argc, char** argv) {
         auto const points =
             argc == 2 ? atlas::read_layers(text, argv[1]) : atlas::read_column(text, argv[1], argv[2]);
         // What a layer does to its trough hardly depends on some of the inputs.
-        double const longest = argc == 2 ? atlas::usual_longest_length : 50;
-        atlas::Surface const surface(atlas::inputs(), points, atlas::Trend::theory, longest);
+        atlas::SurfacePrior prior;
+        if (argc == 3) prior.longest.assign(atlas::inputs().size(), 50);
+        atlas::Surface const surface(atlas::inputs(), points, prior);
         int number = 0;
         // Every third is enough for many layers, and each costs time in every prediction.
         std::vector<inference::Hyperparameters> few;

@@ -16,10 +16,11 @@ Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> poi
     : inputs_(std::move(inputs)),
       points_(std::move(points)),
       trend_(Trend::theory),
-      process_(data(), prior(), draws.empty() ? inference::Hyperparameters{} : draws.front()) {
+      process_(data(), trend_prior(), draws.empty() ? inference::Hyperparameters{} : draws.front()) {
     others_.reserve(draws.size());
     others_.push_back(process_);
-    for (std::size_t i = 1; i < draws.size(); ++i) others_.emplace_back(process_.data(), prior(), draws[i]);
+    for (std::size_t i = 1; i < draws.size(); ++i)
+        others_.emplace_back(process_.data(), trend_prior(), draws[i]);
 }
 
 std::vector<inference::Hyperparameters> Surface::draws() const {
@@ -51,7 +52,7 @@ Eigen::VectorXd Surface::scaled(Place const& place) const {
     return x;
 }
 
-inference::TrendPrior Surface::prior() const {
+inference::TrendPrior Surface::trend_prior() const {
     if (trend_ == Trend::theory) return {Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{1, 1}}};
     return {Eigen::VectorXd{{0.5}}, Eigen::VectorXd{{1}}};
 }
@@ -118,9 +119,9 @@ void Surface::believe(SurfacePoint const& point) {
     data.trend.row(n) = trend_at(point.theory);
     data.values(n) = point.efficiency;
     data.noise(n) = std::max(least_noise, point.half_width / deviations_in_half_width);
-    process_ = inference::GaussianProcess(data, prior(), process_.hyperparameters());
+    process_ = inference::GaussianProcess(data, trend_prior(), process_.hyperparameters());
     for (inference::GaussianProcess& process : others_)
-        process = inference::GaussianProcess(data, prior(), process.hyperparameters());
+        process = inference::GaussianProcess(data, trend_prior(), process.hyperparameters());
     points_.push_back(point);
 }
 

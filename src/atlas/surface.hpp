@@ -35,6 +35,17 @@ enum class Trend {
 /// The longest length over which a surface varies, in widths of an input's range, unless it is told another.
 inline constexpr double usual_longest_length = 5;
 
+/// What is taken of a surface before its points are known.
+struct SurfacePrior {
+    Trend trend = Trend::theory;  ///< of the process
+    /// The least standard deviation of the values about the trend, in velocity efficiency. A trend that errs
+    /// by more than few points can show needs one.
+    double least_deviation = 0.005;
+    /// The longest length over which a surface varies, in widths of each input's range; empty:
+    /// usual_longest_length for each.
+    std::vector<double> longest = {};
+};
+
 /// Standard deviations of a normal distribution in the half-width of its central 95 %.
 inline constexpr double deviations_in_half_width = 1.959963984540054;
 
@@ -72,13 +83,10 @@ struct SurfaceQuality {
 class Surface {
   public:
     /// Fits a surface.
-    /// @param longest  length over which it may vary, in widths of an input's range: with a longer one,
-    /// inputs
-    ///   that change nothing are told from those that change little
     /// @throws core::InputError when there are too few points: fewer than four, or than twice the number of
     ///   inputs
-    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend = Trend::theory,
-            double longest = usual_longest_length);
+    Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
+            SurfacePrior const& prior = {});
 
     /// A surface whose hyperparameters were drawn from their posterior before, as draws() of another over the
     /// same points gave them: nothing is searched for, and the first draw stands for the process of the
@@ -120,10 +128,10 @@ class Surface {
 
   private:
     inference::ProcessData data() const;
-    inference::GaussianProcess fit(double longest);
-    void draw_others(double longest);
+    inference::GaussianProcess fit(SurfacePrior const& prior);
+    void draw_others(SurfacePrior const& prior);
     Eigen::VectorXd trend_at(double theory) const;
-    inference::TrendPrior prior() const;
+    inference::TrendPrior trend_prior() const;
 
     std::vector<SurfaceInput> inputs_;
     std::vector<SurfacePoint> points_;

@@ -18,7 +18,8 @@ namespace {
 /// Below this probability extra noise is taken to be real.
 constexpr double significant = 0.01;
 /// Hyperparameters are equally likely in their logarithm within these bounds; lengths over the scaled inputs.
-constexpr inference::Bounds deviation_prior{0.005, 1}, extra_noise_prior{1e-3, 1};
+constexpr inference::Bounds extra_noise_prior{1e-3, 1};
+constexpr double largest_deviation = 1;
 constexpr double shortest_length = 0.05;
 /// Every 25th draw of the posterior is used: 24 of four chains.
 constexpr int thinning = 25;
@@ -26,6 +27,11 @@ constexpr int chains = 4;
 
 inference::Bounds logs_of(inference::Bounds const& b) {
     return {std::log(b.low), std::log(b.high)};
+}
+
+Eigen::VectorXd longest_lengths(SurfacePrior const& prior, Eigen::Index inputs) {
+    if (prior.longest.empty()) return Eigen::VectorXd::Constant(inputs, usual_longest_length);
+    return Eigen::VectorXd::Map(prior.longest.data(), inputs);
 }
 
 /// Points about the largest likelihood, in logarithms and within the bounds: that one for each chain, and
@@ -56,13 +62,13 @@ std::vector<std::vector<double>> starts_about(inference::Hyperparameters const& 
 
 }  // namespace
 
-Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points, Trend trend,
-                 double longest)
-    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(trend), process_(fit(longest)) {
-    draw_others(longest);
+Surface::Surface(std::vector<SurfaceInput> inputs, std::vector<SurfacePoint> points,
+                 SurfacePrior const& prior)
+    : inputs_(std::move(inputs)), points_(std::move(points)), trend_(prior.trend), process_(fit(prior)) {
+    draw_others(prior);
 }
 
-inference::GaussianProcess Surface::fit(double longest) {
+inference::GaussianProcess Surface::fit(SurfacePrior const& prior) {
     auto const n = static_cast<Eigen::Index>(points_.size());
     auto const d = static_cast<Eigen::Index>(inputs_.size());
     if (n < std::max<Eigen::Index>(4, 2 * d)) {
@@ -73,10 +79,12 @@ inference::GaussianProcess Surface::fit(double longest) {
     }
     inference::ProcessData const known = data();
     inference::ProcessSettings settings;
-    if (longest > usual_longest_length) settings.most.lengths = Eigen::VectorXd::Constant(d, longest);
-    auto process = inference::GaussianProcess::fitted(known, prior(), settings);
+    if (prior.least_deviation > SurfacePrior{}.least_deviation)
+        settings.least.deviation = prior.least_deviation;
+    if (!prior.longest.empty()) settings.most.lengths = longest_lengths(prior, d);
+    auto process = inference::GaussianProcess::fitted(known, trend_prior(), settings);
     settings.has_extra_noise = true;
-    auto const noisy = inference::GaussianProcess::fitted(known, prior(), settings);
+    auto const noisy = inference::GaussianProcess::fitted(known, trend_prior(), settings);
     // Extra noise cannot be negative, so that half of the likelihood ratio's distribution lies at zero (H.
     // Chernoff, Ann. Math. Stat. 25 (1954) 573-578).
     double const ratio = std::max(0.0, 2 * (noisy.log_likelihood() - process.log_likelihood()));
@@ -86,7 +94,7 @@ inference::GaussianProcess Surface::fit(double longest) {
     return process;
 }
 
-void Surface::draw_others(double longest) {
+void Surface::draw_others(SurfacePrior const& prior) {
     Eigen::Index const d = process_.data().inputs.cols();
     bool const is_noisy = process_.hyperparameters().extra_noise > 0;
     auto const from_logs = [&](std::span<double const> logs) {
@@ -97,13 +105,15 @@ void Surface::draw_others(double longest) {
     };
     auto const density = [&](std::span<double const> logs) {
         try {
-            return inference::GaussianProcess(process_.data(), prior(), from_logs(logs)).log_likelihood();
+            return inference::GaussianProcess(process_.data(), trend_prior(), from_logs(logs))
+                .log_likelihood();
         } catch (std::invalid_argument const&) {
             return -std::numeric_limits<double>::infinity();  // numerically singular
         }
     };
-    std::vector<inference::Bounds> bounds{logs_of(deviation_prior)};
-    for (Eigen::Index j = 0; j < d; ++j) bounds.push_back(logs_of({shortest_length, longest}));
+    std::vector<inference::Bounds> bounds{logs_of({prior.least_deviation, largest_deviation})};
+    for (double const longest : longest_lengths(prior, d))
+        bounds.push_back(logs_of({shortest_length, longest}));
     if (is_noisy) bounds.push_back(logs_of(extra_noise_prior));
     inference::SamplerSettings const settings{.chains = chains,
                                               .warm_up = 400,
@@ -113,7 +123,7 @@ void Surface::draw_others(double longest) {
     inference::Sample const sample = inference::sample(density, bounds, settings);
     for (int chain = 0; chain < sample.chains; ++chain) {
         for (int draw = thinning - 1; draw < sample.draws; draw += thinning)
-            others_.emplace_back(process_.data(), prior(), from_logs(sample.draw(chain, draw)));
+            others_.emplace_back(process_.data(), trend_prior(), from_logs(sample.draw(chain, draw)));
     }
 }
 

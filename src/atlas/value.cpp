@@ -72,6 +72,12 @@ bool is_far_outside(Place const& place) {
     return false;
 }
 
+Place within_ranges(Place place) {
+    for (std::size_t k = 0; k < place.size(); ++k)
+        place[k] = std::clamp(place[k], inputs()[k].low, inputs()[k].high);
+    return place;
+}
+
 int simulated_layers() {
     return static_cast<int>(surface().points().size());
 }

@@ -48,6 +48,9 @@ std::vector<Outside> outside_ranges(Place const& place);
 /// Whether a place lies so far outside of a range, more than a quarter of it, that the atlas says nothing.
 bool is_far_outside(Place const& place);
 
+/// The nearest place within the ranges of the atlas.
+Place within_ranges(Place place);
+
 /// What is said of a number outside of its range: "depth 14 (the atlas has 3 to 6)".
 std::string range_text(std::string_view name, double value, double low, double high);
 

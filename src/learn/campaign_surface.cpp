@@ -25,14 +25,6 @@ bool has_words(scenario::Scenario const& scenario, std::map<std::string, scenari
     });
 }
 
-/// The theory's answer for a prepared case; nothing when the mass has no mean speed.
-std::optional<double> theory_of(prepare::PreparedCase const& prepared) {
-    auto const motion = prepare::solve(prepared.point_mass);
-    if (!motion.converged && motion.outcome != theory::Outcome::unsettled) return {};
-    if (!std::isfinite(motion.velocity_efficiency)) return {};
-    return motion.velocity_efficiency;
-}
-
 std::vector<atlas::SurfaceInput> inputs_of(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                            std::map<std::string, scenario::Content> const& words) {
     std::vector<atlas::SurfaceInput> inputs;
@@ -87,30 +79,17 @@ double distance(atlas::Place const& a, atlas::Place const& b,
 
 }  // namespace
 
-scenario::Scenario CampaignTheory::scenario_at(atlas::Place const& place) const {
-    auto values = words_;
-    for (std::size_t k = 0; k < inputs_.size(); ++k) values[inputs_[k].key] = place[k];
-    return maker_.make(values);
-}
-
-std::optional<double> CampaignTheory::efficiency_at(atlas::Place const& place) const {
-    try {
-        return theory_of(prepare::prepare_case(scenario_at(place)));
-    } catch (core::InputError const&) {
-        return {};  // values that do not go together
-    }
-}
-
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,
                                std::map<std::string, scenario::Content> const& words) {
-    CampaignPoints found{inputs_of(plan, maker, words), {}, {}, 0};
+    CampaignTrend const trend(maker, inputs_of(plan, maker, words), words);
+    CampaignPoints found{trend.inputs(), {}, {}, 0, 0, trend.prior()};
     auto const studied = campaign::read_case_numerics(plan);
     for (campaign::PlannedCase const& planned : plan.cases) {
         require_steady_drive(planned.scenario(), "a surface");
         if (!has_words(planned.scenario(), words)) continue;
         auto const place = place_of(planned.scenario(), found.inputs);
-        auto const theory = theory_of(*planned.prepared);
-        if (!place || !theory) continue;
+        auto const value = place ? trend.efficiency_of(*planned.prepared) : std::nullopt;
+        if (!value) continue;
         auto const study = studied.find(planned.id);
         found.numerics = std::max(
             found.numerics, study != studied.end() ? study->second.error
@@ -125,7 +104,7 @@ CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker c
             record.outcome == core::Outcome::finished || record.outcome == core::Outcome::not_precise;
         if (steady && record.estimate.mean && record.estimate.half_width) {
             found.points.push_back(
-                {planned.id, *place, *theory, *record.estimate.mean, *record.estimate.half_width});
+                {planned.id, *place, *value, *record.estimate.mean, *record.estimate.half_width});
         } else {
             found.apart.push_back({planned.id, *place, record.outcome});
         }

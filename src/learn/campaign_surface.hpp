@@ -3,6 +3,7 @@
 #include "atlas/surface.hpp"
 #include "campaign/state/plan.hpp"
 #include "core/outcome.hpp"
+#include "learn/campaign_trend.hpp"
 #include "scenario/reader/case_maker.hpp"
 
 #include <map>
@@ -29,31 +30,10 @@ struct CampaignPoints {
     /// studied by `convergence` or as known beforehand (prepare::numerical_errors). More cases do not make it
     /// smaller.
     double numerics = 0;
+    atlas::SurfacePrior prior;  ///< of their surface
 };
 
-/// Velocity efficiencies of the theory over the inputs of a campaign.
-class CampaignTheory {
-  public:
-    /// @param words  values of varied keys that are words, such as grains.rotation; the same everywhere
-    CampaignTheory(scenario::CaseMaker maker, std::vector<atlas::SurfaceInput> inputs,
-                   std::map<std::string, scenario::Content> words)
-        : maker_(std::move(maker)), inputs_(std::move(inputs)), words_(std::move(words)) {}
-
-    /// The case at a place. @throws core::InputError when there is none
-    scenario::Scenario scenario_at(atlas::Place const& place) const;
-    /// Velocity efficiency of the plastic point mass at a place; nothing when it has no mean speed, or the
-    /// place has no case.
-    std::optional<double> efficiency_at(atlas::Place const& place) const;
-
-    std::vector<atlas::SurfaceInput> const& inputs() const { return inputs_; }  ///< of the surface
-
-  private:
-    scenario::CaseMaker maker_;
-    std::vector<atlas::SurfaceInput> inputs_;
-    std::map<std::string, scenario::Content> words_;
-};
-
-/// The cases of a campaign, sorted into points and what is kept apart. Cases at which the theory has no mean
+/// The cases of a campaign, sorted into points and what is kept apart. Cases at which the trend has no mean
 /// speed, or whose words differ from `words`, are left out.
 /// @throws core::InputError when no number is varied, or cases differ in a word that `words` does not give
 CampaignPoints campaign_points(campaign::Plan const& plan, scenario::CaseMaker const& maker,

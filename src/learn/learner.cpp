@@ -21,9 +21,6 @@ constexpr int domain_points = 200;
 constexpr unsigned domain_seed = 20261122;
 /// A case that goes on is to have so much of its half-width, which doubles its packings.
 constexpr double narrowing = 0.7;
-/// A surface rests on at least so many points per input, however sure of itself it is with fewer: the rule of
-/// J.L. Loeppky, J. Sacks and W.J. Welch, Technometrics 51 (2009) 366-376.
-constexpr int least_points_per_input = 10;
 
 /// What a step would bring, for comparing candidates.
 struct Candidate {
@@ -66,7 +63,7 @@ Learner::Learner(campaign::Plan const& plan, scenario::CaseMaker const& maker, L
       maker_(maker),
       goal_(goal),
       points_(campaign_points(plan, maker)),
-      theory_(maker, points_.inputs, {}) {
+      trend_(maker, points_.inputs, {}) {
     if (maker.domain().empty()) {
         throw core::InputError(
             "the campaign file has no [domain]; write for example [domain] and below it "
@@ -90,7 +87,7 @@ std::vector<Learner::DomainPoint> Learner::make_domain() const {
                     "{} is varied beside the [domain]; move it into the domain or fix it", input.key));
             place.push_back(axis->at(row[static_cast<std::size_t>(axis - axes.begin())]));
         }
-        if (auto const theory = theory_.efficiency_at(place)) domain.push_back({std::move(place), *theory});
+        if (auto const value = trend_.efficiency_at(place)) domain.push_back({std::move(place), *value});
     }
     if (domain.empty())
         throw core::InputError("the theory has no mean speed anywhere in the domain; choose another one");
@@ -100,7 +97,7 @@ std::vector<Learner::DomainPoint> Learner::make_domain() const {
 void Learner::concentrate_on(std::vector<atlas::Place> const& places) {
     domain_.clear();
     for (atlas::Place const& place : places) {
-        if (auto const theory = theory_.efficiency_at(place)) domain_.push_back({place, *theory});
+        if (auto const value = trend_.efficiency_at(place)) domain_.push_back({place, *value});
     }
     if (domain_.empty())
         throw core::InputError(
@@ -136,10 +133,10 @@ LearnStatus Learner::look() {
         double& sum = core_times_[planned.id];
         for (auto const& packing : summary->record.packings) sum += packing.core_time;
     }
-    surface_.emplace(points_.inputs, points_.points);
+    surface_.emplace(points_.inputs, points_.points, points_.prior);
     LearnStatus status{static_cast<int>(points_.points.size()),
                        static_cast<int>(points_.apart.size()),
-                       least_points_per_input * static_cast<int>(points_.inputs.size()),
+                       trend_.least_points(),
                        certainty(*surface_),
                        surface_->quality(),
                        surface_->doubts(),
@@ -209,7 +206,7 @@ std::vector<LearnStep> Learner::choose() const {
         spent += best->core_time;
         if (!(best->worth > 0) || spent > goal_.budget) break;
         LearnStep step{{}, best->case_id, best->wanted, best->core_time};
-        if (best->case_id.empty()) step.added = theory_.scenario_at(best->point.place);
+        if (best->case_id.empty()) step.added = trend_.scenario_at(best->point.place);
         steps.push_back(std::move(step));
         believed.believe(best->point);
         candidates.erase(best);

@@ -21,7 +21,7 @@ struct LearnGoal {
 /// How well a surface is known over its domain.
 struct DomainCertainty {
     atlas::Place worst;            ///< where the half-width is largest
-    double worst_theory;           ///< velocity efficiency of the theory there
+    double worst_theory;           ///< velocity efficiency of the trend there
     atlas::SurfaceValue at_worst;  ///< of the surface there
     double mean_half_width;        ///< root of the mean squared half-width
 };
@@ -30,7 +30,7 @@ struct DomainCertainty {
 struct LearnStatus {
     int cases;                        ///< of the campaign that are points of the surface
     int apart;                        ///< that are kept apart
-    int least_points;                 ///< that a surface with so many inputs needs to be trusted: 10 for each
+    int least_points;                 ///< CampaignTrend::least_points()
     DomainCertainty certainty;        ///< of the domain
     atlas::SurfaceQuality quality;    ///< of the surface
     std::vector<std::string> doubts;  ///< see Surface::doubts()
@@ -57,7 +57,7 @@ void write_wanted_half_widths(std::filesystem::path const& folder,
 
 /// Chooses what to simulate next for a surface over the domain of a campaign.
 ///
-/// The domain is represented by 200 points of a Sobol sequence at which the theory has a mean speed. Each of
+/// The domain is represented by 200 points of a Sobol sequence at which the trend has a mean speed. Each of
 /// them is a candidate for a new case, and each case that is not as precise as its campaign file asks is a
 /// candidate for an interval 0.7 times as wide, unless it was asked for less than it reached and so has all
 /// the packings that it may have. The candidate is chosen that lowers the mean variance over
@@ -71,7 +71,7 @@ class Learner {
     /// has no [domain]
     Learner(campaign::Plan const& plan, scenario::CaseMaker const& maker, LearnGoal goal);
     /// Looks at these places alone instead of the whole domain, such as those at which a posterior lies.
-    /// @param places  at least one at which the theory has a mean speed; @throws core::InputError when there
+    /// @param places  at least one at which the trend has a mean speed; @throws core::InputError when there
     /// is none
     void concentrate_on(std::vector<atlas::Place> const& places);
 
@@ -99,7 +99,7 @@ class Learner {
     scenario::CaseMaker const& maker_;
     LearnGoal goal_;
     CampaignPoints points_;
-    CampaignTheory theory_;
+    CampaignTrend trend_;
     std::vector<DomainPoint> domain_;
     std::map<std::string, double> core_times_;  ///< s, of the cases with a result, by id
     std::map<std::string, double> wanted_;      ///< half-widths that were asked of cases, by id

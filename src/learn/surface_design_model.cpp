@@ -1,5 +1,7 @@
 #include "learn/surface_design_model.hpp"
 
+#include "atlas/atlas.hpp"
+#include "atlas/tables.hpp"
 #include "core/error.hpp"
 #include "learn/machine_keys.hpp"
 #include "prepare/prepared_case.hpp"
@@ -58,10 +60,10 @@ bool varies(std::vector<atlas::SurfaceInput> const& inputs, std::string_view gro
 /// The surface at the drives of a design.
 class SurfaceAtDrives {
   public:
-    SurfaceAtDrives(std::shared_ptr<atlas::Surface const> surface, CampaignTheory theory,
+    SurfaceAtDrives(std::shared_ptr<atlas::Surface const> surface, CampaignTrend trend,
                     std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
-          theory_(std::move(theory)),
+          trend_(std::move(trend)),
           sources_(std::move(sources)),
           numerics_(numerics),
           varies_friction_(std::ranges::any_of(sources_, &Source::is_friction)) {
@@ -71,8 +73,10 @@ class SurfaceAtDrives {
             bool const chosen = sources_[k].machine != nullptr || sources_[k].is_friction;
             middle.push_back(chosen ? (input.low + input.high) / 2 : sources_[k].value);
         }
-        scenario_ = theory_.scenario_at(middle);
-        is_plain_ = prepare::prepare_case(*scenario_).point_mass.is_plain;
+        scenario_ = trend_.scenario_at(middle);
+        prepare::PreparedCase const prepared = prepare::prepare_case(*scenario_);
+        is_plain_ = prepared.point_mass.is_plain;
+        if (trend_.is_atlas()) atlas_place_ = atlas::place_of(prepared);
     }
 
     /// The campaign's case in the middle of its ranges.
@@ -107,17 +111,26 @@ class SurfaceAtDrives {
                             : source.is_friction      ? friction
                                                       : source.value);
         }
-        auto const theory = theory_at(place, drive, friction);
-        if (!theory) return {};
-        atlas::SurfaceValue const value = surface_->at(place, *theory);
+        auto const trend = trend_at(place, drive, friction);
+        if (!trend) return {};
+        atlas::SurfaceValue const value = surface_->at(place, *trend);
         return ModelEfficiency{value.efficiency, value.half_width / atlas::deviations_in_half_width,
                                numerics_ / atlas::deviations_in_half_width};
     }
 
-    /// The theory at a place: fast for a plain sinusoid, else by the case itself.
-    std::optional<double> theory_at(atlas::Place const& place, theory::Drive const& drive, double friction) {
-        if (!is_plain_) return theory_.efficiency_at(place);
+    /// The trend at a place: fast for a plain sinusoid, else by the case itself.
+    std::optional<double> trend_at(atlas::Place const& place, theory::Drive const& drive, double friction) {
+        if (!is_plain_) return trend_.efficiency_at(place);
         double const mu = varies_friction_ ? friction : trough().friction;
+        if (atlas_place_) {
+            atlas::Place layer = *atlas_place_;
+            layer[atlas::throw_number_input] = drive.throw_number();
+            layer[atlas::tan_vibration_input] = std::tan(drive.vibration_angle);
+            layer[atlas::tan_inclination_input] = std::tan(drive.inclination);
+            layer[atlas::friction_input] = mu;
+            layer[atlas::amplitude_input] *= drive.amplitude / trough().amplitude;
+            return atlas::efficiency_at(atlas::within_ranges(layer));
+        }
         double const eta = solver_({std::clamp(drive.throw_number(), 1e-6, 1e4),
                                     std::tan(drive.vibration_angle), std::tan(drive.inclination), mu})
                                .velocity_efficiency;
@@ -125,10 +138,11 @@ class SurfaceAtDrives {
     }
 
     std::shared_ptr<atlas::Surface const> surface_;
-    CampaignTheory theory_;
+    CampaignTrend trend_;
     std::vector<Source> sources_;
     double numerics_;  ///< 95 % bound, in velocity efficiency
     std::optional<scenario::Scenario> scenario_;
+    std::optional<atlas::Place> atlas_place_;  ///< of that case, where the atlas is the trend
     bool is_plain_ = false, varies_friction_;
     std::vector<double> last_asked_;  ///< drive and friction
     std::optional<ModelEfficiency> last_;
@@ -181,7 +195,7 @@ void check_friction(std::vector<atlas::SurfaceInput> const& inputs, double campa
 
 }  // namespace
 
-DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTheory const& theory,
+DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, CampaignTrend const& trend,
                                  std::map<std::string, double> const& given, KnownFriction const& friction,
                                  double numerics, double discrepancy) {
     auto const inputs = surface->inputs();
@@ -194,7 +208,7 @@ DesignModel surface_design_model(std::shared_ptr<atlas::Surface const> surface, 
     DesignModel model{
         .name = "the simulated layer", .discrepancy = discrepancy, .remarks = surface->doubts()};
     auto const drives =
-        std::make_shared<SurfaceAtDrives>(surface, theory, sources_of(inputs, given), numerics);
+        std::make_shared<SurfaceAtDrives>(surface, trend, sources_of(inputs, given), numerics);
     scenario::Trough const trough = drives->trough();
     check_friction(inputs, trough.friction, friction, model.remarks);
     model.at = [drives](theory::Drive const& drive, double mu) { return drives->at(drive, mu); };

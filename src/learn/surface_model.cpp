@@ -59,10 +59,10 @@ atlas::Place place_from(std::vector<Source> const& sources, std::span<double con
 
 class SurfaceModel {
   public:
-    SurfaceModel(std::shared_ptr<atlas::Surface const> surface, CampaignTheory theory,
+    SurfaceModel(std::shared_ptr<atlas::Surface const> surface, CampaignTrend trend,
                  std::vector<Source> sources, double numerics)
         : surface_(std::move(surface)),
-          theory_(std::move(theory)),
+          trend_(std::move(trend)),
           sources_(std::move(sources)),
           numerics_(numerics) {}
 
@@ -73,19 +73,19 @@ class SurfaceModel {
     std::optional<ModelSpeed> operator()(std::span<double const> values,
                                          MeasuredSpeed const& measured) const {
         atlas::Place const at = place(values, measured);
-        auto const theory = theory_.efficiency_at(at);
-        if (!theory) return {};
-        auto const [efficiency, half_width] = surface_->at(at, *theory);
+        auto const trend = trend_.efficiency_at(at);
+        if (!trend) return {};
+        auto const [efficiency, half_width] = surface_->at(at, *trend);
         double const trough_speed = drive_of(measured).trough_speed();
         double const sd = std::hypot(half_width, numerics_) / atlas::deviations_in_half_width;
         return ModelSpeed{efficiency * trough_speed, sd * trough_speed, trough_speed, 0};
     }
 
-    CampaignTheory const& theory() const { return theory_; }
+    CampaignTrend const& trend() const { return trend_; }
 
   private:
     std::shared_ptr<atlas::Surface const> surface_;
-    CampaignTheory theory_;
+    CampaignTrend trend_;
     std::vector<Source> sources_;
     double numerics_;  ///< 95 % bound, in velocity efficiency
 };
@@ -130,7 +130,7 @@ SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario
                          std::vector<std::string> const& free, std::vector<MeasuredSpeed> const& speeds,
                          double numerics) {
     auto const inputs = surface->inputs();
-    SurfaceModel const model(std::move(surface), CampaignTheory(maker, inputs, {}), sources_of(inputs, free),
+    SurfaceModel const model(std::move(surface), CampaignTrend(maker, inputs, {}), sources_of(inputs, free),
                              numerics);
     std::vector<double> middle;
     for (std::string const& name : free) {
@@ -142,7 +142,7 @@ SpeedModel surface_model(std::shared_ptr<atlas::Surface const> surface, scenario
             throw core::InputError(
                 fmt::format("line {} has no vibration angle; write the column vibration_angle_deg", m.line));
         atlas::Place const place = model.place(middle, m);
-        check_machine(model.theory().scenario_at(place), m);
+        check_machine(model.trend().scenario_at(place), m);
         for (std::size_t k = 0; k < inputs.size(); ++k) {
             double const margin = 0.02 * (inputs[k].high - inputs[k].low);
             if (place[k] >= inputs[k].low - margin && place[k] <= inputs[k].high + margin) continue;

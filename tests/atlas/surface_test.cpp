@@ -72,7 +72,7 @@ TEST(Surface, DrawsAreThoseOfThePosterior) {
         points.push_back({"case", Place(row.begin(), row.end()), 0, value, 0.01});
     }
     constexpr double longest = 50;  // not a bound of the likelihood here
-    Surface const surface(many, points, Trend::theory, longest);
+    Surface const surface(many, points, SurfacePrior{.longest = std::vector(many.size(), longest)});
     inference::ProcessData const& data = surface.process().data();
     inference::TrendPrior const prior{Eigen::VectorXd{{0, 1}}, Eigen::VectorXd{{1, 1}}};
     double const largest = surface.process().log_likelihood();

@@ -24,7 +24,7 @@ class SurfaceDesign : public testing::Test {
                              << "\n[sweep]\n\"trough.throw_number\" = [1, 3]\n"
                              << "\"trough.friction\" = [0.2, 0.6]\n";
         maker.emplace(file_);
-        CampaignTheory const theory(*maker, inputs, {});
+        CampaignTrend const theory(*maker, inputs, {});
         std::vector<atlas::SurfacePoint> points;
         for (double gamma = 1; gamma < 3.01; gamma += 0.25) {
             for (double mu = 0.2; mu < 0.61; mu += 0.1) {
@@ -38,7 +38,7 @@ class SurfaceDesign : public testing::Test {
 
     DesignModel model(KnownFriction const& friction = normal_friction(0.35, 0.02),
                       double numerics = 0) const {
-        return surface_design_model(surface, CampaignTheory(*maker, inputs, {}), {}, friction, numerics);
+        return surface_design_model(surface, CampaignTrend(*maker, inputs, {}), {}, friction, numerics);
     }
 
     std::vector<atlas::SurfaceInput> const inputs{{"trough.throw_number", 1, 3},
@@ -58,7 +58,7 @@ TEST_F(SurfaceDesign, IsTheSurfaceAtTheDrive) {
     theory::Drive const drive{frequency, 0.006, beta, 0};
     auto const found = model().at(drive, 0.4);
     ASSERT_TRUE(found);
-    double const theory = *CampaignTheory(*maker, inputs, {}).efficiency_at({gamma, 0.4});
+    double const theory = *CampaignTrend(*maker, inputs, {}).efficiency_at({gamma, 0.4});
     EXPECT_NEAR(found->efficiency, surface->at({gamma, 0.4}, theory).efficiency, 1e-9);
     EXPECT_NEAR(found->efficiency, theory + 0.1, 0.01);
     EXPECT_GT(found->sd(), 0);
@@ -104,7 +104,7 @@ TEST_F(SurfaceDesign, WhatDoesNotFitIsRefused) {
     auto const refused = [&](std::map<std::string, double> const& given, KnownFriction const& friction,
                              char const* words) {
         try {
-            surface_design_model(surface, CampaignTheory(*maker, inputs, {}), given, friction, 0);
+            surface_design_model(surface, CampaignTrend(*maker, inputs, {}), given, friction, 0);
             ADD_FAILURE() << words;
         } catch (core::InputError const& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr(words));

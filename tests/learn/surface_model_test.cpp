@@ -26,7 +26,7 @@ class SurfaceModelTest : public testing::Test {
                              << "\n[sweep]\n\"trough.throw_number\" = [1, 2]\n"
                              << "\"trough.friction\" = [0.2, 0.6]\n";
         maker.emplace(file_);
-        CampaignTheory const theory(*maker, inputs, {});
+        CampaignTrend const theory(*maker, inputs, {});
         std::vector<atlas::SurfacePoint> points;
         for (double gamma = 1; gamma < 2.01; gamma += 0.2) {
             for (double mu = 0.2; mu < 0.61; mu += 0.1) {
@@ -63,7 +63,7 @@ TEST_F(SurfaceModelTest, SpeedOfTheLayer) {
     MeasuredSpeed const m = setting(1.5);
     auto const answer = surface_model(surface, *maker, {"trough.friction"}, {m}, 0)(std::array{0.35}, m);
     ASSERT_TRUE(answer);
-    double const eta = *CampaignTheory(*maker, inputs, {}).efficiency_at({1.5, 0.35}) + difference(1.5, 0.35);
+    double const eta = *CampaignTrend(*maker, inputs, {}).efficiency_at({1.5, 0.35}) + difference(1.5, 0.35);
     double const trough_speed = 2 * std::numbers::pi * m.frequency * 0.006 * std::cos(30 * degree);
     EXPECT_DOUBLE_EQ(answer->trough_speed, trough_speed);
     EXPECT_NEAR(answer->speed / trough_speed, eta, 0.005);  // the points are known to 0.002
@@ -78,7 +78,7 @@ TEST_F(SurfaceModelTest, CalibrationFindsTheFriction) {
     for (MeasuredSpeed& m : speeds) {
         double const gamma = std::pow(2 * std::numbers::pi * m.frequency, 2) * 0.003 / 9.81;
         double const eta =
-            *CampaignTheory(*maker, inputs, {}).efficiency_at({gamma, 0.35}) + difference(gamma, 0.35);
+            *CampaignTrend(*maker, inputs, {}).efficiency_at({gamma, 0.35}) + difference(gamma, 0.35);
         m.speed = eta * model(std::array{0.35}, m)->trough_speed;
     }
     Calibration const c = calibrate(model, surface_parameters(inputs), speeds);

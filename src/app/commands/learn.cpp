@@ -153,7 +153,8 @@ void add_learn(CLI::App& program, int& exit_code) {
 simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), and each further batch is chosen so that
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
 there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
-often as they should, and there are at least ten points for each input; or when the budget allows no further step. It
+often as they should, and there are at least five points for each input (ten for layers of a kind that the atlas does
+not cover); or when the budget allows no further step. It
 then says why the goal was not reached. The half-width holds statistics and the bound of the numerical errors of the
 cases together; what the latter leave of it is what the statistics are learnt to.
 

@@ -70,8 +70,9 @@ struct Prediction {
     std::vector<atlas::SurfaceInput> inputs;
     atlas::Place place;
     atlas::SurfaceValue value;
-    double numerics;  ///< bound of the numerical error of the campaign's cases, 95 %
-    double theory;
+    double numerics;    ///< bound of the numerical error of the campaign's cases, 95 %
+    double theory;      ///< velocity efficiency of the point mass
+    std::string trend;  ///< of the surface: atlas, theory or constant
     bool is_inside;
     std::string remark;  ///< why it should not be used, or only with care; empty otherwise
     atlas::SurfaceQuality quality;
@@ -114,13 +115,14 @@ std::string remarks(atlas::Surface const& surface, learn::CampaignPoints const& 
 /// A surface over the cases that are alike in the words among their keys.
 struct FittedSurface {
     FittedSurface(campaign::Plan const& plan, scenario::CaseMaker const& maker,
-                  std::map<std::string, scenario::Content> const& words, atlas::Trend trend)
+                  std::map<std::string, scenario::Content> const& words, bool with_trend)
         : points(learn::campaign_points(plan, maker, words)),
-          theory(maker, points.inputs, words),
-          surface(points.inputs, points.points, trend) {}
+          trend(maker, points.inputs, words),
+          surface(points.inputs, points.points,
+                  with_trend ? points.prior : atlas::SurfacePrior{.trend = atlas::Trend::constant}) {}
 
     learn::CampaignPoints points;
-    learn::CampaignTheory theory;
+    learn::CampaignTrend trend;
     atlas::Surface surface;
 };
 
@@ -130,15 +132,15 @@ class Predictor {
     explicit Predictor(PredictArguments const& options)
         : plan_(campaign::open_plan(options.folder)),
           maker_(std::filesystem::path(options.folder) / "campaign.toml"),
-          trend_(options.without_theory ? atlas::Trend::constant : atlas::Trend::theory) {}
+          with_trend_(!options.without_theory) {}
 
     Prediction at(std::string const& text) {
         auto const values = read_place(text, maker_);
-        auto const& [points, theory, surface] = surface_of(words_among(values));
+        auto const& [points, trend, surface] = surface_of(words_among(values));
         atlas::Place const place = numbers_at(values, points.inputs, text);
-        static_cast<void>(theory.scenario_at(place));  // says what is wrong with the place
-        auto const efficiency = theory.efficiency_at(place);
-        if (!efficiency)
+        auto const prepared = prepare::prepare_case(trend.scenario_at(place));
+        auto const theory = learn::theory_of(prepared), efficiency = trend.efficiency_of(prepared);
+        if (!theory || !efficiency)
             throw core::InputError(
                 fmt::format("--at {}: the theory has no mean speed there, and neither has the surface; "
                             "choose another place",
@@ -150,7 +152,10 @@ class Predictor {
                 .place = place,
                 .value = surface.at(place, *efficiency),
                 .numerics = points.numerics,
-                .theory = *efficiency,
+                .theory = *theory,
+                .trend = !with_trend_       ? "constant"
+                         : trend.is_atlas() ? "atlas"
+                                            : "theory",
                 .is_inside = is_inside,
                 .remark = remarks(surface, points, place, is_inside),
                 .quality = surface.quality()};
@@ -162,13 +167,13 @@ class Predictor {
         if (found != surfaces_.end()) return found->second;
         return surfaces_
             .emplace(std::piecewise_construct, std::forward_as_tuple(words),
-                     std::forward_as_tuple(plan_, maker_, words, trend_))
+                     std::forward_as_tuple(plan_, maker_, words, with_trend_))
             .first->second;
     }
 
     campaign::Plan plan_;
     scenario::CaseMaker maker_;
-    atlas::Trend trend_;
+    bool with_trend_;
     std::map<std::map<std::string, scenario::Content>, FittedSurface> surfaces_;
 };
 
@@ -181,6 +186,7 @@ Json as_json(Prediction const& p) {
             {"numerical_error", p.numerics},
             {"whole_half_width", p.whole_half_width()},
             {"efficiency_theory", p.theory},
+            {"trend", p.trend},
             {"inside", p.is_inside},
             {"remark", p.remark},
             {"points", p.quality.points},
@@ -207,8 +213,9 @@ void print_text(Prediction const& p) {
         "{:.3f})\n",
         p.value.efficiency, p.whole_half_width(), p.value.half_width, p.numerics, p.theory);
     fmt::print(
-        "surface              {} points, Q2 = {:.3f}, {} of {} left-out points within their 95 % intervals\n",
-        p.quality.points, p.quality.q2, p.quality.covered, p.quality.points);
+        "surface              {} points, trend: {}, Q2 = {:.3f}, {} of {} left-out points within their 95 % "
+        "intervals\n",
+        p.quality.points, p.trend, p.quality.q2, p.quality.covered, p.quality.points);
     if (!p.remark.empty()) fmt::print("{}\n", p.remark);
 }
 
@@ -258,7 +265,7 @@ void add_predict(CLI::App& program, int& exit_code) {
         command->add_flag("--json", options->json, "Print JSON: a list; an object for a single place");
     command->add_flag("--csv", options->csv, "Print CSV")->excludes(json);
     command->add_flag("--without-theory", options->without_theory,
-                      "Leave the theory out of the surface, to see how much it helps");
+                      "Leave atlas and theory out of the surface, to see how much they help");
     command->footer(
         R"(Without --at: what the atlas says of each case of the campaign, before anything is simulated. The atlas is a
 surface over layers of spheres that were simulated once for all (validation/atlas). It prints the velocity efficiency
@@ -269,8 +276,9 @@ quarter of a range. JSON has a list with case, efficiency, half_width, speed_m_p
 outside (names), and added_mass_fraction, damping (over mass of the layer times omega) and power_per_area_w_per_m2, each
 with its half-width.
 
-With --at: fits a Gaussian process to the cases of the campaign that have a result: the theory is its trend, and only
-the difference between layer and theory is learnt. Prints the velocity efficiency at a place with the half-width of its
+With --at: fits a Gaussian process to the cases of the campaign that have a result. Its trend is the atlas, at the
+nearest place within its ranges, or the theory for layers of a kind that the atlas does not cover; only the difference
+of the layers from it is learnt. Prints the velocity efficiency at a place with the half-width of its
 95 % interval, and the two parts of it: statistics (half_width in JSON and CSV), and the bound of the numerical errors of
 the cases (numerical_error, the largest of them: soft grains, a small box, the time step), which more cases do not make
 smaller. Both together are the root of the sum of their squares (whole_half_width). Q2 tells how well each case is
