@@ -154,9 +154,9 @@ simulated first. Then a surface is fitted (see 'vibrotrough predict --help'), an
 it lowers the uncertainty of the surface most per core-hour: cases at new places, or more packings of cases that are
 there. Learning ends when the largest half-width is as asked, left-out points lie within their predicted intervals as
 often as they should, and there are at least five points for each input (ten for layers of a kind that the atlas does
-not cover); or when the budget allows no further step. It
-then says why the goal was not reached. The half-width holds statistics and the bound of the numerical errors of the
-cases together; what the latter leave of it is what the statistics are learnt to.
+not cover); or when the budget allows no further step. It then says why the goal was not reached. The half-width holds
+statistics and the bound of the numerical errors of the cases together; what the latter leave of it is what the
+statistics are learnt to.
 
 Each step prints the worst place, Q2, how many left-out points are covered, the core time so far and an estimate of
 what is to go. Ctrl-C stops cleanly, and the same command continues.
