@@ -58,7 +58,7 @@ def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping
         axes.axvspan(0.5, discarded + 0.5, facecolor="#dddddd", edgecolor="#999999", hatch="///", linewidth=0,
                      alpha=0.6, label="discarded start", zorder=0)
     axes.plot(cycles, efficiency, color=COLOURS[0], marker=".", markersize=3, linewidth=0.9, label="cycle")
-    if np.isfinite(mean):
+    if np.isfinite(mean) and "stages/start" not in result:  # one mean says nothing of several drives
         kept = [discarded + 0.5, len(efficiency) + 0.5]
         axes.plot(kept, [mean, mean], color=COLOURS[1], linestyle=DASHES[1], linewidth=1.6, label="mean and interval")
         if np.isfinite(half_width):

@@ -33,8 +33,11 @@ def residuals(source: "Source") -> Floats:
 
 
 def plot_residuals(source: "Source", output: pathlib.Path) -> list[pathlib.Path]:
-    over, others = split_inputs(source.campaign, source.inputs)
+    """No figure when no case has a residual, as with drives in stages only."""
     values = residuals(source)
+    if not np.isfinite(values).any():
+        return []
+    over, others = split_inputs(source.campaign, source.inputs)
     figure = draw_maps(source, over, others, values) if others else draw_line(source, over, values)
     missing = np.count_nonzero(~np.isfinite(values))
     corner(figure, source.attributes, f"{missing} of {len(values)} cases have no residual" if missing else "")

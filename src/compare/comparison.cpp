@@ -164,7 +164,7 @@ std::string theory_curves_csv(std::vector<Row> const& rows) {
     std::map<Line, LineModels> lines;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (Row const& row : rows) {
-        if (!(row.vibration_angle_deg > 0)) continue;
+        if (row.is_staged || !(row.vibration_angle_deg > 0)) continue;
         lines[{row.vibration_angle_deg, row.inclination_deg, row.friction}].add(row);
         least = std::min(least, row.throw_number);
         most = std::max(most, row.throw_number);
@@ -236,6 +236,7 @@ Row drive_row(std::string const& id, prepare::PreparedCase const& prepared) {
     row.friction = trough.friction;
     row.amplitude_m = trough.amplitude;
     row.frequency_hz = trough.frequency;
+    row.is_staged = !prepared.stages.empty();
     return row;
 }
 
@@ -244,11 +245,11 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<MeasuredFriction> const& friction) {
     Row row = drive_row(id, prepared);
     row.outcome = record ? std::string(name_of(record->outcome)) : outcome;
-    bool const is_steady = prepared.stages.empty();  // the theories are for one drive without end
-    if (is_steady) add_theory(row, prepared.point_mass);
-    if (is_steady) add_rolling_layer(row, prepared);
+    // The theories are for one drive without end.
+    if (!row.is_staged) add_theory(row, prepared.point_mass);
+    if (!row.is_staged) add_rolling_layer(row, prepared);
     add_atlas(row, prepared);
-    if (friction && is_steady) add_layer_theory(row, prepared.point_mass, *friction);
+    if (friction && !row.is_staged) add_layer_theory(row, prepared.point_mass, *friction);
     if (record) add_measurement(row, *record);
     return row;
 }

@@ -47,6 +47,7 @@ struct Row {
     std::vector<std::optional<Value>> observed = {};
     /// Values of measured_quantities() in their order and units; empty without a result.
     std::vector<std::optional<Value>> measured = {};
+    bool is_staged = false;  ///< whether its drive comes in stages, beside which no theory is shown
     std::optional<std::string> not_covered = {};  ///< by the engine's certificate; none when all is covered
     std::optional<std::string> soft = {};         ///< "soft" when the grains are too soft for the layer
 
@@ -96,12 +97,12 @@ Row compare(std::string const& id, prepare::PreparedCase const& prepared,
             std::optional<MeasuredFriction> const& friction = {});
 
 /// The velocity efficiency of the theory over a fine grid of throw numbers, for every combination of
-/// vibration angle, inclination and friction among the rows. The grid reaches from 0.9 times their smallest
-/// throw number to 1.1 times their largest. CSV with the columns throw_number, vibration_angle_deg,
-/// inclination_deg, friction, velocity_efficiency, rolling_layer_efficiency (of free spheres; empty where
-/// that law has not been tested), atlas_efficiency and atlas_half_width. The atlas is given at every eighth
-/// throw number between the cases that lie inside of it, for a layer between them; not where cases differ in
-/// something else. Throw numbers without a mean speed are left out.
+/// vibration angle, inclination and friction among the rows without stages. The grid reaches from 0.9 times
+/// their smallest throw number to 1.1 times their largest. CSV with the columns throw_number,
+/// vibration_angle_deg, inclination_deg, friction, velocity_efficiency, rolling_layer_efficiency (of free
+/// spheres; empty where that law has not been tested), atlas_efficiency and atlas_half_width. The atlas is
+/// given at every eighth throw number between the cases that lie inside of it, for a layer between them; not
+/// where cases differ in something else. Throw numbers without a mean speed are left out.
 std::string theory_curves_csv(std::vector<Row> const& rows);
 
 }  // namespace vibrotrough::compare

@@ -30,6 +30,22 @@ std::vector<Row> rows_of(scenario::Scenario const& scenario) {
     return stage_rows("0123456789ab", prepare::prepare_case(scenario), record, "open");
 }
 
+// The efficiency of a drive in stages is a mean over all of them: a curve of the theory beside it would be
+// for another drive.
+TEST(StageRows, CasesWithStagesHaveNoCurveOfTheTheory) {
+    scenario::Scenario scenario = with_stages();
+    Row const staged = compare("", prepare::prepare_case(scenario), {}, "open");
+    scenario.stages.clear();
+    scenario.trough.vibration_angle *= 1.5;
+    Row const steady = compare("", prepare::prepare_case(scenario), {}, "open");
+    auto const lines = [](std::vector<Row> const& rows) {
+        return std::ranges::count(theory_curves_csv(rows), '\n');
+    };
+    EXPECT_EQ(lines({staged}), 1) << "the names of the columns";
+    EXPECT_EQ(lines({staged, steady}), lines({steady}));
+    EXPECT_GT(lines({steady}), 100);
+}
+
 std::optional<double> number(Row const& row, std::string_view name) {
     auto const columns = stage_columns();
     auto const column = std::ranges::find(columns, name, &Column::name);

@@ -11,14 +11,16 @@ import numpy as np
 
 sys.path.insert(0, sys.argv[1])
 import figure_cycles  # noqa: E402
+import figure_residuals  # noqa: E402
 import figure_tables  # noqa: E402
 
 
 class Source:
     attributes = {"campaign": "sample", "program_version": "0.2.0"}
+    campaign = {"case": ["abc"]}
 
     def row_of(self, case):
-        return {"case": case, "throw_number": 2.0, "efficiency_theory": None}
+        return {"case": case, "throw_number": 2.0, "efficiency": 0.8, "efficiency_theory": None}
 
 
 def drawn(plot, result):
@@ -87,6 +89,22 @@ def check_cycles_are_seen():
     assert low < 0.73 and high > 0.87, (low, high)
 
 
+def check_stages():
+    """Of drives in stages there is neither a mean of all cycles to draw nor a residual."""
+    result = {"packings/seed": np.arange(1), "packings/cycles_discarded": np.zeros(1), "packings/efficiency": np.array([0.8]), "packings/verdict": ["steady"],
+              "packings/efficiency_half_width": np.array([0.1]), "series/1/efficiency": np.array([0.75, 0.85, 0.8])}  # fmt: skip
+    assert "mean and interval" in labels_of(result)
+    assert labels_of({**result, "stages/start": np.zeros(1)}) == ["cycle"]
+    assert figure_residuals.plot_residuals(Source(), pathlib.Path("figure")) == []
+
+
+def labels_of(result):
+    kept = []
+    figure_cycles.save = lambda figure, path: kept.append(figure) or [path]
+    figure_cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
+    return kept[0].axes[0].get_legend_handles_labels()[1]
+
+
 def figure_limits(kept, result):
     kept.clear()
     figure_cycles.plot_cycles(Source(), "abc", result, pathlib.Path("figure"))
@@ -107,6 +125,7 @@ check_impacts()
 check_partition()
 check_partition_through_the_opening()
 check_cycles_are_seen()
+check_stages()
 check_segregation()
 for plot in (figure_tables.plot_impacts, figure_tables.plot_partition, figure_tables.plot_segregation):
     assert drawn(plot, {}) is None
