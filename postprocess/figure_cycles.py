@@ -58,7 +58,8 @@ def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping
         axes.axvspan(0.5, discarded + 0.5, facecolor="#dddddd", edgecolor="#999999", hatch="///", linewidth=0,
                      alpha=0.6, label="discarded start", zorder=0)
     axes.plot(cycles, efficiency, color=COLOURS[0], marker=".", markersize=3, linewidth=0.9, label="cycle")
-    if np.isfinite(mean) and "stages/start" not in result:  # one mean says nothing of several drives
+    has_stages = "stages/start" in result  # one mean says nothing of several drives
+    if np.isfinite(mean) and not has_stages:
         kept = [discarded + 0.5, len(efficiency) + 0.5]
         axes.plot(kept, [mean, mean], color=COLOURS[1], linestyle=DASHES[1], linewidth=1.6, label="mean and interval")
         if np.isfinite(half_width):
@@ -67,6 +68,8 @@ def draw_packing(axes: Axes, result: vibrotrough.File, number: int, row: Mapping
         axes.axhline(row["efficiency_theory"], color=COLOURS[2], linestyle=DASHES[2], linewidth=1.4, label="theory")
     # Whether a single packing is precise does not matter: what is asked for is the interval of the case.
     verdict = ": not-steady" if result["packings/verdict"][number] == "not-steady" else ""
-    axes.annotate(f"packing {number + 1}{verdict}", (0.995, 0.05), xycoords="axes fraction", ha="right", va="bottom",
+    # Where a drive often ends at a standstill the low corner is taken.
+    place = {"xy": (0.995, 0.95), "va": "top"} if has_stages else {"xy": (0.995, 0.05), "va": "bottom"}
+    axes.annotate(f"packing {number + 1}{verdict}", **place, xycoords="axes fraction", ha="right",
                   fontsize=points(8), color=GREY, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1})
     axes.margins(x=0.01)
