@@ -1,5 +1,6 @@
 #include "campaign/state/plan.hpp"
 
+#include "campaign/state/added_cases.hpp"
 #include "campaign/state/campaign_folder.hpp"
 #include "campaign_folder.hpp"
 #include "core/atomic_file.hpp"
@@ -46,6 +47,33 @@ TEST(CaseId, DoesNotDependOnTheOtherCases) {
     auto const reversed = ids_of(example_campaign + "[sweep]\n\"trough.throw_number\" = [3.0, 2.0]\n");
     EXPECT_EQ(swept.at(1), id_of(example_campaign));
     EXPECT_EQ(reversed, (std::vector{swept.at(2), swept.at(1)}));
+}
+
+// A search for the capacity adds feeds to a campaign file with one: the rows of a table that tell them apart
+// by nothing but their ids would be of no use.
+TEST(Plan, AddedFeedsCountAsSwept) {
+    core::TemporaryFolder const folder("vibrotrough added");
+    std::string text = with("height = \"12 mm\"", "");
+    text += "[feed]\nmass_flow = \"0.02 kg/s\"\nlength = \"15 mm\"\nheight = \"40 mm\"\n";
+    text.insert(text.find("throw_number"), "side_wall_friction = 0\n");
+    scenario::Campaign const campaign = scenario::parse_campaign(text, "campaign.toml");
+    Plan plan = make_plan(campaign, folder.path(), "LIGGGHTS 3.8.0");
+    EXPECT_TRUE(plan.swept.empty());
+    EXPECT_EQ(plan.cases.front().label, "");
+    std::string const id = plan.cases.front().id;
+
+    scenario::Scenario more = plan.cases.front().scenario();
+    more.feed.mass_flow = 0.04;
+    PlannedCase const* const added = add_case(plan, more);
+    ASSERT_NE(added, nullptr);
+    EXPECT_EQ(added->label, "feed.mass_flow 0.04 kg/s");
+    EXPECT_EQ(plan.cases.front().label, "feed.mass_flow 0.02 kg/s");
+    EXPECT_EQ(plan.cases.front().id, id);
+    // Whoever opens the folder sees the same.
+    Plan const again = make_plan(campaign, folder.path(), "LIGGGHTS 3.8.0");
+    ASSERT_EQ(again.swept.size(), 1u);
+    EXPECT_EQ(again.swept.front()->path, "feed.mass_flow");
+    EXPECT_EQ(again.cases.back().label, added->label);
 }
 
 TEST(CaseId, ChangesWithEveryInput) {

@@ -28,6 +28,8 @@ class Capacity(EndToEndTest):
         self.assertIn("overfull", [one["outcome"] for one in feeds])
         rows = self.table()
         self.assertEqual(len(rows), len(feeds))
+        for row_flow, flow in zip(sorted(row["feed.mass_flow"] for row in rows), flows, strict=True):
+            self.assertAlmostEqual(row_flow, flow, places=12)
         self.assertEqual(sum(row["outcome"] == "finished" for row in rows), sum(one["carried"] for one in feeds))
 
         # Each feed is simulated once, also one that was overfull.

@@ -6,6 +6,7 @@
 #include "deck/commands.hpp"
 #include "scenario/reader/written_campaign.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -76,8 +77,20 @@ Plan make_plan(scenario::Campaign const& campaign, fs::path const& folder,
     planner.add(campaign.cases, engine_version);
     planner.add(read_added_cases(folder), engine_version);
     Plan plan{campaign.name, folder, engine_version, planner.place(folder), campaign.files, campaign.swept};
-    for (PlannedCase& planned : plan.cases) planned.label = swept_label(planned.scenario(), plan.swept);
+    label_cases(plan);
     return plan;
+}
+
+void label_cases(Plan& plan) {
+    scenario::Key const* const feed = scenario::find_key("feed.mass_flow");
+    bool const is_open = !plan.cases.empty() && scenario::is_open(plan.cases.front().scenario());
+    if (is_open && std::ranges::find(plan.swept, feed) == plan.swept.end()) {
+        bool const differs = std::ranges::any_of(plan.cases, [&](PlannedCase const& one) {
+            return one.scenario().feed.mass_flow != plan.cases.front().scenario().feed.mass_flow;
+        });
+        if (differs) plan.swept.push_back(feed);
+    }
+    for (PlannedCase& planned : plan.cases) planned.label = swept_label(planned.scenario(), plan.swept);
 }
 
 PlannedCase plan_case(scenario::Scenario const& scenario, fs::path const& folder,

@@ -71,6 +71,10 @@ struct Plan {
 Plan make_plan(scenario::Campaign const& campaign, std::filesystem::path const& folder,
                std::string const& engine_version);
 
+/// Says of each case what distinguishes it. The feeds that a search for the capacity adds differ in a key
+/// that the campaign file need not vary: it then counts as swept.
+void label_cases(Plan& plan);
+
 /// Id and folder of one more case of a plan. @throws as make_plan
 PlannedCase plan_case(scenario::Scenario const& scenario, std::filesystem::path const& folder,
                       std::string const& engine_version);
