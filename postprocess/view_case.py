@@ -20,10 +20,12 @@ import paraview
 from paraview.simple import (
     AnnotateTimeFilter,
     AssignViewToLayout,
+    Clip,
     ColorBy,
     CreateLayout,
     CreateView,
     Delaunay2D,
+    ExtractSurface,
     FeatureEdges,
     FindSource,
     GetActiveViewOrCreate,
@@ -178,8 +180,13 @@ def show_trough(view: Any, trough: Any, representation: str = "Surface With Edge
 
 
 def show_walls(view: Any) -> None:
-    """The walls that are not part of the trough's own mesh, so clear that the layer is seen through the one in front, with their rims."""
+    """The walls that are not part of the trough's own mesh, so clear that the layer is seen through the one in front, with their rims; not
+    higher than grains ever are, since the deck's walls reach up to the top of the box and out of the picture."""
     walls = open_collection("walls")
+    if GRAIN_SPACE:
+        low_walls = Clip(registrationName="walls beside grains", Input=walls, ClipType="Plane")
+        low_walls.ClipType.Origin, low_walls.ClipType.Normal = [0.0, 0.0, GRAIN_SPACE[3]], [0.0, 0.0, 1.0]
+        walls = ExtractSurface(registrationName="surface of the walls", Input=low_walls)
     shown = Show(walls, view)
     shown.SetRepresentationType("Surface")
     shown.ColorArrayName = ["POINTS", ""]

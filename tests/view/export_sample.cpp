@@ -55,8 +55,8 @@ void export_poor(fs::path const& dumps, fs::path const& folder) {
     source.point_mass.reset();
     view::export_frames(source, folder / "no_point_mass");
 
-    scenario::Triangle const one{{{0, 0, 0}, {0.036, 0, 0}, {0.036, 0, 0.02}}},
-        other{{{0, 0, 0}, {0.036, 0, 0.02}, {0, 0, 0.02}}};
+    scenario::Triangle const one{{{0, 0, 0}, {0.036, 0, 0}, {0.036, 0, 0.1}}},
+        other{{{0, 0, 0}, {0.036, 0, 0.1}, {0, 0, 0.1}}};
     std::ofstream(work / "left.stl") << scenario::stl_text("wall", {one, other});
     source.walls = {work / "left.stl"};
     view::export_frames(source, folder / "walls");
