@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include <boost/locale/encoding_utf.hpp>
 #include <fmt/format.h>
@@ -133,6 +134,13 @@ std::string bytes_of_utf8(std::string_view text) {
         }
     }
     return bytes;
+}
+
+std::string plain_number(double value, int digits) {
+    constexpr double most = 1e15;
+    std::string const rounded = fmt::format("{:.{}g}", value, digits);
+    bool const has_power = rounded.find("e+") != std::string::npos && std::abs(value) < most;
+    return has_power ? fmt::format("{:.0f}", std::stod(rounded)) : rounded;
 }
 
 }  // namespace vibrotrough::core

@@ -38,4 +38,8 @@ std::string utf8_of_bytes(std::string_view bytes);
 /// The bytes of such a text.
 std::string bytes_of_utf8(std::string_view text);
 
+/// A number with so many digits and without a power of ten, where that has at most 15 digits: "1150" and not
+/// "1.15e+03".
+std::string plain_number(double value, int digits);
+
 }  // namespace vibrotrough::core

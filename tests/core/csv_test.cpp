@@ -94,6 +94,23 @@ TEST(Csv, TabsAndTheSeparatorLineOfExcel) {
     EXPECT_EQ(core::csv_number("1,5", '\t', core::CsvNumbers::finite), 1.5);
 }
 
+/// The bytes of a text in UTF-16, with its byte order mark.
+std::string in_utf16(std::string const& ascii, bool is_big_endian) {
+    std::string bytes = is_big_endian ? "\xfe\xff" : "\xff\xfe";
+    for (char const c : ascii) {
+        if (is_big_endian) bytes += '\0';
+        bytes += c;
+        if (!is_big_endian) bytes += '\0';
+    }
+    return bytes;
+}
+
+// "Unicode text" of Excel: tabs, CR LF, and a decimal comma in a German Excel.
+TEST(Csv, Utf16OfExcelIsRead) {
+    for (bool const is_big_endian : {false, true})
+        EXPECT_EQ(read(in_utf16("a\tb\r\n1,5\t2\r\n", is_big_endian)), (Rows{{"a", "b"}, {"1,5", "2"}}));
+}
+
 TEST(Csv, QuotesHoldAnything) {
     EXPECT_EQ(read("a,b\n\"1,5\",2\n"), (Rows{{"a", "b"}, {"1,5", "2"}}));
     EXPECT_EQ(read("a,b\n\"say \"\"yes\"\"\",2\n"), (Rows{{"a", "b"}, {"say \"yes\"", "2"}}));
