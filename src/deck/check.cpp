@@ -245,51 +245,52 @@ void check_stroke(std::vector<Finding>& findings, prepare::PreparedCase const& c
                             "lengthen the box: the mesh moves by more than the length of the box"));
 }
 
-/// Told only where they are unusual, with the slip of a unit that would explain it.
-void check_unusual_drive(std::vector<Finding>& findings, scenario::Trough const& trough) {
-    auto const add = [&](Finding finding, char const* unit) {
-        finding.unit = unit;
-        findings.push_back(std::move(finding));
-    };
-    if (trough.frequency < theory::smallest_usual_frequency)
-        add(least("frequency", "trough.frequency", trough.frequency, theory::smallest_usual_frequency, 0,
-                  "check its unit: troughs run at 1 to 120 Hz; were Hz meant, not rpm?"),
-            "Hz");
-    if (trough.frequency > theory::largest_usual_frequency)
-        add(most("frequency", "trough.frequency", trough.frequency, theory::largest_usual_frequency, never,
-                 "check its unit: troughs run at 1 to 120 Hz; were rpm meant, not Hz?"),
-            "Hz");
-    if (trough.vibration_angle > 0 && trough.vibration_angle < theory::smallest_usual_angle)
-        add(least("vibration angle", "trough.vibration_angle",
-                  trough.vibration_angle * 180 / std::numbers::pi,
-                  theory::smallest_usual_angle * 180 / std::numbers::pi, 0,
-                  "check its unit: 20 to 45 degrees are usual; were radians meant?"),
-            "deg");
-    if (trough.friction > theory::largest_usual_friction)
-        add(most("friction", "trough.friction", trough.friction, theory::largest_usual_friction, never,
-                 "it is mostly 0.1 to 1"),
-            "1");
+/// The key by which the user gave a number that is unusual.
+char const* unusual_key(theory::UnusualQuantity quantity, scenario::Trough const& trough) {
+    using enum theory::UnusualQuantity;
+    bool const is_derived = trough.given.throw_number || trough.given.machine_number;
+    char const* const derived = trough.given.throw_number ? "trough.throw_number" : "trough.machine_number";
+    switch (quantity) {
+        case frequency:
+            return is_derived ? derived : "trough.frequency";
+        case machine_number:
+            if (trough.given.machine_number) return derived;
+            [[fallthrough]];
+        case amplitude:
+            return trough.given.is_stroke ? "trough.stroke" : "trough.amplitude";
+        case vibration_angle:
+            return trough.given.tan_vibration_angle ? "trough.tan_vibration_angle" : "trough.vibration_angle";
+        case friction:
+            return "trough.friction";
+        case bulk_density:
+            return "grains.bulk_density";
+        case grain_density:
+            return "grains.density";
+    }
+    return "";
 }
 
-/// Numbers that hardly any machine or material has. They are told only where they are unusual.
+/// Numbers that hardly any machine or material has. They are told only where they are unusual, with the slip
+/// of a unit that would explain it.
 void check_unusual(std::vector<Finding>& findings, prepare::PreparedCase const& c) {
-    double const omega = 2 * std::numbers::pi * c.scenario.trough.frequency;
-    double const machine_number = omega * omega * c.scenario.trough.amplitude / scenario::gravity;
-    if (machine_number > theory::largest_usual_machine_number)
-        findings.push_back(most(
-            "machine number", "trough.amplitude", machine_number, theory::largest_usual_machine_number, never,
-            "lower it, or write stroke for the distance between the ends of the vibration, which is "
-            "twice the amplitude: troughs bear 3 to 6 times gravity"));
-    check_unusual_drive(findings, c.scenario.trough);
-    constexpr double lightest_usual = 30;  // kg/m3, foamed polystyrene
-    double lightest = c.scenario.grains.density;
-    for (scenario::Material const& material : c.materials)
-        lightest = std::min(lightest, material.grains.density);
-    if (lightest < lightest_usual) {
-        Finding light = least("density of the grains", "grains.density", lightest, lightest_usual, 0,
-                              "check its unit, or that of bulk_density: 0.6 t/m3 are 600 kg/m3");
-        light.unit = "kg/m3";
-        findings.push_back(light);
+    scenario::Trough const& trough = c.scenario.trough;
+    theory::MachineNumbers numbers{trough.frequency, trough.amplitude, machine_number(trough),
+                                   trough.friction, trough.vibration_angle};
+    numbers.is_stroke = trough.given.is_stroke;
+    numbers.is_turns = trough.given.is_turns;
+    if (c.scenario.grains.is_bulk_given) {
+        numbers.bulk_density = bulk_density(c.scenario.grains);
+    } else {
+        numbers.grain_density = c.scenario.grains.density;
+        for (scenario::Material const& material : c.materials)
+            numbers.grain_density = std::min(*numbers.grain_density, material.grains.density);
+    }
+    for (theory::UnusualNumber const& one : theory::find_unusual(numbers)) {
+        std::string const advice = one.slip.empty() ? one.usual : fmt::format("{}; {}", one.usual, one.slip);
+        char const* const key = unusual_key(one.quantity, trough);
+        findings.push_back(one.is_too_small ? least(one.name, key, one.value, one.limit, 0, advice)
+                                            : most(one.name, key, one.value, one.limit, never, advice));
+        findings.back().unit = one.unit;
     }
 }
 

@@ -85,9 +85,13 @@ DriveSpace DesignLimits::space() const {
             max_machine_number, max_throw_number, gravity};
 }
 
+double steepest_slope(double friction) {
+    return std::atan(max_friction_used * friction);
+}
+
 Range with_friction_margin(Range inclination, double friction) {
     constexpr double degrees = 180 / pi;
-    double const steepest = std::atan(max_friction_used * friction);
+    double const steepest = steepest_slope(friction);
     // The flattest inclination that is allowed, with its sign, as it was given.
     double const flattest = inclination.low > 0    ? inclination.low
                             : inclination.high < 0 ? inclination.high

@@ -48,6 +48,9 @@ struct Design {
 /// friction coefficient, and beyond mu it is unbounded.
 inline constexpr double max_friction_used = 0.95;
 
+/// The inclination, in rad, at which |tan(alpha)| is 0.95 mu.
+double steepest_slope(double friction);
+
 /// The inclinations of a range at which |tan(alpha)| <= 0.95 mu.
 /// @throws std::invalid_argument when there are none
 Range with_friction_margin(Range inclination, double friction);

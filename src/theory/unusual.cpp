@@ -7,6 +7,8 @@
 namespace vibrotrough::theory {
 namespace {
 
+constexpr double radian = 180 / std::numbers::pi;  // degrees
+
 /// Three digits, as in a sentence, and all of a whole number that has more.
 std::string in_words(double value) {
     char text[32];
@@ -14,66 +16,157 @@ std::string in_words(double value) {
     return text;
 }
 
-std::string unusual_frequency(MachineNumbers const& n) {
-    double const f = *n.frequency;
-    std::string const usual = " is unusual: vibrating troughs run at 1 to 120 Hz; ";
-    std::string const told =
-        n.is_turns ? in_words(60 * f) + " turns per minute" : "a frequency of " + in_words(f) + " Hz";
-    std::string const verb = n.is_turns ? " are unusual: vibrating troughs have 60 to 7200; " : usual;
-    if (f > largest_usual_frequency)
-        return told + verb +
-               (n.is_turns ? "is there a digit too many?"
-                           : "were " + in_words(f) + " turns per minute meant (rpm)?");
-    if (f < smallest_usual_frequency) return told + verb + "were " + in_words(60 * f) + " Hz meant, not rpm?";
-    return "";
+std::optional<UnusualNumber> unusual_turns(double turns) {
+    bool const is_few = turns < 60 * smallest_usual_frequency;
+    if (!is_few && turns <= 60 * largest_usual_frequency) return {};
+    std::string const slip =
+        is_few ? "were " + in_words(turns) + " Hz meant, not rpm?" : "is there a digit too many?";
+    double const limit = 60 * (is_few ? smallest_usual_frequency : largest_usual_frequency);
+    return UnusualNumber{UnusualQuantity::frequency,
+                         "speed of the drive",
+                         turns,
+                         limit,
+                         is_few,
+                         "1/min",
+                         in_words(turns) + " turns per minute are unusual",
+                         "vibrating troughs have 60 to 7200",
+                         slip};
+}
+
+std::optional<UnusualNumber> unusual_frequency(double frequency) {
+    bool const is_slow = frequency < smallest_usual_frequency;
+    if (!is_slow && frequency <= largest_usual_frequency) return {};
+    std::string const slip = is_slow ? "were " + in_words(60 * frequency) + " Hz meant, not rpm?"
+                                     : "were " + in_words(frequency) + " turns per minute meant (rpm)?";
+    return UnusualNumber{UnusualQuantity::frequency,
+                         "frequency",
+                         frequency,
+                         is_slow ? smallest_usual_frequency : largest_usual_frequency,
+                         is_slow,
+                         "Hz",
+                         "a frequency of " + in_words(frequency) + " Hz is unusual",
+                         "vibrating troughs run at 1 to 120 Hz",
+                         slip};
+}
+
+std::optional<UnusualNumber> unusual_amplitude(double amplitude, bool is_stroke) {
+    if (amplitude <= largest_usual_amplitude) return {};
+    double const factor = is_stroke ? 2000 : 1000;
+    std::string const name = is_stroke ? "stroke" : "amplitude";
+    return UnusualNumber{
+        UnusualQuantity::amplitude,
+        name,
+        factor * amplitude,
+        factor * largest_usual_amplitude,
+        false,
+        "mm",
+        (is_stroke ? "a " : "an ") + name + " of " + in_words(factor * amplitude) + " mm is unusual",
+        "strokes, which are twice the amplitude, are mostly below 30 mm",
+        "were mm meant, not m?"};
+}
+
+std::optional<UnusualNumber> unusual_machine_number(double machine_number, bool is_stroke) {
+    if (machine_number <= largest_usual_machine_number) return {};
+    return UnusualNumber{UnusualQuantity::machine_number,
+                         "machine number",
+                         machine_number,
+                         largest_usual_machine_number,
+                         false,
+                         "1",
+                         "a machine number of " + in_words(machine_number) + " is unusual",
+                         "troughs bear 3 to 6 times gravity",
+                         is_stroke ? "are stroke and speed of the drive those of one machine?"
+                                   : "was the stroke given as the amplitude, which is half of it?"};
 }
 
 /// The first of frequency, amplitude and machine number that is unusual: it explains those after it.
-std::string unusual_drive(MachineNumbers const& n) {
-    if (n.frequency) {
-        std::string sentence = unusual_frequency(n);
-        if (!sentence.empty()) return sentence;
-    }
-    if (n.amplitude && *n.amplitude > largest_usual_amplitude)
-        return (n.is_stroke ? "a stroke of " + in_words(2000 * *n.amplitude)
-                            : "an amplitude of " + in_words(1000 * *n.amplitude)) +
-               " mm is unusual: strokes, which are twice the amplitude, are mostly below 30 mm; were mm "
-               "meant, not m?";
-    if (n.machine_number && *n.machine_number > largest_usual_machine_number)
-        return "a machine number of " + in_words(*n.machine_number) +
-               " is unusual: troughs bear 3 to 6 times gravity; " +
-               (n.is_stroke ? "are stroke and speed of the drive those of one machine?"
-                            : "was the stroke given as the amplitude, which is half of it?");
-    return "";
+std::optional<UnusualNumber> unusual_drive(MachineNumbers const& n) {
+    if (n.frequency)
+        if (auto found = n.is_turns ? unusual_turns(60 * *n.frequency) : unusual_frequency(*n.frequency))
+            return found;
+    if (n.amplitude)
+        if (auto found = unusual_amplitude(*n.amplitude, n.is_stroke)) return found;
+    if (n.machine_number) return unusual_machine_number(*n.machine_number, n.is_stroke);
+    return {};
 }
 
-std::string unusual_angle(MachineNumbers const& n) {
+std::optional<UnusualNumber> unusual_angle(MachineNumbers const& n) {
     if (!n.vibration_angle || *n.vibration_angle <= 0 || *n.vibration_angle >= smallest_usual_angle)
-        return "";
-    double const degrees = *n.vibration_angle * 180 / std::numbers::pi;
-    return "a vibration angle of " + in_words(degrees) +
-           " degrees is unusual: 20 to 45 are usual; were radians meant (" +
-           in_words(degrees * 180 / std::numbers::pi) + " degrees)?";
+        return {};
+    double const degrees = *n.vibration_angle * radian;
+    return UnusualNumber{UnusualQuantity::vibration_angle,
+                         "vibration angle",
+                         degrees,
+                         smallest_usual_angle * radian,
+                         true,
+                         "deg",
+                         "a vibration angle of " + in_words(degrees) + " degrees is unusual",
+                         "20 to 45 are usual",
+                         "were radians meant (" + in_words(degrees * radian) + " degrees)?"};
 }
 
-/// Only slips that lead to a usual friction are offered.
-std::string unusual_friction(MachineNumbers const& n) {
-    if (!n.friction || *n.friction <= largest_usual_friction) return "";
-    std::string const told =
-        "a friction coefficient of " + in_words(*n.friction) + " is unusual: it is mostly 0.1 to 1";
-    double const tangent = std::tan(*n.friction * std::numbers::pi / 180);
-    if (*n.friction >= 90) return told + "; was a percentage meant?";
-    if (*n.friction < 5) return told;
-    return told + "; was an angle of friction meant (its tangent is " + in_words(tangent) + "), or " +
-           in_words(*n.friction) + " %?";
+std::optional<UnusualNumber> unusual_friction(MachineNumbers const& n) {
+    if (!n.friction || *n.friction <= largest_usual_friction) return {};
+    return UnusualNumber{UnusualQuantity::friction,
+                         "friction",
+                         *n.friction,
+                         largest_usual_friction,
+                         false,
+                         "1",
+                         "a friction coefficient of " + in_words(*n.friction) + " is unusual",
+                         "it is mostly 0.1 to 1",
+                         slip_of_friction(*n.friction)};
+}
+
+std::optional<UnusualNumber> unusual_density(UnusualQuantity quantity, std::optional<double> density) {
+    bool const is_bulk = quantity == UnusualQuantity::bulk_density;
+    double const limit = is_bulk ? smallest_usual_bulk_density : smallest_usual_grain_density;
+    if (!density || *density >= limit) return {};
+    std::string const name = is_bulk ? "bulk density" : "density of the grains";
+    std::string const value = in_words(*density);
+    return UnusualNumber{quantity,
+                         name,
+                         *density,
+                         limit,
+                         true,
+                         "kg/m3",
+                         "a " + name + " of " + value + " kg/m3 is unusual",
+                         is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
+                         "were " + value + " t/m3 meant (" + in_words(1000 * *density) + " kg/m3)?"};
 }
 
 }  // namespace
 
+std::string UnusualNumber::sentence() const {
+    return told + ": " + usual + (slip.empty() ? "" : "; " + slip);
+}
+
+std::string slip_of_friction(double friction) {
+    if (!(friction >= 5)) return "";
+    if (friction >= 90) return "was a percentage meant?";
+    return "was an angle of friction meant (its tangent is " + in_words(std::tan(friction / radian)) +
+           "), or " + in_words(friction) + " %?";
+}
+
+std::string slip_of_tangent(double tangent) {
+    if (!(std::abs(tangent) < 90)) return "";
+    return "was an angle of " + in_words(tangent) + " degrees meant (its tangent is " +
+           in_words(std::tan(tangent / radian)) + ")?";
+}
+
+std::vector<UnusualNumber> find_unusual(MachineNumbers const& n) {
+    std::vector<UnusualNumber> found;
+    using enum UnusualQuantity;
+    for (auto const& one :
+         {unusual_drive(n), unusual_angle(n), unusual_friction(n),
+          unusual_density(bulk_density, n.bulk_density), unusual_density(grain_density, n.grain_density)})
+        if (one) found.push_back(*one);
+    return found;
+}
+
 std::vector<std::string> unusual_numbers(MachineNumbers const& n) {
     std::vector<std::string> sentences;
-    for (std::string const& sentence : {unusual_drive(n), unusual_angle(n), unusual_friction(n)})
-        if (!sentence.empty()) sentences.push_back(sentence);
+    for (UnusualNumber const& one : find_unusual(n)) sentences.push_back(one.sentence());
     return sentences;
 }
 

@@ -15,6 +15,8 @@ inline constexpr double largest_usual_amplitude = 0.05;    ///< m
 inline constexpr double largest_usual_machine_number = 9;  ///< K
 inline constexpr double largest_usual_friction = 1.5;      ///< of the mass on the trough
 inline constexpr double smallest_usual_angle = 0.028;  ///< rad, 1.6 degrees: 90 degrees written in radians
+inline constexpr double smallest_usual_bulk_density = 15;   ///< kg/m3; foamed polystyrene has about 20
+inline constexpr double smallest_usual_grain_density = 30;  ///< kg/m3; foamed polystyrene
 
 /// What is known of a motion; nothing where an input was not given.
 struct MachineNumbers {
@@ -25,9 +27,48 @@ struct MachineNumbers {
     std::optional<double> vibration_angle = {};  ///< beta, rad
     bool is_stroke = false;                      ///< the amplitude was given as a stroke
     bool is_turns = false;                       ///< the frequency was given in turns per minute
+    std::optional<double> bulk_density = {};     ///< kg/m3, of the layer
+    std::optional<double> grain_density = {};    ///< kg/m3, of the grains' material
 };
 
-/// A sentence for each number that is unusual: what is usual, and which slip would explain it.
+/// What is unusual.
+enum class UnusualQuantity {
+    frequency,
+    amplitude,
+    machine_number,
+    vibration_angle,
+    friction,
+    bulk_density,
+    grain_density
+};
+
+/// A number that is unusual, in the quantity and the unit in which it was given.
+struct UnusualNumber {
+    UnusualQuantity quantity;  ///< what is unusual
+    std::string name;          ///< of what was given: "frequency", "speed of the drive", "stroke"
+    double value;              ///< in `unit`
+    double limit;              ///< the largest or the smallest value that is usual, in `unit`
+    bool is_too_small;         ///< the value is below the limit, not above it
+    std::string unit;          ///< "1" for a plain number
+    std::string told;          ///< begin of a sentence: "a frequency of 960 Hz is unusual"
+    std::string usual;         ///< what is usual: "vibrating troughs run at 1 to 120 Hz"
+    std::string slip;          ///< which slip would explain it, as a question; empty where none does
+
+    /// All of it in one sentence, without a full stop.
+    std::string sentence() const;
+};
+
+/// All numbers that are unusual, in the order of UnusualQuantity. Of frequency, amplitude and machine number
+/// only the first one is named, because it explains those after it.
+std::vector<UnusualNumber> find_unusual(MachineNumbers const& numbers);
+
+/// The sentences of find_unusual().
 std::vector<std::string> unusual_numbers(MachineNumbers const& numbers);
+
+/// The slips that lead from a usual friction coefficient to this one, as a question; empty where none does.
+std::string slip_of_friction(double friction);
+
+/// The slip that leads from an angle within 90 degrees to this tangent, as a question; empty where none does.
+std::string slip_of_tangent(double tangent);
 
 }  // namespace vibrotrough::theory

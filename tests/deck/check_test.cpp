@@ -43,7 +43,7 @@ TEST(Check, TellsWhatIsUnusual) {
     s.grains.density = 0.6;  // t/m3 taken for kg/m3
     Finding const light = finding(s, "density of the grains");
     EXPECT_NE(light.severity, Severity::fine);
-    EXPECT_NE(light.advice.find("0.6 t/m3 are 600 kg/m3"), std::string::npos) << light.advice;
+    EXPECT_NE(light.advice.find("0.6 t/m3 meant (600 kg/m3)"), std::string::npos) << light.advice;
     // K = omega^2 r / g: a stroke taken for the amplitude doubles it.
     s = scenario();
     double const omega = 2 * pi * s.trough.frequency;
@@ -51,7 +51,33 @@ TEST(Check, TellsWhatIsUnusual) {
     Finding const strong = finding(s, "machine number");
     EXPECT_NEAR(strong.measured, 10, 1e-12);
     EXPECT_EQ(strong.severity, Severity::warning);
-    EXPECT_NE(strong.advice.find("stroke"), std::string::npos) << strong.advice;
+    EXPECT_EQ(strong.key, "trough.amplitude");
+    EXPECT_NE(strong.advice.find("was the stroke given as the amplitude"), std::string::npos)
+        << strong.advice;
+}
+
+// What the user typed is named, in its unit: a stroke, turns of the drive, a bulk density, a throw number.
+TEST(Check, NamesWhatIsUnusualAsItWasTyped) {
+    scenario::Scenario const slow = scenario(with("amplitude = \"6 mm\"", "stroke = \"120 mm\"",
+                                                  with("throw_number = 2.0", "frequency = \"16 rpm\"")));
+    Finding const turns = finding(slow, "speed of the drive");
+    EXPECT_EQ(turns.key, "trough.frequency");
+    EXPECT_EQ(turns.unit, "1/min");
+    EXPECT_NEAR(turns.measured, 16, 1e-12);
+    EXPECT_NE(turns.advice.find("were 16 Hz meant, not rpm?"), std::string::npos) << turns.advice;
+    scenario::Scenario const wide = scenario(with("amplitude = \"6 mm\"", "stroke = \"120 mm\""));
+    Finding const stroke = finding(wide, "stroke");
+    EXPECT_EQ(stroke.key, "trough.stroke");
+    EXPECT_NEAR(stroke.measured, 120, 1e-12);
+    EXPECT_EQ(stroke.unit, "mm");
+    scenario::Scenario const light =
+        scenario(with("density = \"1400 kg/m3\"", "bulk_density = \"0.6 kg/m3\""));
+    Finding const bulk = finding(light, "bulk density");
+    EXPECT_EQ(bulk.key, "grains.bulk_density");
+    EXPECT_NE(bulk.advice.find("were 0.6 t/m3 meant (600 kg/m3)?"), std::string::npos) << bulk.advice;
+    // The frequency follows from the throw number, which is what can be changed.
+    scenario::Scenario const fast = scenario(with("amplitude = \"6 mm\"", "stroke = \"4 um\""));
+    EXPECT_EQ(finding(fast, "frequency").key, "trough.throw_number");
 }
 
 // One grain of the floor carries rho phi g h d^2 where the layer is h high; the example is asked for as 12 mm

@@ -40,6 +40,24 @@ TEST(Grains, ClassesKeepTheMeanVolume) {
     EXPECT_NEAR(mean_grain_volume(law("uniform", 0.3)) / volume, 1 + 0.09, 1e-12);
 }
 
+// The standard deviation of the diameters over s d: sqrt(2/3) for three classes, 1/sqrt(3) for the uniform
+// law, as the page of keys says. Tolerances: what the page rounds to, and for the uniform law its classes.
+TEST(Grains, TheSpreadIsTheStandardDeviationThatIsDocumented) {
+    auto const deviation = [](scenario::Grains const& g) {
+        double mean = 0, square = 0;
+        for (scenario::SizeClass const& size : size_classes(g)) {
+            mean += size.number_fraction * size.diameter;
+            square += size.number_fraction * size.diameter * size.diameter;
+        }
+        return std::sqrt(square - mean * mean) / (g.diameter_spread * g.diameter);
+    };
+    EXPECT_NEAR(deviation(grains(example_campaign)), 0.82, 0.005);
+    EXPECT_NEAR(deviation(law("uniform", 0.2)), 0.58, 0.02);
+    std::string_view const meaning = scenario::find_key("grains.diameter_spread")->meaning;
+    EXPECT_NE(meaning.find("0.82 s of three classes, 0.58 s of a uniform"), std::string_view::npos)
+        << meaning;
+}
+
 // E[d^3] = m^3 exp(9 s^2 / 2) for the whole law; cutting it at 2.5 s takes away large grains. Checked against
 // the integral of exp(3 s z) phi(z) over |z| < 2.5 by the midpoint rule.
 TEST(Grains, LognormalIsCutAtTwoAndAHalf) {

@@ -37,6 +37,15 @@ TEST(MessageUnits, TellWhereADepthInDiametersBelongs) {
                           "layer.diameters = 8"));
 }
 
+// 4 diameters of 3 mm are 12 mm.
+TEST(MessageUnits, ADepthInDiametersIsThatOfItsHeight) {
+    auto const deep =
+        scenario::parse_campaign(with("height = \"12 mm\"", "diameters = 4"), "test.toml").cases.front();
+    auto const high = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
+    EXPECT_EQ(deep.layer.grains, high.layer.grains);
+    EXPECT_EQ(deep.layer.diameters, 4);
+}
+
 // A swept value has the unit of the section's own value, and mm without one.
 TEST(MessageUnits, HoldForSweptValues) {
     std::string const sweep = "\n[sweep]\n\"layer.length\" = [\"36 mm\", \"9 mm\"]\n";
@@ -50,6 +59,42 @@ TEST(MessageUnits, HoldForSweptValues) {
             std::string("\n[sweep]\n\"trough.inclination\" = { from = \"0 deg\", to = \"100 deg\", step = "
                         "\"50 deg\" }\n")),
         HasSubstr("trough.inclination: 100 deg is out of range"));
+}
+
+// A range is told in the unit that was typed, and with the slip of a unit that explains the number.
+TEST(MessageUnits, ARangeHasThemAndNamesTheSlip) {
+    EXPECT_THAT(error_of(with("inclination = \"0 deg\"", "inclination = \"1.2 rad\"")),
+                AllOf(HasSubstr("trough.inclination: '1.2 rad' is out of range (were 1.2 deg meant?)"),
+                      HasSubstr("in the range -0.785398 to 0.785398 rad")));
+    EXPECT_THAT(error_of(with("amplitude = \"6 mm\"", "stroke = \"9.7 m\"")),
+                AllOf(HasSubstr("trough.stroke: '9.7 m' is out of range (were 9.7 mm meant?)"),
+                      HasSubstr("in the range 2 um to 2 m")));
+    EXPECT_THAT(error_of(with("throw_number = 2.0", "frequency = \"0.1 rpm\"")),
+                AllOf(HasSubstr("'0.1 rpm' is out of range (were 0.1 Hz meant?)"),
+                      HasSubstr("in the range 0.6 to 600000 rpm")));
+    EXPECT_THAT(error_of(with("density = \"1400 kg/m3\"", "density = \"0.6 kg/m3\"")),
+                HasSubstr("grains.density: '0.6 kg/m3' is out of range (were 0.6 t/m3 meant?)"));
+    EXPECT_THAT(
+        error_of(with("friction = 0.23", "friction = 30")),
+        HasSubstr("30 is out of range (was an angle of friction meant (its tangent is 0.577), or 30 %?)"));
+    EXPECT_THAT(error_of(with("inclination = \"0 deg\"", "tan_inclination = 5")),
+                HasSubstr("5 is out of range (was an angle of 5 degrees meant (its tangent is 0.0875)?)"));
+}
+
+// The typed quantity is named where a number follows from several.
+TEST(MessageUnits, AStrokeIsNotCalledAnAmplitude) {
+    EXPECT_THAT(
+        error_of(with("amplitude = \"6 mm\"", "stroke = \"1 m\"",
+                      with("throw_number = 2.0", "frequency = \"1000 Hz\""))),
+        AllOf(HasSubstr("trough.frequency: gives a throw_number of"), HasSubstr("reduce it or the stroke")));
+}
+
+// The bulk density is a key of the grains; a campaign measures that of the layer, from density and packing.
+TEST(MessageUnits, TheBulkDensityIsThatOfTheGrains) {
+    EXPECT_THAT(error_of(with("width = \"18 mm\"", "width = \"18 mm\"\nbulk_density = \"600 kg/m3\"")),
+                HasSubstr("layer.bulk_density: unknown key; did you mean grains.bulk_density?"));
+    EXPECT_THAT(error_of(with("friction = 0.5", "friction = 0.5\nbulk_density = \"600 kg/m3\"")),
+                HasSubstr("grains.bulk_density: grains.density is also given"));
 }
 
 TEST(MessageUnits, AreReadAsTheyStand) {

@@ -63,6 +63,7 @@ struct Grains {
     std::vector<double> mass_fractions = {};    ///< of a list; empty if it has number fractions
     std::string shape = "sphere";               ///< "sphere", "cube", "rod", or the name of `shape_file`
     std::shared_ptr<ShapeFile const> shape_file = nullptr;  ///< of a shape that is not built in
+    bool is_bulk_given = false;                             ///< the density follows from that of the layer
 };
 
 /// The word of the campaign file, such as "free".

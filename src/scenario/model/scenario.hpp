@@ -32,6 +32,8 @@ struct GivenDrive {
     std::optional<double> machine_number = {};       ///< K
     std::optional<double> tan_vibration_angle = {};  ///< tan(beta)
     std::optional<double> tan_inclination = {};      ///< tan(alpha)
+    bool is_stroke = false;                          ///< the amplitude, as a stroke
+    bool is_turns = false;                           ///< the frequency, in turns of the drive
 };
 
 /// The trough and its drive. The fundamental is along the direction of vibration.

@@ -60,9 +60,11 @@ constexpr std::array rows_of_grains{
         required, "\"800 kg/m3\"",
         "density of the settled layer with its voids; the grains' density is this divided by the solid "
         "fraction of a settled layer, 0.58",
-        KeyAccess{
-            [](Scenario const& s) { return content_of(bulk_density(s.grains)); },
-            [](Scenario& s, GivenValue const& v) { s.grains.density = v.number() / settled_solid_fraction; }}
+        KeyAccess{[](Scenario const& s) { return content_of(bulk_density(s.grains)); },
+                  [](Scenario& s, GivenValue const& v) {
+                      s.grains.density = v.number() / settled_solid_fraction;
+                      s.grains.is_bulk_given = true;
+                  }}
             .written_if(never)},
     Key{"grains.youngs_modulus", quantity, "Pa", 1e5, 1e12, "0.1 MPa to 1 TPa", "", optional, "\"50 MPa\"",
         "Young's modulus of grains and trough; if it is left out, each case gets the lowest one that is "

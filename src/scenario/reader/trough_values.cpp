@@ -19,6 +19,9 @@ class TroughChecks {
                         "is given together with side walls, between which the width is layer.width",
                         "remove one of width and side_wall_friction");
         }
+        trough_.given.is_stroke = given_.has("trough.stroke");
+        trough_.given.is_turns =
+            given_.has("trough.frequency") && !given_.text("trough.frequency", 1).ends_with("Hz");
         set_frequency();
         check_derived("trough.throw_number", throw_number(trough_));
         check_derived("trough.machine_number", machine_number(trough_));
@@ -37,9 +40,10 @@ class TroughChecks {
         Key const& key = *find_key("trough.frequency");
         if (result < key.least || result > key.most) {
             given_.fail(
-                given_.has("trough.stroke") ? "trough.stroke" : "trough.amplitude",
+                fmt::format("trough.{}", amplitude_name()),
                 fmt::format("the drive would run at {:.4g} Hz, outside the range {}", result, key.range),
-                "change the amplitude or the throw number");
+                fmt::format("change the {} or the {} number", amplitude_name(),
+                            trough_.given.throw_number ? "throw" : "machine"));
         }
         trough_.frequency = result;
     }
@@ -55,7 +59,7 @@ class TroughChecks {
             given_.fail(
                 given,
                 fmt::format("gives a {} of {:.4g}, outside the range {}", last_name(path), value, key.range),
-                "reduce it or the amplitude");
+                fmt::format("reduce it or the {}", amplitude_name()));
         }
     }
 
@@ -68,6 +72,9 @@ class TroughChecks {
         if (auto const fault = find_fault(*trough_.waveform, trough_))
             given_.fail("trough.waveform", fault->wrong, fault->instead);
     }
+
+    /// The name of the key that was given.
+    std::string_view amplitude_name() const { return trough_.given.is_stroke ? "stroke" : "amplitude"; }
 
     Trough& trough_;
     GivenKeys const& given_;

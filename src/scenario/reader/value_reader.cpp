@@ -4,7 +4,9 @@
 #include "core/error.hpp"
 #include "core/quantity.hpp"
 #include "core/text.hpp"
+#include "core/typed_unit.hpp"
 #include "scenario/model/run_settings.hpp"
+#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,18 +109,40 @@ class ValueReader {
     }
 
     double any_number(toml::node const& node) const {
-        bool const has_unit = key_.kind == KeyKind::quantity || key_.kind == KeyKind::quantities;
-        return has_unit ? quantity(node) : plain_number(node);
+        return has_unit() ? quantity(node) : plain_number(node);
     }
 
   private:
+    bool has_unit() const { return key_.kind == KeyKind::quantity || key_.kind == KeyKind::quantities; }
+
     [[noreturn]] void fail(toml::node const& node, std::string_view wrong, std::string_view instead) const {
         throw_at({file_, position_of(node.source())}, key_.path, wrong, instead);
     }
 
     [[noreturn]] void fail_range(toml::node const& node) const {
-        fail(node, fmt::format("{} is out of range", written(node)),
-             fmt::format("{}, in the range {}", write_instead(key_), key_.range));
+        std::string slip, range(key_.range);
+        if (node.is_string() && has_unit()) {
+            std::string const text = **node.as_string(), unit(key_.unit);
+            slip = core::slip_of_unit(text, key_.least, key_.most, unit);
+            bool const is_in_range =
+                fmt::format(" {} ", range).find(fmt::format(" {} ", core::unit_of(text))) !=
+                std::string::npos;
+            if (!is_in_range && std::isfinite(key_.least) && std::isfinite(key_.most))
+                range = core::range_in_unit_of(text, key_.least, key_.most, unit);
+        } else if (node.is_number()) {
+            slip = slip_of(*node.value<double>());
+        }
+        fail(node, fmt::format("{} is out of range{}", written(node), slip),
+             fmt::format("{}, in the range {}", write_instead(key_), range));
+    }
+
+    /// Of a plain number, which slip would explain it.
+    std::string slip_of(double value) const {
+        std::string_view const name = last_name(key_.path);
+        std::string slip;
+        if (name.ends_with("friction")) slip = theory::slip_of_friction(value);
+        if (name.starts_with("tan_")) slip = theory::slip_of_tangent(value);
+        return slip.empty() ? "" : fmt::format(" ({})", slip);
     }
 
     /// The file lies in the folder of the campaign file, and its name is harmless to engine and shell.
