@@ -45,6 +45,8 @@ struct DesignTask {
     /// Hz, of the drives that can be had, of which the best is chosen; empty: any within the space.
     std::vector<double> frequencies = {};
     std::vector<double> amplitudes = {};  ///< m, likewise, of the strokes that can be had
+    bool tells_amplitude = false;  ///< messages give the amplitude, as the user did, and not the stroke
+    bool tells_frequency = false;  ///< messages give the frequency, and not the speed of the drive
 };
 
 /// The machine for one of the speeds and strokes of the drive that can be had.

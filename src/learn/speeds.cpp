@@ -2,7 +2,10 @@
 
 #include "core/csv.hpp"
 #include "core/nearest.hpp"
+#include "core/typed_unit.hpp"
 #include "learn/machine_keys.hpp"
+#include "theory/drive_search.hpp"
+#include "theory/quantities.hpp"
 #include "theory/unusual.hpp"
 
 #include <algorithm>
@@ -22,17 +25,18 @@ constexpr std::string_view header_example =
 /// A column that the table may have.
 struct Column {
     std::string_view name;
-    double low, high;  ///< bounds of its numbers; both excluded
+    double low, high;            ///< bounds of its numbers; both excluded
+    std::string_view unit = {};  ///< of the numbers, where it is an SI unit that is often mixed up
 };
 
 constexpr std::array<Column, 10> known_columns{{
     {"stroke_mm", 0, 1e4},
     {"amplitude_mm", 0, 1e4},
     {"rpm", 0, 1e6},
-    {"frequency_hz", 0, 1e5},
+    {"frequency_hz", 0, 1e5, "Hz"},
     {"vibration_angle_deg", 0, 90},
     {"inclination_deg", -90, 90},
-    {"speed_m_per_s", -1e3, 1e3},
+    {"speed_m_per_s", -1e3, 1e3, "m/s"},
     {"speed_m_per_min", -6e4, 6e4},
     {"uncertainty_m_per_s", 0, 1e3},
     {"uncertainty_m_per_min", 0, 6e4},
@@ -94,7 +98,11 @@ class Table {
         auto const value = reader_.number_if_given(static_cast<std::size_t>(at - names.begin()));
         Column const& column = *std::ranges::find(known_columns, name, &Column::name);
         if (value && !(*value > column.low && *value < column.high)) {
-            reader_.fail(fmt::format("column {}: {:g} is out of range", name, *value),
+            std::string const slip =
+                column.unit.empty() ? ""
+                                    : core::slip_of_unit(fmt::format("{} {}", *value, column.unit),
+                                                         column.low, column.high, std::string(column.unit));
+            reader_.fail(fmt::format("column {}: {:g} is out of range{}", name, *value, slip),
                          fmt::format("write a number above {:g} and below {:g}", column.low, column.high));
         }
         return value;
@@ -145,6 +153,8 @@ std::vector<MeasuredSpeed> read_speeds(std::string_view text, std::string const&
     while (table.next()) {
         MeasuredSpeed one{};
         one.line = table.line();
+        one.is_stroke = has_stroke;
+        one.is_turns = has_rpm;
         one.amplitude =
             has_stroke ? table.required("stroke_mm") / 2000 : table.required("amplitude_mm") / 1000;
         one.frequency = has_rpm ? table.required("rpm") / 60 : table.required("frequency_hz");
@@ -178,7 +188,12 @@ std::vector<std::string> unusual_speeds(std::vector<MeasuredSpeed> const& speeds
             sentences.push_back(fmt::format("line {}: {}", found->line, sentence(*found)));
     };
     auto const unusual = [](MeasuredSpeed const& s) {
-        return theory::unusual_numbers({s.frequency, s.amplitude, {}, {}, s.vibration_angle});
+        theory::Drive const drive{s.frequency, s.amplitude, 1, 0};
+        theory::MachineNumbers numbers{
+            s.frequency, s.amplitude, drive.machine_number(theory::Machine{}.gravity), {}, s.vibration_angle};
+        numbers.is_stroke = s.is_stroke;
+        numbers.is_turns = s.is_turns;
+        return theory::unusual_numbers(numbers);
     };
     tell_first([&](MeasuredSpeed const& s) { return !unusual(s).empty(); },
                [&](MeasuredSpeed const& s) { return unusual(s).front(); });

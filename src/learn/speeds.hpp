@@ -17,7 +17,9 @@ struct MeasuredSpeed {
     std::optional<double> vibration_angle;  ///< rad, within (0, pi/2)
     std::optional<double> inclination;      ///< rad, within (-pi/2, pi/2), uphill positive
     double speed;                           ///< m/s, along the trough, positive in the conveying direction
-    double uncertainty;  ///< m/s, standard uncertainty (one standard deviation) of `speed`, > 0
+    double uncertainty;      ///< m/s, standard uncertainty (one standard deviation) of `speed`, > 0
+    bool is_stroke = false;  ///< the table has the stroke, not the amplitude
+    bool is_turns = false;   ///< the table has turns per minute, not a frequency
 };
 
 /// Reads a table of measured speeds (see core::CsvReader for the format; ';', tabs and decimal commas are

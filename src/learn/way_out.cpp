@@ -1,5 +1,6 @@
 #include "learn/way_out.hpp"
 
+#include "core/text.hpp"
 #include "learn/machine_keys.hpp"
 #include "theory/design.hpp"
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,7 +22,7 @@ constexpr theory::DriveSearchSettings short_search{4000, 1000};
 
 /// A limit of a task.
 struct Limit {
-    char const *name, *unit;
+    std::string_view name, unit;
     double in_unit;         ///< what one in SI is in the unit
     theory::Range allowed;  ///< of a quantity above zero
     theory::DriveFunction value;
@@ -52,7 +54,7 @@ std::optional<theory::Drive> best_within(DesignTask const& task, theory::DriveFu
 /// A value to three digits, beyond the one that is needed.
 std::string next_value(double needed, bool above) {
     double const unit = std::pow(10, std::floor(std::log10(needed)) - 2);
-    return fmt::format("{:.4g}", (above ? std::ceil(needed / unit) : std::floor(needed / unit)) * unit);
+    return core::plain_number((above ? std::ceil(needed / unit) : std::floor(needed / unit)) * unit, 4);
 }
 
 /// The limits that may be given up one at a time. All angles and slopes of a trough that conveys are allowed
@@ -74,11 +76,13 @@ std::vector<Limit> limits_of(DesignTask const& task) {
          {0, space.max_throw_number},
          [=](Drive const& d) { return d.throw_number(g); },
          [](DesignTask& t) { t.space.max_throw_number = given_up; }},
-        {"stroke", " mm", 2000, space.amplitude, [](Drive const& d) { return d.amplitude; },
+        {task.tells_amplitude ? "amplitude" : "stroke", " mm", task.tells_amplitude ? 1000.0 : 2000.0,
+         space.amplitude, [](Drive const& d) { return d.amplitude; },
          [](DesignTask& t) {
              t.space.amplitude = {1e-6, 0.1};
          }},
-        {"speed of the drive", " 1/min", 60, space.frequency, [](Drive const& d) { return d.frequency; },
+        {task.tells_frequency ? "frequency" : "speed of the drive", task.tells_frequency ? " Hz" : " 1/min",
+         task.tells_frequency ? 1.0 : 60.0, space.frequency, [](Drive const& d) { return d.frequency; },
          [](DesignTask& t) {
              t.space.frequency = {0.5, 200};
          }},
@@ -107,8 +111,8 @@ std::optional<std::string> way_past(Limit const& limit, DesignTask task) {
     if (!drive || beyond_range(*drive) <= 1) return {};
     double const value = limit.value(*drive);
     bool const above = value > limit.allowed.high;
-    return fmt::format("a {} of {}{} or {}", limit.name, next_value(limit.in_unit * value, above), limit.unit,
-                       above ? "more" : "less");
+    return fmt::format("{} {} of {}{} or {}", limit.name.starts_with('a') ? "an" : "a", limit.name,
+                       next_value(limit.in_unit * value, above), limit.unit, above ? "more" : "less");
 }
 
 }  // namespace

@@ -87,6 +87,24 @@ TEST(Speeds, SlipsOfUnitsAreTold) {
     EXPECT_THAT(told("9.7,960,0.52,0.2"), testing::HasSubstr("were radians meant (29.8 degrees)?"));
 }
 
+// The typed quantity is named: a stroke is not called an amplitude, nor turns a frequency.
+TEST(Speeds, SlipsNameWhatWasTyped) {
+    auto const told = [](std::string const& header, std::string const& row) {
+        auto const sentences = unusual_speeds(
+            read_speeds(header + ",vibration_angle_deg,speed_m_per_s\n" + row + "\n", "t.csv", 0.03));
+        return sentences.empty() ? "" : sentences.front();
+    };
+    EXPECT_THAT(told("stroke_mm,rpm", "9700,960,30,0.2"), testing::HasSubstr("a stroke of 9700 mm"));
+    EXPECT_THAT(told("amplitude_mm,rpm", "9700,960,30,0.2"), testing::HasSubstr("an amplitude of 9700 mm"));
+    EXPECT_THAT(told("stroke_mm,rpm", "9.7,16,30,0.005"), testing::HasSubstr("16 turns per minute"));
+    EXPECT_THAT(told("stroke_mm,frequency_hz", "9.7,960,30,0.2"),
+                testing::HasSubstr("960 turns per minute meant"));
+    EXPECT_THAT(told("amplitude_mm,rpm", "9.7,960,30,0.2"),
+                testing::HasSubstr("was the stroke given as the amplitude"));
+    expect_refused("stroke_mm,rpm,speed_m_per_s,uncertainty_m_per_s\n9.7,960,1200,1\n",
+                   "speed_m_per_s: 1200 is out of range (were 1200 m/min meant?)");
+}
+
 TEST(Speeds, AnotherNameOfAColumnIsUnderstood) {
     expect_refused("stroke,rpm,speed_m_per_s\n1,2,3\n", "did you mean stroke_mm?");
     expect_refused("stroke_mm,U/min,speed_m_per_s\n1,2,3\n", "did you mean rpm?");

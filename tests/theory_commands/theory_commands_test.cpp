@@ -232,8 +232,9 @@ TEST(TheoryDesign, NamesTheActiveLimit) {
     EXPECT_GE(steep.at("inclination_deg"), -std::atan(0.0951) * 180 / std::acos(-1.0));
     EXPECT_NE(steep.at("active_limits").dump().find("inclination"), std::string::npos);
     // tan(alpha) = 0.95 mu: 15.9 deg. What was given is named, in its unit.
-    expect_refused("design --friction 0.3 --inclination '25 deg'", "inclination in deg = 25");
-    expect_refused("design --friction 0.3 --inclination '-30 deg to -25 deg'", "up to 15.9");
+    expect_refused("design --friction 0.3 --inclination '25 deg'", "--inclination 25 deg: must lie between");
+    expect_refused("design --friction 0.3 --inclination '-30 deg to -25 deg'",
+                   "between -15.9076 and 15.9076 deg");
     expect_refused("design --friction 0.3 --mass-flow '2 kg/s'", "needs --bulk-density");
     expect_refused("design --friction 0.3 --frequency '50 Hz to 5 Hz'", "first value is above");
     expect_refused("design --friction 0.3 --frequency '5 m'", "cannot be converted");

@@ -72,6 +72,70 @@ TEST(TheoryPoint, WarnsOfUnusualNumbers) {
     EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
 }
 
+// What the campaign file says of numbers, the other commands say, too; before an error, which it may explain.
+TEST(TheoryPoint, AllCommandsWarnOfUnusualNumbers) {
+    std::string const design = "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' ";
+    std::string const layer = "theory point --rpm 960 --stroke '9.7 mm' --vibration-angle '30 deg' ";
+    std::pair<std::string, char const*> const slips[] = {
+        {"theory limits --friction 30", "was an angle of friction meant"},
+        {"theory limits --friction 0.3 --tan-vibration-angle 0.009", "were radians meant"},
+        {design + "--friction 0.3 --rpm 16 --stroke '12 mm'", "were 16 Hz meant, not rpm?"},
+        {design + "--friction 0.3 --frequency '960 Hz'", "were 960 turns per minute meant (rpm)?"},
+        {design + "--friction 0.3 --rpm 960 --amplitude '9.7 mm'", "was the stroke given as the amplitude"},
+        {design + "--friction 0.3 --vibration-angle '0.5 deg'", "were radians meant (28.6 degrees)?"},
+        {"design --mass-flow '12 t/h' --bulk-density '0.6 kg/m3' --width '300 mm' --friction 0.3",
+         "were 0.6 t/m3 meant (600 kg/m3)?"},
+        {"theory design --friction 0.3 --stroke '9.7 m'", "were mm meant, not m?"},
+        {layer + "--friction 0.3 --bulk-density '0.6 kg/m3'", "were 0.6 t/m3 meant (600 kg/m3)?"},
+        {layer + "--friction 0.3 --frequency '16 Hz'", "both given"},
+        {"theory point --frequency '960 kHz' --stroke '12 mm' --vibration-angle '30 deg' --friction 0.3",
+         "a frequency of 960000 Hz is unusual"},
+    };
+    for (auto const& [command, told] : slips)
+        EXPECT_NE(run_program(command).text.find(told), std::string::npos) << command << "\n"
+                                                                           << run_program(command).text;
+    Answer const usual = run_program(design + "--friction 0.3 --rpm 960 --stroke '9.7 mm'");
+    EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
+}
+
+// Errors of `design` speak of what was typed, in its unit, and name the slip.
+TEST(Design, AnswersInTheUnitThatWasTyped) {
+    auto const refused = [](std::string const& options, std::string const& words) {
+        Answer const answer = run_program(
+            "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction 0.3 " +
+            options);
+        EXPECT_EQ(answer.exit_code, 2) << options;
+        EXPECT_NE(answer.text.find(words), std::string::npos) << options << "\n" << answer.text;
+    };
+    refused("--inclination '95 deg'", "--inclination 95 deg: must lie between -90 and 90 deg;");
+    refused("--inclination '2 rad'",
+            "--inclination 2 rad: must lie between -1.5708 and 1.5708 rad (were 2 deg meant?)");
+    refused("--inclination '1.2 rad'", "--inclination 1.2 rad: must lie between -0.277639 and 0.277639 rad");
+    refused("--inclination '20 deg to 30 deg'", "must lie between -15.9076 and 15.9076 deg");
+    refused("--vibration-angle '30 rad'", "(were 30 deg meant?)");
+    refused("--stroke '30 m'", "--stroke 30 m: must lie between 2e-07 and 20 m (were 30 mm meant?)");
+    refused("--rpm 960 --amplitude '40 mm'", "an amplitude of 4.85 mm or less");
+    refused("--frequency '960 Hz'", "a frequency of 49.8 Hz or less");
+}
+
+// One friction is not a range, and flows have no powers of ten.
+TEST(Design, WritesPlainNumbers) {
+    Answer const large = run_program(
+        "design --mass-flow '12000 t/h' --bulk-density '1600 kg/m3' --width '3 m' --friction 0.3");
+    EXPECT_NE(large.text.find("carries 12000 t/h"), std::string::npos) << large.text;
+    EXPECT_NE(large.text.find("for a friction of 0.3 (point mass"), std::string::npos) << large.text;
+    EXPECT_EQ(large.text.find("e+0"), std::string::npos) << large.text;
+    Answer const range = run_program(
+        "design --mass-flow '12 t/h' --bulk-density '600 kg/m3' --width '300 mm' --friction '0.25 to 0.35'");
+    EXPECT_NE(range.text.find("for frictions of 0.2"), std::string::npos) << range.text;
+}
+
+// main() says the program's name, and the message not once more.
+TEST(CommandLine, HasTheNameOnce) {
+    EXPECT_EQ(run_program("theory point --frequncy 3").text,
+              "vibrotrough: theory point does not know --frequncy 3; did you mean --frequency?\n");
+}
+
 // A range may have its unit once, and a dash between plain numbers; a minus before one value is its sign.
 TEST(Design, TakesRangesAsPeopleWriteThem) {
     auto const design = [](std::string const& limits) {
@@ -131,7 +195,7 @@ TEST(TheoryPoint, RefusesWrongInputInOneLine) {
     refused("--throw-number 2 --friction 0.3", "--vibration-angle is missing");
     refused("--throw-number 2 --vibration-angle 30 --friction 0.3", "'30' has no unit");
     refused("--throw-number 2 --vibration-angle '30 mm' --friction 0.3", "cannot be converted");
-    refused("--throw-number 2 --vibration-angle '95 deg' --friction 0.3", "between 0 and 90 degrees");
+    refused("--throw-number 2 --vibration-angle '95 deg' --friction 0.3", "between 0 and 90 deg;");
     refused("--throw-number 2 --vibration-angle '30 deg' --tan-vibration-angle 1 --friction 0.3", "only one");
     refused("--throw-number 2 --vibration-angle '30 deg' --friction -0.1", "--friction -0.1");
 }

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -27,91 +26,6 @@ std::map<std::string, learn::Objective> const objectives{
     {"gentlest-landing", learn::Objective::gentlest_landing},
     {"least-machine-number", learn::Objective::least_machine_number},
     {"least-power", learn::Objective::least_power}};
-
-void refuse_both(char const* first, Text const& a, char const* second, Text const& b) {
-    if (!a || !b) return;
-    throw core::InputError(
-        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
-}
-
-/// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
-std::vector<double> read_listed_speeds(Text const& rpm) {
-    std::vector<double> frequencies;
-    if (!rpm || rpm->find(',') == std::string::npos) return {};
-    std::stringstream pieces(*rpm);
-    for (std::string piece; std::getline(pieces, piece, ',');) {
-        constexpr std::ptrdiff_t most_decimals = 2;
-        if (std::ranges::count_if(piece, [](char c) { return c >= '0' && c <= '9'; }) <= most_decimals)
-            return {};
-        frequencies.push_back(read_turns("--rpm", piece));
-    }
-    return frequencies;
-}
-
-/// m, of a list of strokes such as "6,8,10 mm" or "6 mm, 8 mm"; empty when the text is a range or one number.
-std::vector<double> read_listed_amplitudes(Text const& stroke) {
-    constexpr std::ptrdiff_t sure_commas = 2;  // one may be decimal
-    bool const is_list = stroke && (std::ranges::count(*stroke, ',') >= sure_commas ||
-                                    stroke->find("m,") != std::string::npos);
-    std::vector<double> amplitudes;
-    if (!is_list) return amplitudes;
-    std::string const unit = stroke->substr(stroke->find_last_of("0123456789.") + 1);
-    std::stringstream pieces(*stroke);
-    for (std::string piece; std::getline(pieces, piece, ',');) {
-        bool const has_unit = piece.find('m') != std::string::npos;
-        amplitudes.push_back(
-            read_positive_quantity("--stroke", has_unit ? piece : piece + unit, "m", "6,8,10 mm") / 2);
-    }
-    return amplitudes;
-}
-
-theory::DriveSpace read_space(DesignOptions const& o) {
-    theory::DriveSpace space;
-    auto const quantity = [](char const* option, char const* unit, char const* example) {
-        return [=](std::string const& text) { return read_positive_quantity(option, text, unit, example); };
-    };
-    auto const angle = [](char const* option, char const* example, double low) {
-        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
-    };
-    refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
-    refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
-    if (auto const listed = read_listed_speeds(o.rpm); !listed.empty()) {
-        auto const [low, high] = std::ranges::minmax(listed);
-        space.frequency = {low, high};
-    } else if (o.rpm) {
-        space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
-                                     [](std::string const& text) { return read_turns("--rpm", text); });
-    }
-    if (o.frequency) {
-        char const* const example = "5 Hz to 25 Hz";
-        space.frequency =
-            read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
-    }
-    if (auto const listed = read_listed_amplitudes(o.stroke); !listed.empty()) {
-        auto const [low, high] = std::ranges::minmax(listed);
-        space.amplitude = {low, high};
-    } else if (o.stroke) {
-        char const* const example = "2 mm to 16 mm";
-        space.amplitude = read_range("--stroke", *o.stroke, example, quantity("--stroke", "m", example));
-        space.amplitude = {space.amplitude.low / 2, space.amplitude.high / 2};
-    }
-    if (o.amplitude) {
-        char const* const example = "1 mm to 8 mm";
-        space.amplitude =
-            read_range("--amplitude", *o.amplitude, example, quantity("--amplitude", "m", example));
-    }
-    if (o.vibration_angle)
-        space.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, "20 deg to 40 deg",
-                                           angle("--vibration-angle", "30 deg", 0));
-    if (o.inclination)
-        space.inclination = read_range("--inclination", *o.inclination, "-5 deg to 0 deg",
-                                       angle("--inclination", "-5 deg", -90));
-    if (o.machine_number)
-        space.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
-    if (o.throw_number)
-        space.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
-    return space;
-}
 
 learn::SettingErrors read_errors(DesignOptions const& o, double bulk_density) {
     learn::SettingErrors errors{.bulk_density = bulk_density};
@@ -127,8 +41,8 @@ learn::SettingErrors read_errors(DesignOptions const& o, double bulk_density) {
 void check_exciter(DesignOptions const& o, learn::DesignTask const& task) {
     required("--length", o.length, "\"3 m\"");
     if (!task.machine->exciter) return;
-    refuse_both("--exciter", o.exciter.exciter(), "--stroke", o.stroke);
-    refuse_both("--exciter", o.exciter.exciter(), "--amplitude", o.amplitude);
+    refuse_both("--exciter", o.exciter.exciter(), "--stroke", o.drive.stroke);
+    refuse_both("--exciter", o.exciter.exciter(), "--amplitude", o.drive.amplitude);
     bool const is_one_speed =
         task.frequencies.empty() && task.space.frequency.low == task.space.frequency.high;
     if (task.machine->spring > 0 && !is_one_speed)
@@ -248,24 +162,24 @@ void DesignOptions::add_limits(CLI::App& command) {
     auto const add = [&](char const* name, Text& text, char const* help) {
         command.add_option(name, text, help)->group("The machine's limits");
     };
-    add("--stroke", stroke,
+    add("--stroke", drive.stroke,
         "Range of 2 r, or the strokes that can be had, such as \"6,8,10 mm\", of which the best is chosen; "
         "default: \"1 mm to 30 mm\"");
-    add("--amplitude", amplitude, "Range of r, half the stroke, instead of --stroke");
-    add("--rpm", rpm,
+    add("--amplitude", drive.amplitude, "Range of r, half the stroke, instead of --stroke");
+    add("--rpm", drive.rpm,
         "Range of the drive's turns per minute, or the speeds that can be had, such as 960,1450,2900, of "
         "which "
         "the best is chosen; default: \"300 to 3600\"");
-    add("--frequency", frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
-    add("--vibration-angle", vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
-    add("--inclination", inclination, "Range of alpha, uphill positive; default: level");
+    add("--frequency", drive.frequency, "The same as a frequency, for example \"5 Hz to 25 Hz\"");
+    add("--vibration-angle", drive.vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
+    add("--inclination", drive.inclination, "Range of alpha, uphill positive; default: level");
     add("--stroke-uncertainty", stroke_uncertainty,
         "Standard uncertainty of the stroke as it is set, for example \"0.2 mm\"; default: exact");
     add("--angle-uncertainty", angle_uncertainty,
         "Standard uncertainty of the vibration angle as it is set, for example \"0.5 deg\"; default: exact");
-    add("--machine-number", machine_number,
+    add("--machine-number", drive.machine_number,
         "Largest machine number K = omega^2 r / g that the structure bears; default: 5");
-    add("--throw-number", throw_number,
+    add("--throw-number", drive.throw_number,
         "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
     add("--landing-speed", landing_speed,
         "Largest speed of the material relative to the trough at an impact, for example \"0.3 m/s\"");
@@ -358,9 +272,12 @@ learn::DesignTask DesignOptions::task() const {
                                       example);
     };
     learn::DesignTask task{};
-    task.space = read_space(*this);
-    task.frequencies = read_listed_speeds(rpm);
-    task.amplitudes = read_listed_amplitudes(stroke);
+    ReadSpace const read = read_drive_space(drive);
+    task.space = read.space;
+    task.frequencies = read.frequencies;
+    task.amplitudes = read.amplitudes;
+    task.tells_amplitude = drive.amplitude.has_value();
+    task.tells_frequency = drive.frequency.has_value();
     std::string const flow = required("--mass-flow", mass_flow, "\"12 t/h\"");
     auto const density = read_uncertain_quantity(
         "--bulk-density", required("--bulk-density", bulk_density, "\"600 kg/m3\""), "kg/m3", "600 kg/m3");
@@ -382,6 +299,8 @@ learn::DesignTask DesignOptions::task() const {
     if (rolling_friction) task.rolling_friction = read_rolling_friction()->mean;
     std::string calibrated_model;
     task.friction = read_friction(calibrated_model);
+    tell_unusual(drive, task.space, task.friction.median, task.bulk_density);
+    check_slope(drive, task.space, task.friction.low);
     task.models = read_models(task.friction);
     task.objective = objectives.at(objective);
     // What a calibration says of a model's error holds for the model that was calibrated.

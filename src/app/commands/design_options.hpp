@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/commands/exciter_options.hpp"
-#include "app/commands/theory/options.hpp"
+#include "app/commands/theory/drive_space.hpp"
 #include "learn/atlas_design_model.hpp"
 #include "learn/model_choice.hpp"
 #include "learn/risk_design.hpp"
@@ -17,18 +17,18 @@ namespace vibrotrough::app {
 
 /// The options of `vibrotrough design` that describe its task.
 struct DesignOptions {
-    Text mass_flow, bulk_density, width, length, depth;                    ///< what is to be carried
-    Text friction, friction_uncertainty, posterior;                        ///< of the material
-    Text grain_diameter, rolling_friction, grain_friction;                 ///< of its grains
-    Text stroke_uncertainty, angle_uncertainty;                            ///< of what the machine is set to
-    Text rpm, frequency, stroke, amplitude, vibration_angle, inclination;  ///< ranges of the drive
-    Text machine_number, throw_number, landing_speed;                      ///< largest values
-    Text confidence, discrepancy;                                          ///< of the answer
-    ExciterOptions exciter;                                                ///< and springs
-    std::vector<std::string> models;    ///< point-mass, rolling-layer, atlas, surface
-    std::string surface;                ///< folder of the campaign of the surface
-    std::vector<std::string> places;    ///< KEY=VALUE of the surface's other inputs
-    std::string objective = "fastest";  ///< what to be best at
+    Text mass_flow, bulk_density, width, length, depth;     ///< what is to be carried
+    Text friction, friction_uncertainty, posterior;         ///< of the material
+    Text grain_diameter, rolling_friction, grain_friction;  ///< of its grains
+    Text stroke_uncertainty, angle_uncertainty;             ///< of what the machine is set to
+    DriveTexts drive;                                       ///< among which it chooses
+    Text landing_speed;                                     ///< largest value
+    Text confidence, discrepancy;                           ///< of the answer
+    ExciterOptions exciter;                                 ///< and springs
+    std::vector<std::string> models;                        ///< point-mass, rolling-layer, atlas, surface
+    std::string surface;                                    ///< folder of the campaign of the surface
+    std::vector<std::string> places;                        ///< KEY=VALUE of the surface's other inputs
+    std::string objective = "fastest";                      ///< what to be best at
 
     /// Declares the options of the command.
     void add_to(CLI::App& command);

@@ -1,7 +1,7 @@
 #include "theory/design.hpp"
 
 #include "app/commands.hpp"
-#include "app/commands/theory/options.hpp"
+#include "app/commands/theory/drive_space.hpp"
 #include "app/exit_code.hpp"
 #include "core/error.hpp"
 #include "theory/tested_range.hpp"
@@ -18,8 +18,8 @@ namespace vibrotrough::app {
 namespace {
 
 struct TheoryDesignArguments {
-    Text friction, frequency, amplitude, stroke, vibration_angle, inclination, machine_number, throw_number;
-    Text mass_flow, bulk_density, layer_height, layer_width, gravity;
+    DriveTexts drive;
+    Text friction, mass_flow, bulk_density, layer_height, layer_width, gravity;
     RollingOption rolling;
     bool json = false;
 };
@@ -28,46 +28,13 @@ theory::DesignLimits read(TheoryDesignArguments const& o) {
     theory::DesignLimits l{};
     l.friction =
         read_number_within("--friction", required("--friction", o.friction, "0.3"), "0.3", 1e-6, 1000);
-    auto const quantity = [](char const* option, char const* unit, char const* example) {
-        return [=](std::string const& text) { return read_positive_quantity(option, text, unit, example); };
-    };
-    auto const angle = [](char const* option, char const* example, double low) {
-        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
-    };
-    if (o.frequency) {
-        char const* const example = "5 Hz to 50 Hz";
-        l.frequency =
-            read_range("--frequency", *o.frequency, example, quantity("--frequency", "Hz", example));
-    }
-    if (o.stroke && o.amplitude) {
-        throw core::InputError(
-            fmt::format("--stroke {} and --amplitude {} are both given; write only one of them", *o.stroke,
-                        *o.amplitude));
-    }
-    if (o.stroke) {
-        char const* const example = "2 mm to 16 mm";
-        l.amplitude = read_range("--stroke", *o.stroke, example, quantity("--stroke", "m", example));
-        l.amplitude.low /= 2;
-        l.amplitude.high /= 2;
-    }
-    if (o.amplitude) {
-        char const* const example = "1 mm to 8 mm";
-        l.amplitude = read_range("--amplitude", *o.amplitude, example, quantity("--amplitude", "m", example));
-    }
-    if (o.vibration_angle) {
-        char const* const example = "10 deg to 45 deg";
-        l.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, example,
-                                       angle("--vibration-angle", example, 0));
-    }
-    if (o.inclination) {
-        char const* const example = "-5 deg to 0 deg";
-        l.inclination =
-            read_range("--inclination", *o.inclination, example, angle("--inclination", example, -90));
-    }
-    if (o.machine_number)
-        l.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
-    if (o.throw_number)
-        l.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+    theory::DriveSpace const space = read_drive_space(o.drive).space;
+    l.frequency = space.frequency;
+    l.amplitude = space.amplitude;
+    l.vibration_angle = space.vibration_angle;
+    l.inclination = space.inclination;
+    l.max_machine_number = space.max_machine_number;
+    l.max_throw_number = space.max_throw_number;
     auto const set = [](double& value, char const* option, Text const& text, char const* unit,
                         char const* example) {
         if (text) value = read_positive_quantity(option, *text, unit, example);
@@ -86,6 +53,9 @@ theory::DesignLimits read(TheoryDesignArguments const& o) {
                         "--layer-width; write them",
                         *o.mass_flow));
     }
+    tell_unusual(o.drive, l.space(), l.friction,
+                 o.bulk_density ? std::optional(l.bulk_density) : std::nullopt);
+    check_slope(o.drive, l.space(), l.friction);
     return l;
 }
 
@@ -156,15 +126,16 @@ void add_theory_design(CLI::App& theory, int& exit_code) {
         command->add_option(name, text, help);
     };
     add("--friction", options->friction, "mu, friction coefficient of the material on the trough");
-    add("--frequency", options->frequency,
+    add("--frequency", options->drive.frequency,
         "Range; default: \"5 Hz to 60 Hz\"; turns of the drive may be written as \"300 rpm to 3600 rpm\"");
-    add("--amplitude", options->amplitude, "Range of r, half the stroke; default: \"0.5 mm to 15 mm\"");
-    add("--stroke", options->stroke, "Range of 2 r, instead of --amplitude, for example \"2 mm to 16 mm\"");
-    add("--vibration-angle", options->vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
-    add("--inclination", options->inclination, "Range of alpha, uphill positive; default: level");
-    add("--machine-number", options->machine_number,
+    add("--amplitude", options->drive.amplitude, "Range of r, half the stroke; default: \"0.5 mm to 15 mm\"");
+    add("--stroke", options->drive.stroke,
+        "Range of 2 r, instead of --amplitude, for example \"2 mm to 16 mm\"");
+    add("--vibration-angle", options->drive.vibration_angle, "Range of beta; default: \"5 deg to 60 deg\"");
+    add("--inclination", options->drive.inclination, "Range of alpha, uphill positive; default: level");
+    add("--machine-number", options->drive.machine_number,
         "Largest machine number K that the structure bears; default: 5");
-    add("--throw-number", options->throw_number,
+    add("--throw-number", options->drive.throw_number,
         "Largest throw number Gamma; default: 3.29, at which a flight takes one cycle");
     add("--mass-flow", options->mass_flow,
         "Least mass flow, for example \"12 t/h\" or \"2 kg/s\", or by volume \"20 m3/h\"");

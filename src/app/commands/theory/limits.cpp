@@ -34,6 +34,7 @@ Inputs read(TheoryLimitsArguments const& o) {
     in.tan_alpha =
         read_number_within("--tan-inclination", o.tan_inclination.value_or("0"), "-0.05", -1e6, 1e6);
     in.mu = read_number_within("--friction", required("--friction", o.friction, "0.35"), "0.35", 1e-6, 1e6);
+    tell_unusual(theory::MachineNumbers{{}, {}, {}, in.mu, std::atan(in.tan_beta)});
     if (std::abs(in.tan_alpha) >= in.mu) {
         throw core::InputError(fmt::format(
             "--friction {}: is not above |tan(alpha)| = {:g}, so that the mass runs away; write a "

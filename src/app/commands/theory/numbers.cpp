@@ -1,7 +1,10 @@
 #include "app/commands/theory/options.hpp"
 #include "core/error.hpp"
 #include "core/quantity.hpp"
+#include "core/typed_unit.hpp"
+#include "theory/unusual.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
@@ -31,6 +34,14 @@ std::string with_advice(std::string const& problem, std::string const& advice) {
     return problem.find("; write ") == problem.npos ? fmt::format("{}; {}", problem, advice) : problem;
 }
 
+/// Of a plain number that is out of its range, which slip would explain it.
+std::string slip_of_number(std::string const& option, double value) {
+    std::string slip;
+    if (option.ends_with("friction")) slip = theory::slip_of_friction(value);
+    if (option.starts_with("--tan-")) slip = theory::slip_of_tangent(value);
+    return slip.empty() ? "" : fmt::format(" ({})", slip);
+}
+
 double read_quantity(std::string const& option, std::string const& text, std::string const& unit,
                      std::string const& example) {
     try {
@@ -53,6 +64,12 @@ std::string required(std::string const& option, Text const& text, std::string co
     return *text;
 }
 
+void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {
+    if (!a || !b) return;
+    throw core::InputError(
+        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
+}
+
 double read_number(std::string const& option, std::string const& text, std::string const& example) {
     try {
         return core::parse_number(text);
@@ -68,8 +85,8 @@ double read_number_within(std::string const& option, std::string const& text, st
     double const value = read_number(option, text, example);
     if (value >= low && value <= high) return value;
     throw core::InputError(
-        fmt::format("{} {}: must be at least {:g} and at most {:g}; write for example {} {}", option, text,
-                    low, high, option, example));
+        fmt::format("{} {}: must be at least {:g} and at most {:g}{}; write for example {} {}", option, text,
+                    low, high, slip_of_number(option, value), option, example));
 }
 
 int read_count(std::string const& option, std::string const& text, std::string const& example, int low,
@@ -115,6 +132,11 @@ double read_turns(std::string const& option, std::string const& text) {
                     option, text, option));
 }
 
+std::string last_of_range(std::string const& text) {
+    std::smatch ends;
+    return is_range(text, ends) ? ends[2].str() : text;
+}
+
 theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
                          std::function<double(std::string const&)> const& read_one) {
     static std::regex const number_and_unit(R"(\s*[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*(.*))");
@@ -134,13 +156,23 @@ theory::Range read_range(std::string const& option, std::string const& text, std
                     option, example));
 }
 
+double read_quantity_within(std::string const& option, std::string const& text, std::string const& unit,
+                            std::string const& example, double low, double high) {
+    double const value = read_positive_quantity(option, text, unit, example);
+    if (value >= low && value <= high) return value;
+    throw core::InputError(fmt::format("{} {}: must lie between {}{}; write for example {} \"{}\"", option,
+                                       text, core::range_in_unit_of(text, low, high, unit, " and "),
+                                       core::slip_of_unit(text, low, high, unit), option, example));
+}
+
 double read_angle(std::string const& option, std::string const& text, std::string const& example,
                   double low_deg, double high_deg) {
     double const angle = read_quantity(option, text, "radian", example);
-    if (angle > low_deg * degree && angle < high_deg * degree) return angle;
-    throw core::InputError(
-        fmt::format("{} {}: must lie between {:g} and {:g} degrees; write for example {} \"{}\"", option,
-                    text, std::abs(low_deg) < 1e-6 ? 0 : low_deg, high_deg, option, example));
+    double const low = std::abs(low_deg) < 1e-6 ? 0 : low_deg * degree, high = high_deg * degree;
+    if (angle > low_deg * degree && angle < high) return angle;
+    throw core::InputError(fmt::format("{} {}: must lie between {}{}; write for example {} \"{}\"", option,
+                                       text, core::range_in_unit_of(text, low, high, "radian", " and "),
+                                       core::slip_of_unit(text, low, high, "radian"), option, example));
 }
 
 }  // namespace vibrotrough::app

@@ -2,7 +2,6 @@
 
 #include "app/standard_streams.hpp"
 #include "core/error.hpp"
-#include "theory/unusual.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +16,6 @@ namespace {
 using theory::Input;
 
 constexpr double least_throw = 1e-300;  // the theory divides by it
-
-void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b) {
-    if (!a || !b) return;
-    throw core::InputError(
-        fmt::format("{} {} and {} {} are both given; write only one of them", first, *a, second, *b));
-}
 
 double read_throw(std::string const& option, std::string const& text) {
     double const value = read_number(option, text, "2");
@@ -177,7 +170,12 @@ std::optional<theory::Machine> TheoryOptions::machine() const {
     return machine;
 }
 
-void TheoryOptions::tell_unusual() const {
+void tell_unusual(theory::MachineNumbers const& numbers) {
+    for (std::string const& sentence : theory::unusual_numbers(numbers))
+        tell("vibrotrough: warning: {}\n", sentence);
+}
+
+void TheoryOptions::tell_unusual(std::optional<double> bulk_density) const {
     theory::Inputs const inputs = given();
     theory::MachineNumbers numbers{frequency(), amplitude(), {}, inputs.get(Input::friction)};
     numbers.is_stroke = stroke_.has_value();
@@ -188,8 +186,8 @@ void TheoryOptions::tell_unusual() const {
         double const omega = 2 * std::numbers::pi * *numbers.frequency;
         numbers.machine_number = omega * omega * *numbers.amplitude / gravity();
     }
-    for (std::string const& sentence : theory::unusual_numbers(numbers))
-        tell("vibrotrough: warning: {}\n", sentence);
+    numbers.bulk_density = bulk_density;
+    app::tell_unusual(numbers);
 }
 
 theory::Inputs TheoryOptions::given() const {

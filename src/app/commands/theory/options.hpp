@@ -5,6 +5,7 @@
 #include "theory/inputs.hpp"
 #include "theory/quantities.hpp"
 #include "theory/rolling_layer.hpp"
+#include "theory/unusual.hpp"
 
 #include <functional>
 #include <numbers>
@@ -24,6 +25,12 @@ inline constexpr double degree = std::numbers::pi / 180;  ///< rad
 /// An option as the user wrote it; none when it was not given.
 using Text = std::optional<std::string>;
 
+/// Says on standard error which numbers are unusual, and which slip would explain it.
+void tell_unusual(theory::MachineNumbers const& numbers);
+
+/// @throws core::InputError when both of two options are given that say the same
+void refuse_both(std::string const& first, Text const& a, std::string const& second, Text const& b);
+
 /// Reads a number from the command line.
 /// @throws core::InputError naming the option, its value and what to write instead
 double read_number(std::string const& option, std::string const& text, std::string const& example);
@@ -41,6 +48,12 @@ int read_count(std::string const& option, std::string const& text, std::string c
 double read_positive_quantity(std::string const& option, std::string const& text, std::string const& unit,
                               std::string const& example);
 
+/// The same for a quantity within [low, high] of `unit`. The message has the range in the unit that was
+/// written, and the slip of a unit that would explain the number.
+/// @throws core::InputError as read_number
+double read_quantity_within(std::string const& option, std::string const& text, std::string const& unit,
+                            std::string const& example, double low, double high);
+
 /// Reads a flow above zero in kg/s. A flow of volume, such as "20 m3/h", is one of mass at the bulk density.
 /// @param bulk_density  kg/m3; without it, a flow of volume is refused
 /// @throws core::InputError as read_number
@@ -56,7 +69,11 @@ double read_turns(std::string const& option, std::string const& text);
 theory::Range read_range(std::string const& option, std::string const& text, std::string const& example,
                          std::function<double(std::string const&)> const& read_one);
 
-/// Reads an angle with its unit and converts it to rad. The bounds are in degrees.
+/// "20 deg" of "10 deg to 20 deg"; the text itself when it is not a range.
+std::string last_of_range(std::string const& text);
+
+/// Reads an angle with its unit and converts it to rad. The bounds, both excluded, are in degrees; the
+/// message has them in the unit that was written.
 /// @throws core::InputError as read_number
 double read_angle(std::string const& option, std::string const& text, std::string const& example,
                   double low_deg, double high_deg);
@@ -83,8 +100,9 @@ class TheoryOptions {
     /// @throws core::InputError when an option is wrong
     std::optional<theory::Machine> machine() const;
     /// Says on standard error which numbers are unusual, and which slip would explain it.
+    /// @param bulk_density  kg/m3, of the layer, where it is known
     /// @throws core::InputError when an option is wrong
-    void tell_unusual() const;
+    void tell_unusual(std::optional<double> bulk_density = {}) const;
 
   private:
     void add_extensions(CLI::App& command);

@@ -203,6 +203,11 @@ void withhold(theory::Conveyor const& input, std::string const& why, bool json) 
 
 /// A motion that runs away has no speed, which a script must notice.
 int run_theory_point(TheoryPointArguments const& options) {
+    // First: a slip often explains an error, too.
+    options.motion.tell_unusual(options.bulk_density
+                                    ? std::optional(read_positive_quantity(
+                                          "--bulk-density", *options.bulk_density, "kg/m3", "800 kg/m3"))
+                                    : std::nullopt);
     theory::Conveyor const input = options.motion.conveyor();
     auto const law = options.rolling.law();
     check_machine_number(input);
@@ -235,7 +240,6 @@ int run_theory_point(TheoryPointArguments const& options) {
         }
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
-    options.motion.tell_unusual();
     return std::isfinite(answer.motion.velocity_efficiency) ? all_well : some_cases_failed;
 }
 

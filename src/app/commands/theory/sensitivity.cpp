@@ -20,6 +20,7 @@ struct TheorySensitivityArguments {
 };
 
 void run_theory_sensitivity(TheorySensitivityArguments const& options) {
+    options.motion.tell_unusual();
     theory::Inputs const inputs = options.motion.given();
     require_complete(inputs);
     std::vector<theory::Sensitivity> answers;
@@ -42,7 +43,6 @@ void run_theory_sensitivity(TheorySensitivityArguments const& options) {
                    s.elasticity);
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
-    options.motion.tell_unusual();
 }
 
 }  // namespace

@@ -95,9 +95,9 @@ void write(TheoryTraceArguments const& options, int samples, Table const& table)
 void run_theory_trace(TheoryTraceArguments const& options) {
     int const samples =
         options.samples ? read_count("--samples", *options.samples, "721", 2, 10'000'000) : 721;
+    options.motion.tell_unusual();
     theory::Conveyor const input = options.motion.conveyor();
     auto const machine = options.motion.machine();
-    options.motion.tell_unusual();
     if (auto const law = options.rolling.law()) {
         write(options, samples, trace_rolling(options, input, *law, samples, machine));
         return;

@@ -1,0 +1,145 @@
+#include "app/commands/theory/drive_space.hpp"
+
+#include "core/error.hpp"
+#include "core/typed_unit.hpp"
+#include "theory/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace vibrotrough::app {
+namespace {
+
+constexpr double lowest_frequency = 1e-3, highest_frequency = 1e4;  // Hz
+constexpr double least_amplitude = 1e-7, most_amplitude = 10;       // m
+
+/// Hz, of a list such as "960,1450,2900"; empty when the text is a range, or a number with a decimal comma.
+std::vector<double> read_listed_speeds(Text const& rpm) {
+    std::vector<double> frequencies;
+    if (!rpm || rpm->find(',') == std::string::npos) return {};
+    std::stringstream pieces(*rpm);
+    for (std::string piece; std::getline(pieces, piece, ',');) {
+        constexpr std::ptrdiff_t most_decimals = 2;
+        if (std::ranges::count_if(piece, [](char c) { return c >= '0' && c <= '9'; }) <= most_decimals)
+            return {};
+        frequencies.push_back(read_turns("--rpm", piece));
+    }
+    return frequencies;
+}
+
+/// m, of a stroke or an amplitude: one that can be solved.
+double read_length(char const* option, std::string const& text, char const* example, double factor) {
+    return read_quantity_within(option, text, "m", example, factor * least_amplitude,
+                                factor * most_amplitude) /
+           factor;
+}
+
+/// m, of a list of strokes such as "6,8,10 mm" or "6 mm, 8 mm"; empty when the text is a range or one number.
+std::vector<double> read_listed_amplitudes(Text const& stroke) {
+    constexpr std::ptrdiff_t sure_commas = 2;  // one may be decimal
+    bool const is_list = stroke && (std::ranges::count(*stroke, ',') >= sure_commas ||
+                                    stroke->find("m,") != std::string::npos);
+    std::vector<double> amplitudes;
+    if (!is_list) return amplitudes;
+    std::string const unit = stroke->substr(stroke->find_last_of("0123456789.") + 1);
+    std::stringstream pieces(*stroke);
+    for (std::string piece; std::getline(pieces, piece, ',');) {
+        bool const has_unit = piece.find('m') != std::string::npos;
+        amplitudes.push_back(read_length("--stroke", has_unit ? piece : piece + unit, "6,8,10 mm", 2));
+    }
+    return amplitudes;
+}
+
+theory::Range ends_of(std::vector<double> const& values) {
+    auto const [low, high] = std::ranges::minmax(values);
+    return {low, high};
+}
+
+void read_frequency(DriveTexts const& o, ReadSpace& read) {
+    refuse_both("--rpm", o.rpm, "--frequency", o.frequency);
+    read.frequencies = read_listed_speeds(o.rpm);
+    if (!read.frequencies.empty()) {
+        read.space.frequency = ends_of(read.frequencies);
+    } else if (o.rpm) {
+        read.space.frequency = read_range("--rpm", *o.rpm, "300 to 1500",
+                                          [](std::string const& text) { return read_turns("--rpm", text); });
+    }
+    if (!o.frequency) return;
+    char const* const example = "5 Hz to 25 Hz";
+    read.space.frequency = read_range("--frequency", *o.frequency, example, [&](std::string const& text) {
+        return read_quantity_within("--frequency", text, "Hz", example, lowest_frequency, highest_frequency);
+    });
+}
+
+void read_amplitude(DriveTexts const& o, ReadSpace& read) {
+    refuse_both("--stroke", o.stroke, "--amplitude", o.amplitude);
+    read.amplitudes = read_listed_amplitudes(o.stroke);
+    auto const range = [](char const* option, std::string const& text, char const* example, double factor) {
+        return read_range(option, text, example,
+                          [=](std::string const& one) { return read_length(option, one, example, factor); });
+    };
+    if (!read.amplitudes.empty()) {
+        read.space.amplitude = ends_of(read.amplitudes);
+    } else if (o.stroke) {
+        read.space.amplitude = range("--stroke", *o.stroke, "2 mm to 16 mm", 2);
+    }
+    if (o.amplitude) read.space.amplitude = range("--amplitude", *o.amplitude, "1 mm to 8 mm", 1);
+}
+
+}  // namespace
+
+ReadSpace read_drive_space(DriveTexts const& o) {
+    ReadSpace read;
+    read_frequency(o, read);
+    read_amplitude(o, read);
+    auto const angle = [](char const* option, char const* example, double low) {
+        return [=](std::string const& text) { return read_angle(option, text, example, low, 90); };
+    };
+    theory::DriveSpace& space = read.space;
+    if (o.vibration_angle)
+        space.vibration_angle = read_range("--vibration-angle", *o.vibration_angle, "20 deg to 40 deg",
+                                           angle("--vibration-angle", "30 deg", 0));
+    if (o.inclination)
+        space.inclination = read_range("--inclination", *o.inclination, "-5 deg to 0 deg",
+                                       angle("--inclination", "-5 deg", -90));
+    if (o.machine_number)
+        space.max_machine_number = read_number_within("--machine-number", *o.machine_number, "4", 1e-3, 1e4);
+    if (o.throw_number)
+        space.max_throw_number = read_number_within("--throw-number", *o.throw_number, "3", 1e-3, 1e4);
+    return read;
+}
+
+void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction) {
+    if (!texts.inclination) return;
+    double const steepest = theory::steepest_slope(friction);
+    if (space.inclination.low <= steepest && space.inclination.high >= -steepest) return;
+    std::string const one = last_of_range(*texts.inclination);
+    throw core::InputError(
+        fmt::format("no machine fits: --inclination {}: must lie between {}, where tan(alpha) is 95 % of the "
+                    "friction coefficient {:.4g}{}; write a flatter one",
+                    *texts.inclination, core::range_in_unit_of(one, -steepest, steepest, "radian", " and "),
+                    friction, core::slip_of_unit(one, -steepest, steepest, "radian")));
+}
+
+void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
+                  std::optional<double> bulk_density) {
+    theory::MachineNumbers numbers{};
+    if (texts.rpm || texts.frequency)
+        numbers.frequency = space.frequency.high < theory::smallest_usual_frequency ? space.frequency.high
+                                                                                    : space.frequency.low;
+    if (texts.stroke || texts.amplitude) numbers.amplitude = space.amplitude.low;
+    if (texts.vibration_angle) numbers.vibration_angle = space.vibration_angle.high;
+    numbers.friction = friction;
+    numbers.bulk_density = bulk_density;
+    numbers.is_stroke = texts.stroke.has_value();
+    numbers.is_turns = texts.rpm.has_value();
+    if (numbers.frequency && numbers.amplitude)
+        numbers.machine_number =
+            theory::Drive{space.frequency.low, space.amplitude.low, 1, 0}.machine_number(space.gravity);
+    tell_unusual(numbers);
+}
+
+}  // namespace vibrotrough::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "app/commands/theory/options.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace vibrotrough::app {
+
+/// The options of `design` and `theory design` that say among which drives they choose.
+struct DriveTexts {
+    Text rpm, frequency, stroke, amplitude;  ///< of each pair one
+    Text vibration_angle, inclination;       ///< ranges
+    Text machine_number, throw_number;       ///< largest values
+};
+
+/// A space of drives, and the strokes and speeds of which it is made where they were listed.
+struct ReadSpace {
+    theory::DriveSpace space;         ///< from the smallest to the largest value of each
+    std::vector<double> frequencies;  ///< Hz
+    std::vector<double> amplitudes;   ///< m
+};
+
+/// @throws core::InputError when an option is wrong, given in two forms, or outside of what can be solved
+ReadSpace read_drive_space(DriveTexts const& texts);
+
+/// @throws core::InputError when even the flattest trough of the space is so steep that the material runs
+/// away
+void check_slope(DriveTexts const& texts, theory::DriveSpace const& space, double friction);
+
+/// Says on standard error which numbers of a task are unusual, and which slip would explain it.
+void tell_unusual(DriveTexts const& texts, theory::DriveSpace const& space, double friction,
+                  std::optional<double> bulk_density);
+
+}  // namespace vibrotrough::app
