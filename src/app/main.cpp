@@ -147,7 +147,9 @@ std::string option_meant(CLI::App const& command, std::string const& given) {
 }
 
 /// The words that a command does not know, in the order in which they were written. CLI11 turns it round.
+/// @param path  the command with the program's name, which main() says by itself
 std::string unknown_words(CLI::App const& command, std::string const& path, int argc, char** argv) {
+    std::string const name = path.substr(path.find(' ') + 1);
     std::vector<std::string> rest = command.remaining();
     std::string said, meant;
     for (int i = 1; i < argc; ++i) {
@@ -159,8 +161,8 @@ std::string unknown_words(CLI::App const& command, std::string const& path, int 
         bool const is_option = word.starts_with("-") && word.find_first_not_of("-.0123456789") != word.npos;
         if (is_option && meant.empty()) meant = option_meant(command, word);
     }
-    if (!meant.empty()) return fmt::format("{} does not know{}; did you mean {}?", path, said, meant);
-    return fmt::format("{} does not know{}; see '{} --help'", path, said, path);
+    if (!meant.empty()) return fmt::format("{} does not know{}; did you mean {}?", name, said, meant);
+    return fmt::format("{} does not know{}; see '{} --help'", name, said, path);
 }
 
 /// One line for an error of the command line. CLI11 itself prints two lines, and does not name a misspelt
