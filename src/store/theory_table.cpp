@@ -1,6 +1,9 @@
 #include "store/theory_table.hpp"
 
 #include "core/csv.hpp"
+#include "core/nearest.hpp"
+#include "scenario/reader/keys.hpp"
+#include "scenario/reader/other_words.hpp"
 #include "store/theory_map.hpp"
 
 #include <algorithm>
@@ -48,10 +51,26 @@ constexpr std::array<AnswerColumn, 5> answer_columns{{
 
 using theory::InputColumn;
 
+/// The column that is meant by another name: by meaning, as in a campaign file ("mu" is friction, "stroke" is
+/// stroke_mm), or by spelling. Empty when none is.
+std::string column_meant(std::string const& name) {
+    auto const all = theory::input_column_names();
+    std::string_view const key = scenario::key_in_other_words(name);
+    std::string_view const meant = key.empty() ? std::string_view(name) : scenario::last_name(key);
+    auto const found = std::ranges::find_if(all, [&](std::string const& one) {
+        return one == meant || one.starts_with(fmt::format("{}_", meant));
+    });
+    if (found != all.end()) return *found;
+    std::vector<std::string_view> const words(all.begin(), all.end());
+    return std::string(core::nearest_word(name, words));
+}
+
 InputColumn column_named(std::string const& name, core::CsvReader const& table, std::string const& path) {
     if (auto const column = theory::input_column_named(name)) return *column;
+    std::string const meant = column_meant(name);
     throw core::CsvError(path, table.header_line(), fmt::format("column '{}' is not an input", name),
-                         "write names such as throw_number, tan_vibration_angle, friction");
+                         meant.empty() ? "write names such as throw_number, tan_vibration_angle, friction"
+                                       : fmt::format("did you mean {}?", meant));
 }
 
 /// Columns of one input in different units, such as frequency_hz and rpm, would overwrite each other.

@@ -52,6 +52,16 @@ TEST(TheoryTable, MistakesAreNamedWithTheirPlace) {
     EXPECT_EQ(error_of("throw_number,colour\n2,red\n"),
               "in.csv:1: column 'colour' is not an input; write names such as throw_number, "
               "tan_vibration_angle, friction");
+    for (auto const& [other, meant] : {std::pair{"mu", "friction"},
+                                       {"K", "machine_number"},
+                                       {"stroke", "stroke_mm"},
+                                       {"frequency", "frequency_hz"},
+                                       {"beta", "vibration_angle_deg"},
+                                       {"throw_numbr", "throw_number"},
+                                       {"vibration_angle_dg", "vibration_angle_deg"}})
+        EXPECT_EQ(
+            error_of(std::string(other) + "\n2\n"),
+            "in.csv:1: column '" + std::string(other) + "' is not an input; did you mean " + meant + "?");
     EXPECT_EQ(error_of("# a\n\nthrow_number,friction\n2,0.3\n"),
               "in.csv:4: point 1: give exactly one of vibration_angle_deg and tan_vibration_angle; write the "
               "value");
