@@ -1,6 +1,7 @@
 #include "deck/campaign_check.hpp"
 
 #include "deck/estimates.hpp"
+#include "scenario/reader/swept_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,18 +11,19 @@
 namespace vibrotrough::deck {
 namespace {
 
-void add(CampaignCheck& total, Finding const& finding, int number) {
+void add(CampaignCheck& total, Finding const& finding, int number, std::string const& label) {
     auto const item = std::ranges::find_if(
         total.items, [&](CheckedItem const& one) { return one.worst.item == finding.item; });
     bool const beyond = finding.severity != Severity::fine;
     if (item == total.items.end()) {
-        total.items.push_back({finding, number, beyond ? 1 : 0});
+        total.items.push_back({finding, number, label, beyond ? 1 : 0});
         return;
     }
     if (beyond) ++item->cases_beyond_limit;
     if (excess(finding) <= excess(item->worst)) return;
     item->worst = finding;
     item->worst_case = number;
+    item->worst_label = label;
 }
 
 int count(CampaignCheck const& total, Severity severity) {
@@ -54,7 +56,8 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
     for (scenario::Scenario const& scenario : campaign.cases) {
         prepare::PreparedCase const prepared = preparer.prepare(scenario);
         ++total.cases;
-        for (Finding const& finding : check(prepared)) add(total, finding, total.cases);
+        std::string const label = swept_label(scenario, campaign.swept);
+        for (Finding const& finding : check(prepared)) add(total, finding, total.cases, label);
         double const modulus = prepared.scenario.grains.youngs_modulus.value();
         total.least_modulus = total.cases == 1 ? modulus : std::min(total.least_modulus, modulus);
         total.most_modulus = std::max(total.most_modulus, modulus);
@@ -73,9 +76,11 @@ CampaignCheck check_campaign(scenario::Campaign const& campaign) {
 
 std::string describe(CheckedItem const& item, int cases) {
     Finding const& finding = item.worst;
+    std::string const worst =
+        item.worst_label.empty() ? fmt::format("case {}", item.worst_case) : item.worst_label;
     std::string const where = cases == 1 ? ""
-                                         : fmt::format(" in {} of {} cases (case {} is the worst)",
-                                                       item.cases_beyond_limit, cases, item.worst_case);
+                                         : fmt::format(" in {} of {} cases ({} is the worst)",
+                                                       item.cases_beyond_limit, cases, worst);
     std::string const refused = finding.severity == Severity::error
                                     ? fmt::format(" ({} {:.3g} it is an error)",
                                                   finding.at_least ? "below" : "above", finding.hard_limit)

@@ -12,6 +12,7 @@ namespace vibrotrough::deck {
 struct CheckedItem {
     Finding worst;               ///< the finding that is furthest beyond its limit, or closest to it
     int worst_case;              ///< the number of its case, counted from 1
+    std::string worst_label;     ///< what distinguishes that case, as `run` says it; empty if nothing does
     int cases_beyond_limit = 0;  ///< number of cases in which this item is a warning or an error
 };
 

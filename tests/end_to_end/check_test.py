@@ -133,6 +133,16 @@ class Check(EndToEndTest):
         self.assertRegex(done.stdout.splitlines()[-1], r"^expected cost: [0-9.e-]+ core-hours, at [0-9.e+]+ grain-steps per CPU second")
         self.assertNotIn("warning", done.stdout)
 
+    def test_cases_have_the_names_that_run_gives_them(self):
+        """By what is swept, and not by a number that has to be counted out."""
+        campaign = self.write_campaign({"grains.youngs_modulus": "1 MPa"}, sweep={"trough.throw_number": [0.8, 2.0], "grains.friction": [0.4, 0.5]})
+        done = self.call("check", campaign)
+        self.assertRegex(done.stdout, r"(?m)^warning: .* in \d of 4 cases \(throw_number (0\.8|2), grains\.friction 0\.[45] is the worst\)")
+        self.assertNotRegex(done.stdout, r"\(case \d+ is the worst\)")
+        labels = [case["label"] for case in json.loads(self.call("check", campaign, "--json").stdout)["cases"]]
+        self.assertEqual(labels[0], "throw_number 0.8, grains.friction 0.4")
+        self.assertEqual(len(set(labels)), 4)
+
     def test_warnings_are_shown_and_errors_refused(self):
         warned = self.write_campaign({"grains.youngs_modulus": "1 MPa", "measure.packings": 1, "measure.max_cycles": 24})
         done = self.run_campaign(warned, wanted=None)

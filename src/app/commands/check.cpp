@@ -5,6 +5,7 @@
 #include "deck/campaign_check.hpp"
 #include "deck/estimates.hpp"
 #include "engine/certificate_cache.hpp"
+#include "scenario/reader/swept_keys.hpp"
 #include "store/quantity.hpp"
 
 #include <algorithm>
@@ -64,7 +65,8 @@ Json describe(deck::Finding const& finding) {
             {"advice", finding.advice}};
 }
 
-Json describe(prepare::PreparedCase const& prepared, int number, Speed const& speed) {
+Json describe(prepare::PreparedCase const& prepared, int number, std::string const& label,
+              Speed const& speed) {
     Json findings = Json::array();
     for (deck::Finding const& finding : deck::check(prepared)) findings.push_back(describe(finding));
     int const packings = deck::expected_packings(prepared.scenario);
@@ -72,6 +74,7 @@ Json describe(prepare::PreparedCase const& prepared, int number, Speed const& sp
     scenario::Grains const& grains = prepared.scenario.grains;
     double const density = mean_density(prepared.scenario);
     return {{"case", number},
+            {"label", label},
             {"throw_number", prepared.throw_number},
             {"grain_density_kg_per_m3", density},
             {"bulk_density_kg_per_m3", scenario::settled_solid_fraction * density},
@@ -103,7 +106,8 @@ void print_json(scenario::Campaign const& campaign, deck::CampaignCheck const& f
     prepare::CasePreparer preparer;
     int number = 0;
     for (scenario::Scenario const& scenario : campaign.cases) {
-        Json const one = describe(preparer.prepare(scenario), ++number, speed);
+        Json const one =
+            describe(preparer.prepare(scenario), ++number, swept_label(scenario, campaign.swept), speed);
         fmt::print("{}\n{}", number == 1 ? "" : ",", one.dump(2));
     }
     fmt::print("\n  ],\n{}\n", end.substr(end.find('\n') + 1));
@@ -177,8 +181,8 @@ void print_text(scenario::Campaign const& campaign, deck::CampaignCheck const& f
     print_densities(campaign);
     print_feeds(campaign);
     print_moduli(found);
-    fmt::print("{} cases, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
-               found.cases, found.packings, found.cycles / found.packings);
+    fmt::print("{} case{}, about {:.0f} packings (as many as half_width needs) of {:.0f} cycles\n",
+               found.cases, found.cases == 1 ? "" : "s", found.packings, found.cycles / found.packings);
     fmt::print("disk: {:.2g} MB, at most {:.2g} MB; memory of one engine: {:.2g} MB\n", found.bytes / 1e6,
                found.largest_bytes / 1e6, found.engine_memory / 1e6);
     fmt::print("expected cost: {:.2g} core-hours, at {:.2g} grain-steps per CPU second ({})",
