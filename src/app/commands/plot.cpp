@@ -64,6 +64,16 @@ double read_width(std::string const& text) {
         "--width {}: write one-column, two-columns, or a width from 50 mm to 1 m such as \"90 mm\"", text));
 }
 
+/// @throws core::InputError when there is no such file
+void check_style(std::string const& path) {
+    try {
+        core::read_given_file(path);
+    } catch (core::MissingError const& error) {
+        throw core::InputError(
+            fmt::format("--style {}: {}; write the path of a style sheet of matplotlib", path, error.what()));
+    }
+}
+
 /// What the options say of files and sizes, for figures.py.
 std::vector<std::string> words_for_print(PlotArguments const& options) {
     std::vector<std::string> words;
@@ -71,7 +81,7 @@ std::vector<std::string> words_for_print(PlotArguments const& options) {
     if (!options.width.empty())
         words.insert(words.end(), {"--width", fmt::format("{}", read_width(options.width))});
     if (!options.style.empty()) {
-        core::read_given_file(options.style);  // says now if there is none
+        check_style(options.style);
         words.insert(words.end(), {"--style", fs::absolute(options.style).lexically_normal().string()});
     }
     return words;
