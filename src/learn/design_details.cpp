@@ -1,5 +1,6 @@
 #include "learn/design_details.hpp"
 
+#include "core/text.hpp"
 #include "learn/driven_design.hpp"
 #include "learn/makers_rule.hpp"
 
@@ -92,14 +93,14 @@ std::string budget_text(RiskDesign const& d) {
     if (d.untested || least->budget.empty()) return "";
     constexpr char const* line = "{:<48} {:>9} {:>11} {:>14}\n";
     std::string text =
-        fmt::format("\nWhat to measure first, by {} (mass flow +- {:.3g} t/h, one standard deviation):\n",
-                    least->model, tonnes_per_hour * least->flow_sd);
+        fmt::format("\nWhat to measure first, by {} (mass flow +- {} t/h, one standard deviation):\n",
+                    least->model, core::plain_number(tonnes_per_hour * least->flow_sd, 3));
     text += fmt::format(fmt::runtime(line), "", "alone", "share of", "sure if known");
     text += fmt::format(fmt::runtime(line), "", "+- t/h", "variance", "+ t/h");
     for (BudgetShare const& one : least->budget)
-        text += fmt::format(fmt::runtime(line), one.source, fmt::format("{:.2g}", tonnes_per_hour * one.sd),
+        text += fmt::format(fmt::runtime(line), one.source, core::plain_number(tonnes_per_hour * one.sd, 2),
                             fmt::format("{:.0f} %", 100 * share_of(one, *least)),
-                            fmt::format("{:.2g}", tonnes_per_hour * one.gained));
+                            core::plain_number(tonnes_per_hour * one.gained, 2));
     return text;
 }
 

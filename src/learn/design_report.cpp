@@ -1,5 +1,6 @@
 #include "learn/design_report.hpp"
 
+#include "core/text.hpp"
 #include "learn/design_details.hpp"
 #include "learn/driven_design.hpp"
 #include "learn/machine_keys.hpp"
@@ -70,6 +71,12 @@ std::string frictions(KnownFriction const& known) {
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// "frictions of 0.25 to 0.35", or "a friction of 0.3" where it is known exactly.
+std::string range_of_friction(KnownFriction const& known) {
+    std::string const low = fmt::format("{:.3g}", known.low), high = fmt::format("{:.3g}", known.high);
+    return low == high ? "a friction of " + low : fmt::format("frictions of {} to {}", low, high);
+}
+
 std::string machine_text(DesignTask const& t, RiskDesign const& d) {
     theory::Drive const& m = d.drive;
     std::string text = fmt::format("stroke            {:.4g} mm (amplitude {:.4g} mm)\n", 2e3 * m.amplitude,
@@ -80,12 +87,11 @@ std::string machine_text(DesignTask const& t, RiskDesign const& d) {
     text += fmt::format("layer depth       {:.4g} mm\n", 1e3 * d.depth);
     text +=
         fmt::format("throw number      {:.3g}\nmachine number    {:.3g}\n", d.throw_number, d.machine_number);
-    text += fmt::format(
-        "landing speed     {:.3g} m/s at most, for frictions of {:.3g} to {:.3g} (point mass, mode {})\n",
-        d.landing_speed, t.friction.low, t.friction.high, d.mode);
+    text += fmt::format("landing speed     {:.3g} m/s at most, for {} (point mass, mode {})\n",
+                        d.landing_speed, range_of_friction(t.friction), d.mode);
     auto const by_atlas = atlas_power(t, d);
-    text += fmt::format("power             {:.3g} W{} given to the material (point mass){}\n", power(t, d),
-                        t.length > 0 ? "" : " per metre of trough",
+    text += fmt::format("power             {} W{} given to the material (point mass){}\n",
+                        core::plain_number(power(t, d), 3), t.length > 0 ? "" : " per metre of trough",
                         by_atlas ? fmt::format("; {:.3g} +- {:.2g} W by the atlas of layers", by_atlas->value,
                                                by_atlas->half_width)
                                  : "");
@@ -116,18 +122,18 @@ int troughs_needed(DesignTask const& t, RiskDesign const& d) {
 /// What the fastest machine carries at the confidence, as a sentence.
 std::string most_that_is_carried(DesignTask const& t, RiskDesign const& d) {
     double const flow = t.bulk_density * t.width * t.depth.high * d.sure_speed;
-    return fmt::format("The fastest one carries {:.3g} t/h so surely, in a layer of {:.4g} mm.",
-                       tonnes_per_hour * flow, 1e3 * t.depth.high);
+    return fmt::format("The fastest one carries {} t/h so surely, in a layer of {:.4g} mm.",
+                       core::plain_number(tonnes_per_hour * flow, 3), 1e3 * t.depth.high);
 }
 
 /// A row of the table of models.
 std::string row_of(ModelForecast const& f, bool is_known) {
     auto const known = [&](std::string const& words) { return is_known ? words : "not known"; };
-    return fmt::format(
-        "{:<24} {:>9.3g} {:>9} {:>10.3g} {:>17} {:>12}\n", f.model, f.median_speed,
-        known(fmt::format("{:.3g}", f.sure_speed)), tonnes_per_hour * f.median_flow,
-        known(fmt::format("{:.3g} to {:.3g}", tonnes_per_hour * f.low_flow, tonnes_per_hour * f.high_flow)),
-        known(fmt::format("{:.1f} %", 100 * f.probability)));
+    auto const flow = [](double value) { return core::plain_number(tonnes_per_hour * value, 3); };
+    return fmt::format("{:<24} {:>9.3g} {:>9} {:>10} {:>17} {:>12}\n", f.model, f.median_speed,
+                       known(fmt::format("{:.3g}", f.sure_speed)), flow(f.median_flow),
+                       known(fmt::format("{} to {}", flow(f.low_flow), flow(f.high_flow))),
+                       known(fmt::format("{:.1f} %", 100 * f.probability)));
 }
 
 /// The machines for the speeds of the drive that can be had; empty when any can.
@@ -206,19 +212,19 @@ std::string name_of(Objective objective) {
 }
 
 std::string first_sentence(DesignTask const& t, RiskDesign const& d) {
-    double const wanted = tonnes_per_hour * t.mass_flow;
+    std::string const wanted = core::plain_number(tonnes_per_hour * t.mass_flow, 4);
     if (d.untested) {
         return fmt::format(
-            "Not tested: no probability is known that this trough carries {:.4g} t/h with a layer of {:.3g} "
+            "Not tested: no probability is known that this trough carries {} t/h with a layer of {:.3g} "
             "mm, "
             "because {}.",
             wanted, 1e3 * d.depth, *d.untested);
     }
     if (d.feasible)
-        return fmt::format("This trough carries {:.4g} t/h with a probability of {:.4g} % or more.", wanted,
+        return fmt::format("This trough carries {} t/h with a probability of {:.4g} % or more.", wanted,
                            100 * t.confidence);
     std::string text =
-        fmt::format("No machine within the limits carries {:.4g} t/h with a probability of {:.4g} %", wanted,
+        fmt::format("No machine within the limits carries {} t/h with a probability of {:.4g} %", wanted,
                     100 * t.confidence);
     // Beyond this, a probability says no more than "never".
     if (d.probability >= 0.001)
@@ -241,7 +247,7 @@ std::string design_text(DesignTask const& t, RiskDesign const& d) {
     text += fmt::format("\n{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "model", "speed", sure, "mass flow",
                         "95 % interval", "probability");
     text += fmt::format("{:<24} {:>9} {:>9} {:>10} {:>17} {:>12}\n", "", "m/s", "m/s", "t/h", "t/h",
-                        fmt::format("of {:.4g} t/h", tonnes_per_hour * t.mass_flow));
+                        fmt::format("of {} t/h", core::plain_number(tonnes_per_hour * t.mass_flow, 4)));
     for (ModelForecast const& f : d.forecasts) text += row_of(f, !d.untested);
     if (!d.beside.empty()) text += "beside it, for comparison:\n";
     for (ModelForecast const& f : d.beside) text += row_of(f, !f.untested);
