@@ -3,8 +3,10 @@
 
 #include "atlas_module.hpp"
 #include "theory/batch.hpp"
+#include "theory/map.hpp"
 #include "theory/quantities.hpp"
 #include "theory/tested_range.hpp"
+#include "theory/unusual.hpp"
 
 #include <cmath>
 #include <limits>
@@ -12,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <pybind11/numpy.h>
@@ -166,10 +169,71 @@ std::map<std::string, std::pair<std::string, double>> columns() {
     return all;
 }
 
+/// The sentences about numbers that hardly any machine has; NaN where a number is not known.
+std::vector<std::string> unusual_of(double frequency, double amplitude, double machine_number,
+                                    double friction, double vibration_angle, bool is_stroke, bool is_turns) {
+    auto const known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional(value); };
+    MachineNumbers numbers{known(frequency), known(amplitude), known(machine_number), known(friction),
+                           known(vibration_angle)};
+    numbers.is_stroke = is_stroke;
+    numbers.is_turns = is_turns;
+    return unusual_numbers(numbers);
+}
+
+/// @param axis  name of an input, first and last value, and their number
+MapAxis axis_of(std::tuple<std::string, double, double, int> const& axis) {
+    auto const& [name, from, to, count] = axis;
+    return {input_of(name), from, to, count};
+}
+
+using BoundaryRow = std::tuple<double, double, double, double, std::string, std::string>;
+
+/// The arrays of points have the shape (y, x).
+py::dict solve_map_of(Constants const& fixed, std::tuple<std::string, double, double, int> const& x,
+                      std::tuple<std::string, double, double, int> const& y, int jobs, int starts,
+                      bool boundaries, std::optional<Constants> const& rolling, bool accept_untested) {
+    MapOptions options{.jobs = jobs, .starts = starts, .boundaries = boundaries, .rolling = law_of(rolling)};
+    Inputs const others = one_motion(fixed);
+    std::optional<Map> solved;
+    {
+        py::gil_scoped_release const others_may_run;
+        solved = solve_map(others, axis_of(x), axis_of(y), options);
+        if (options.rolling && !accept_untested) withhold_untested(others, *solved);
+    }
+    std::size_t const count = solved->points.size();
+    py::array_t<double> efficiency(count), half_width(count);
+    py::array_t<ModeCode> mode(count);
+    py::array_t<int> period(count);
+    py::array_t<bool> converged(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        MapPoint const& point = solved->points[i];
+        efficiency.mutable_data()[i] = point.velocity_efficiency;
+        half_width.mutable_data()[i] = point.half_width;
+        mode.mutable_data()[i] = point.mode;
+        period.mutable_data()[i] = point.period_cycles;
+        converged.mutable_data()[i] = point.outcome == Outcome::periodic;
+    }
+    std::vector<BoundaryRow> rows;
+    for (BoundaryPiece const& one : solved->boundaries)
+        rows.emplace_back(one.x0, one.y0, one.x1, one.y1, to_string(one.mode_a), to_string(one.mode_b));
+    py::dict answer;
+    answer["velocity_efficiency"] = efficiency;
+    answer["half_width"] = half_width;
+    answer["mode"] = mode;
+    answer["period_cycles"] = period;
+    answer["converged"] = converged;
+    answer["motions"] = motion_tuples(solved->motions);
+    answer["boundaries"] = rows;
+    answer["cpu_seconds"] = solved->cpu_seconds_per_solution * static_cast<double>(count);
+    return answer;
+}
+
 PYBIND11_MODULE(_vibrotrough_theory, module) {
     module.def("columns", &columns);
     module.def("solve", &solve_columns);
     module.def("mode", py::overload_cast<ModeCode>(&to_string));
+    module.def("unusual", &unusual_of);
+    module.def("map", &solve_map_of);
     module.def("trace", &trace_columns_of);
     module.def("quantities", &quantities_of);
     atlas::add_to(module);

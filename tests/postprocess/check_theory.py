@@ -11,8 +11,10 @@ import subprocess
 import sys
 import textwrap
 import time
+import warnings
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 PROGRAM, FOLDER = sys.argv[1], Path(sys.argv[2])
@@ -191,6 +193,71 @@ def check_atlas_of_unknown_layers():
     print(f"atlas: {1e6 * many.cpu_seconds / 300:.0f} microseconds a layer, with what {unknown[1:]} may change")
 
 
+def check_map_against_program():
+    """All arrays of a map and its lines are those that the program writes, to the last bit."""
+    found = theory.map(x=("throw_number", 0.5, 3, 26), y=("vibration_angle_deg", 15, 45, 7), friction=0.3, starts=8, restitution=0.2)
+    plain = theory.map(x=("throw_number", 0.5, 3, 26), y=("vibration_angle_deg", 15, 45, 7), friction=0.3)
+    path = FOLDER / "module_map.h5"
+    axes = ("--x", "throw_number=0.5:3:26", "--y", "vibration_angle_deg=15:45:7", "--friction", 0.3)
+    for map_, options in ((found, ("--starts", 8, "--restitution", 0.2)), (plain, ())):
+        program("map", *axes, *options, "--output", path)
+        with h5py.File(path) as file:
+            for name in ("x", "y", "velocity_efficiency", "half_width", "period_cycles", "converged"):
+                if name in file:
+                    np.testing.assert_array_equal(getattr(map_, name), file[name][:], err_msg=name)
+            assert map_.velocity_efficiency.shape == (7, 26)
+            names = file["modes"].asstr()[:]
+            lines = file["boundaries"]
+            for k, name in enumerate(("x0", "y0", "x1", "y1")):
+                np.testing.assert_array_equal(map_.boundaries.reshape(-1, 4)[:, k], lines[name][:], err_msg=name)
+            shown = np.array([*names])[np.maximum(file["mode"][:], 0)]
+            settled = map_.converged & (map_.mode != "")
+            np.testing.assert_array_equal(map_.mode[settled], shown[settled])
+    assert plain.boundaries.shape[1:] == (2, 2) and len(plain.boundaries) == len(plain.boundary_modes) > 0
+    assert plain.motions is None and found.motions.shape == (7, 26)
+    # In other units of the axes: 2 r in mm, turns per minute.
+    turned = theory.map(x=("rpm", 600, 900, 4), y=("stroke_mm", 8, 12, 3), vibration_angle_deg=30, friction=0.3)
+    one = theory.solve(rpm=turned.x, stroke_mm=turned.y[:, None], vibration_angle_deg=30, friction=0.3)
+    np.testing.assert_allclose(turned.velocity_efficiency, one.velocity_efficiency, rtol=1e-12)
+    inside = (turned.boundaries[..., 0] >= 600) & (turned.boundaries[..., 0] <= 900)
+    assert inside.all(), turned.boundaries
+    rolling = theory.map(x=("throw_number", 1, 4, 7), y=("friction", 0.2, 0.4, 3), tan_vibration_angle=0.5, rolling_layer=True)
+    assert np.isnan(rolling.velocity_efficiency).any() and not np.isnan(rolling.velocity_efficiency).all(), "untested points are withheld"
+    alone = theory.map(x=("throw_number", 0.5, 3, 26), y=("vibration_angle_deg", 15, 45, 7), friction=0.3, boundaries=False)
+    assert len(alone.boundaries) == 0 and np.array_equal(alone.velocity_efficiency, plain.velocity_efficiency)
+    x, y = ("throw_number", 1, 2, 3), ("friction", 0.2, 0.4, 3)
+    expect_error(TypeError, "did you mean friction?", theory.map, x=x, y=("mu", 0.2, 0.4, 3), tan_vibration_angle=0.5)
+    expect_error(TypeError, "friction is given twice", theory.map, x=x, y=y, tan_vibration_angle=0.5, friction=0.3)
+    expect_error(TypeError, "throw_number is given twice", theory.map, x=x, y=x, tan_vibration_angle=0.5, friction=0.3)
+    expect_error(ValueError, "outside its range", theory.map, x=("throw_number", -1, 2, 3), y=y, tan_vibration_angle=0.5)
+    expect_error(ValueError, "vibration_angle_deg", theory.map, x=x, y=y)
+
+
+def check_unusual_numbers():
+    """What hardly any machine has is told with the slip that explains it, as the program does; also of one number among many."""
+    machine = {"rpm": 960, "stroke_mm": 9.7, "vibration_angle_deg": 30, "friction": 0.3}
+    slips = [({"rpm": [960, 16]}, "were 16 Hz meant, not rpm?"), ({"stroke_mm": 9700}, "a stroke of 9700 mm is unusual"),
+             ({"friction": np.array([0.3, 30])}, "an angle of friction"), ({"vibration_angle_deg": 0.52}, "were radians meant")]  # fmt: skip
+    for changes, words in slips:
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            theory.solve(**machine | changes)
+        assert any(words in str(one.message) for one in told), (changes, [str(one.message) for one in told])
+        assert told[0].filename == __file__, "the warning points to the line of the user"
+    numbers = {"frequency_hz": 960, "amplitude_mm": 4, "vibration_angle_deg": 30, "friction": 0.3}
+    for call in (theory.trace, theory.quantities):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            call(**numbers)
+        assert "were 960 turns per minute meant" in str(told[0].message) and told[0].filename == __file__, told
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        theory.solve(**machine)
+        # The machine number of each motion, not that of the fastest with the widest.
+        frequency = np.linspace(5, 60, 100)
+        theory.solve(**numbers | {"frequency_hz": frequency, "amplitude_mm": 1000 * 4 * 9.81 / (2 * np.pi * frequency) ** 2})
+
+
 def check_wrong_inputs():
     expect_error(ValueError, "give exactly one of vibration_angle_deg", theory.solve, throw_number=2, friction=0.3)
     late = np.where(np.arange(70000) == 69999, -1.0, 2.0)
@@ -228,6 +295,8 @@ check_one_motion()
 check_rolling_layers()
 check_atlas_against_predict()
 check_atlas_of_unknown_layers()
+check_map_against_program()
+check_unusual_numbers()
 check_wrong_inputs()
 check_speed()
 check_examples()
