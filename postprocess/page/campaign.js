@@ -1,7 +1,7 @@
 // The cases of a campaign that the program put into the page, and the machine as a campaign file.
 
 /// The names of settings in the table of cases.
-const caseColumns = { stroke_mm: "stroke_mm", rpm: "turns_per_minute", vibration_angle_deg: "vibration_angle_deg", inclination_deg: "inclination_deg", friction: "friction" };
+const caseColumns = { stroke_mm: "stroke_mm", rpm: "turns_per_minute", vibration_angle_deg: "vibration_angle_deg", inclination_deg: "inclination_deg", depth_mm: "depth_mm", friction: "friction" };
 
 function caseValue(one, name) { return one[caseColumns[name]]; }
 

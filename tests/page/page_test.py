@@ -358,6 +358,23 @@ class PageTest(unittest.TestCase):
             wide, inner = self.browser.run("[document.documentElement.scrollWidth, innerWidth]")
             self.assertLessEqual(wide, inner)
 
+    def test_what_matters_is_always_in_sight(self):
+        """Also on a telephone and at the end of the page; and the part that stays leaves most of the screen to the rest."""
+        always = ("speed", "speed-band", "flow", "flow-band", "throw-number", "machine-number", "trust-word", "sentence", "mode", "landing-speed", "power", "depth-in-grains")
+        for language in ("en", "de"):
+            self.browser.run(f"(document.getElementById('language').value = '{language}', document.getElementById('language').dispatchEvent(new Event('change')))")
+            for width, height, most in ((360, 740, 0.34), (1300, 900, 0.2)):
+                self.browser.size(width, height)
+                self.drawn()
+                self.browser.run("scrollTo(0, document.documentElement.scrollHeight)")
+                self.drawn()
+                boxes = self.browser.run(f"""{json.dumps(always)}.map((id) => {{ const e = document.getElementById(id), b = e.getBoundingClientRect();
+                    return [id, e.textContent.trim() !== "" && b.height > 0 && b.top >= 0 && b.bottom <= innerHeight && b.left >= 0 && b.right <= innerWidth
+                      && e.contains(document.elementFromPoint(b.left + b.width / 2, b.top + b.height / 2))]; }})""")
+                self.assertEqual([one for one, is_seen in boxes if not is_seen], [], (language, width))
+                share = self.browser.run("document.getElementById('summary').getBoundingClientRect().height / innerHeight")
+                self.assertLess(share, most, (language, width))
+
 
 def main():
     missing = [one for one in NEEDS[NAME] if not shutil.which(one)]

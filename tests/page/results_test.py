@@ -106,5 +106,10 @@ class CampaignTest(unittest.TestCase):
             for column in ("conveying_speed_m_per_s", "mass_flow_t_per_h"):
                 shown = f"{row[column]:.3g}"
                 self.assertIn(shown, table)
+        heads = browser.run("[...document.querySelectorAll('#campaign-table thead th')].map((e) => e.textContent)")
+        self.assertIn("Depth of the layer [mm]", heads)
+        second = browser.run("[...document.querySelectorAll('#campaign-table tbody tr:nth-child(2) > *')].map((e) => e.textContent)")
+        depth = second[heads.index("Depth of the layer [mm]")]
+        self.assertAlmostEqual(float(browser.run("document.querySelector('#depth_mm').value")), float(depth), places=1)
         self.assertAlmostEqual(float(browser.text("throw-number")), rows[1]["throw_number"], places=2)
         self.assertEqual(browser.console, [])

@@ -13,6 +13,7 @@
 #include "core/own_program.hpp"
 #include "core/text.hpp"
 #include "learn/design_file.hpp"
+#include "prepare/prepared_case.hpp"
 
 #include <array>
 #include <filesystem>
@@ -79,6 +80,7 @@ Json cases_of(std::string const& folder) {
         compare::compared_cases(plan, bundle ? bundle->activity : campaign::activity_in(plan.folder));
     tell_left_aside(plan, compared.cases);
     Json cases = Json::array();
+    prepare::CasePreparer preparer;
     for (compare::Row const& row : compared.rows) {
         Json const all = compare::to_object(row, compared.columns);
         Json one;
@@ -86,6 +88,8 @@ Json cases_of(std::string const& folder) {
         one["label"] = planned == plan.cases.end() ? "" : planned->label;
         for (std::string_view const column : page_columns)
             if (all.contains(column)) one[std::string(column)] = all.at(std::string(column));
+        if (planned != plan.cases.end())
+            one["depth_mm"] = 1e3 * preparer.prepare(planned->scenario()).layer_height;
         cases.push_back(std::move(one));
     }
     return {{"name", name_of(folder)}, {"cases", cases}};
