@@ -19,8 +19,10 @@ std::string in_words(double value) {
 std::optional<UnusualNumber> unusual_turns(double turns) {
     bool const is_few = turns < 60 * smallest_usual_frequency;
     if (!is_few && turns <= 60 * largest_usual_frequency) return {};
-    std::string const slip =
-        is_few ? "were " + in_words(turns) + " Hz meant, not rpm?" : "is there a digit too many?";
+    std::string const slip = !is_few ? "is there a digit too many?"
+                             : turns >= smallest_usual_frequency
+                                 ? "were " + in_words(turns) + " Hz meant, not rpm?"
+                                 : "";
     double const limit = 60 * (is_few ? smallest_usual_frequency : largest_usual_frequency);
     return UnusualNumber{UnusualQuantity::frequency,
                          "speed of the drive",
@@ -36,8 +38,11 @@ std::optional<UnusualNumber> unusual_turns(double turns) {
 std::optional<UnusualNumber> unusual_frequency(double frequency) {
     bool const is_slow = frequency < smallest_usual_frequency;
     if (!is_slow && frequency <= largest_usual_frequency) return {};
-    std::string const slip = is_slow ? "were " + in_words(60 * frequency) + " Hz meant, not rpm?"
-                                     : "were " + in_words(frequency) + " turns per minute meant (rpm)?";
+    std::string slip;
+    if (is_slow && 60 * frequency >= smallest_usual_frequency)
+        slip = "were " + in_words(60 * frequency) + " Hz meant, not rpm?";
+    else if (!is_slow && frequency <= 60 * largest_usual_frequency)
+        slip = "were " + in_words(frequency) + " turns per minute meant (rpm)?";
     return UnusualNumber{UnusualQuantity::frequency,
                          "frequency",
                          frequency,
@@ -93,7 +98,7 @@ std::optional<UnusualNumber> unusual_drive(MachineNumbers const& n) {
 std::optional<UnusualNumber> unusual_angle(MachineNumbers const& n) {
     if (!n.vibration_angle || *n.vibration_angle <= 0 || *n.vibration_angle >= smallest_usual_angle)
         return {};
-    double const degrees = *n.vibration_angle * radian;
+    double const degrees = *n.vibration_angle * radian, in_radians = degrees * radian;
     return UnusualNumber{UnusualQuantity::vibration_angle,
                          "vibration angle",
                          degrees,
@@ -102,7 +107,7 @@ std::optional<UnusualNumber> unusual_angle(MachineNumbers const& n) {
                          "deg",
                          "a vibration angle of " + in_words(degrees) + " degrees is unusual",
                          "20 to 45 are usual",
-                         "were radians meant (" + in_words(degrees * radian) + " degrees)?"};
+                         in_radians < 1 ? "" : "were radians meant (" + in_words(in_radians) + " degrees)?"};
 }
 
 std::optional<UnusualNumber> unusual_friction(MachineNumbers const& n) {
@@ -124,15 +129,17 @@ std::optional<UnusualNumber> unusual_density(UnusualQuantity quantity, std::opti
     if (!density || *density >= limit) return {};
     std::string const name = is_bulk ? "bulk density" : "density of the grains";
     std::string const value = in_words(*density);
-    return UnusualNumber{quantity,
-                         name,
-                         *density,
-                         limit,
-                         true,
-                         "kg/m3",
-                         "a " + name + " of " + value + " kg/m3 is unusual",
-                         is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
-                         "were " + value + " t/m3 meant (" + in_words(1000 * *density) + " kg/m3)?"};
+    double const in_tonnes = 1000 * *density;
+    return UnusualNumber{
+        quantity,
+        name,
+        *density,
+        limit,
+        true,
+        "kg/m3",
+        "a " + name + " of " + value + " kg/m3 is unusual",
+        is_bulk ? "most layers have 100 to 3000" : "most grains have 500 to 8000",
+        in_tonnes < limit ? "" : "were " + value + " t/m3 meant (" + in_words(in_tonnes) + " kg/m3)?"};
 }
 
 }  // namespace

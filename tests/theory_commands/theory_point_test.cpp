@@ -98,6 +98,21 @@ TEST(TheoryPoint, AllCommandsWarnOfUnusualNumbers) {
     EXPECT_EQ(usual.text.find("warning"), std::string::npos) << usual.text;
 }
 
+// A slip is named only where it leads to a usual number.
+TEST(TheoryPoint, ASlipThatExplainsNothingIsNotNamed) {
+    for (char const* const options :
+         {"--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '1e-9 deg'",
+          "--rpm 1e-9 --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
+          "--frequency '1e-9 Hz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
+          "--frequency '960 kHz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
+          "--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg' --bulk-density '1e-9 "
+          "kg/m3'"}) {
+        std::string const text = run_program(std::string("theory point ") + options).text;
+        EXPECT_NE(text.find("unusual"), std::string::npos) << options << "\n" << text;
+        EXPECT_EQ(text.find("meant"), std::string::npos) << options << "\n" << text;
+    }
+}
+
 // Errors of `design` speak of what was typed, in its unit, and name the slip.
 TEST(Design, AnswersInTheUnitThatWasTyped) {
     auto const refused = [](std::string const& options, std::string const& words) {
