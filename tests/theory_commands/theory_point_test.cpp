@@ -102,7 +102,6 @@ TEST(TheoryPoint, AllCommandsWarnOfUnusualNumbers) {
 TEST(TheoryPoint, ASlipThatExplainsNothingIsNotNamed) {
     for (char const* const options :
          {"--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '1e-9 deg'",
-          "--rpm 1e-9 --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
           "--frequency '1e-9 Hz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
           "--frequency '960 kHz' --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg'",
           "--rpm 960 --stroke '9.7 mm' --friction 0.3 --vibration-angle '30 deg' --bulk-density '1e-9 "
