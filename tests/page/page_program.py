@@ -11,8 +11,8 @@ WORK.mkdir(parents=True, exist_ok=True)
 os.environ["VIBROTROUGH_PROGRAM"] = PROGRAM
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "end_to_end"))  # for trough_program
 NEEDS = {"chromium": ["chromium", "chromedriver"], "firefox": ["firefox-esr"]}
-ANSWERED = "document.documentElement.dataset.answered"
-READY = "document.documentElement.dataset.atlas"  # the atlas follows after the first answer
+ANSWERED = "document.documentElement?.dataset.answered"
+READY = "document.documentElement?.dataset.atlas"  # the atlas follows after the first answer
 
 
 def program(*words, **options):
