@@ -45,6 +45,7 @@ std::vector<Outside> of_another_kind(prepare::PreparedCase const& p) {
     return all;
 }
 
+/// The numbers of a layer of the atlas' kind, in the order of inputs().
 Place numbers_of(prepare::PreparedCase const& p) {
     scenario::Scenario const& s = p.scenario;
     scenario::Trough const& t = s.trough;
