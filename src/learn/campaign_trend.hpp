@@ -36,8 +36,8 @@ class CampaignTrend {
     atlas::SurfacePrior prior() const;
     /// Points below which a surface is not trusted, however sure of itself it is. Ten for each input where
     /// little is known of the function (J.L. Loeppky, J. Sacks and W.J. Welch, Technometrics 51 (2009)
-    /// 366-376); five with the prior of the atlas: surfaces of 10 to 20 points over two inputs held 349 of 360
-    /// further simulations (validation/decisions).
+    /// 366-376); five with the prior of the atlas: surfaces of 10 to 20 points over two inputs held 349 of
+    /// 360 further simulations (validation/decisions).
     int least_points() const { return (is_atlas_ ? 5 : 10) * static_cast<int>(inputs_.size()); }
 
     std::vector<atlas::SurfaceInput> const& inputs() const { return inputs_; }  ///< of the surface
