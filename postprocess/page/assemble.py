@@ -7,6 +7,7 @@ BUILT  folder of theory_page.js and theory_page.wasm, in which page.html is writ
 """
 
 import base64
+import gzip
 import pathlib
 import re
 import sys
@@ -19,7 +20,7 @@ LARGEST = 3_000_000  # bytes
 def assembled(parts: pathlib.Path, built: pathlib.Path, version: str) -> str:
     texts = {"page.css": (parts / "page.css").read_text(encoding="utf-8").strip(),
              "theory_page.js": (built / "theory_page.js").read_text(encoding="utf-8").strip(),
-             "theory_page.wasm": base64.b64encode((built / "theory_page.wasm").read_bytes()).decode("ascii"),
+             "theory_page.wasm": base64.b64encode(gzip.compress((built / "theory_page.wasm").read_bytes(), mtime=0)).decode("ascii"),
              "scripts": "\n".join((parts / f"{name}.js").read_text(encoding="utf-8").strip() for name in SCRIPTS),
              "version": version}
     return re.sub(r"<!--=(\S+?)-->", lambda place: texts[place[1]], (parts / "page.html").read_text(encoding="utf-8"))

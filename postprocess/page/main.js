@@ -137,6 +137,7 @@ function listen() {
 }
 
 async function start() {
+  const theory = openTheory();
   page.language = (navigator.language || "en").startsWith("de") ? "de" : "en";
   readDesigns(location.hash === "");
   readLink(location.hash);
@@ -145,10 +146,13 @@ async function start() {
   listen();
   translate();
   try {
-    page.theory = await openTheory();
+    page.theory = await theory;
   } catch (error) {
     showNoAnswer(say("loading_failed", error.message));
     return;
+  } finally {
+    // Hidden until now: a page without its numbers would be laid out for nothing.
+    document.querySelector("main").hidden = false;
   }
   motion.playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   showMotionLegend();

@@ -87,11 +87,18 @@ class Theory {
   }
 }
 
-/// Ready when the WebAssembly within this file is compiled.
-function openTheory() {
+/// Ready when the WebAssembly within this file is unpacked and compiled, which happens beside the rest of the page.
+async function openTheory() {
   const packed = atob(document.getElementById("theory").textContent.trim());
   // A loop: Uint8Array.from() takes ten times as long.
-  const wasmBinary = new Uint8Array(packed.length);
-  for (let i = 0; i < packed.length; ++i) wasmBinary[i] = packed.charCodeAt(i);
-  return makeTheory({ wasmBinary }).then((module) => new Theory(module));
+  const bytes = new Uint8Array(packed.length);
+  for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
+  const unpacked = new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": "application/wasm" } });
+  return new Promise((resolve, reject) => {
+    const instantiateWasm = (imports, done) => {
+      WebAssembly.instantiateStreaming(unpacked, imports).then(({ instance, module }) => done(instance, module)).catch(reject);
+      return {};
+    };
+    makeTheory({ instantiateWasm }).then((module) => resolve(new Theory(module)), reject);
+  });
 }

@@ -102,8 +102,10 @@ class Browser:
         elif event.get("method") == "log.entryAdded":
             self.console.append(f"{event['params']['level']}: {event['params']['text']}")
 
-    def open(self, page: pathlib.Path, part: str = "") -> None:
-        self.call("browsingContext.navigate", context=self.context, url=page.resolve().as_uri() + part, wait="complete")
+    def open(self, page: pathlib.Path | str, part: str = "") -> None:
+        """Opens a file, or an address that is given as text."""
+        address = page if isinstance(page, str) else page.resolve().as_uri() + part
+        self.call("browsingContext.navigate", context=self.context, url=address, wait="complete")
         self.call("browsingContext.activate", context=self.context)
 
     def size(self, width: int, height: int) -> None:

@@ -7,6 +7,7 @@ import json
 import random
 import re
 import shutil
+import statistics
 import sys
 import unittest
 
@@ -207,8 +208,13 @@ class PageTest(unittest.TestCase):
         self.assertEqual(left, [])
 
     def test_first_answer_and_redraws(self):
-        b = self.browser
-        first, ready = float(b.run(ANSWERED)), float(b.run(READY))
+        b, times = self.browser, []
+        for i in range(7):
+            b.open("about:blank")
+            b.open(self.page, f"?opened={i}")
+            b.wait(READY)
+            times.append((float(b.run(ANSWERED)), float(b.run(READY))))
+        first, ready = (statistics.median(column) for column in zip(*times, strict=True))
         frames = b.run("""new Promise((done) => {
             const slider = document.getElementById('slide-stroke_mm'), times = [], worked = [], drawn = () => Number(document.documentElement.dataset.drawn), before = drawn(); let k = 0;
             const step = (now) => {
@@ -217,9 +223,15 @@ class PageTest(unittest.TestCase):
               if (k < 90) requestAnimationFrame(step); else done({drawn: drawn() - before, seconds: (times[89] - times[9]) / 1000, worked: worked.slice(9).sort((a, b) => a - b)});
             }; requestAnimationFrame(step); })""")
         per_second, typical = 80 / frames["seconds"], frames["worked"][40]
-        print(f"{NAME}: first answer {first:.0f} ms after opening, with the atlas {ready:.0f} ms, {per_second:.0f} redraws a second while a slider moves, {typical:.1f} ms of work in each", flush=True)
+        print(f"{NAME}: first answer {first:.0f} ms after opening in an empty tab (median of seven), with the atlas {ready:.0f} ms, {per_second:.0f} redraws a second while a slider moves, {typical:.1f} ms of work in each", flush=True)
         # Times are printed and not judged, because other tests keep the cores busy; that no redraw is left out is counted.
         self.assertGreaterEqual(frames["drawn"], 88)
+
+    def test_a_page_whose_theory_is_damaged_says_so(self):
+        damaged = WORK / "damaged.html"
+        damaged.write_text(re.sub(r'(id="theory">.{1000})[^<]*', r"\1", self.page.read_text(encoding="utf-8")), encoding="utf-8")
+        self.browser.open(damaged)
+        self.browser.wait("document.getElementById('reason').textContent.includes('the file is damaged')")
 
     def test_two_machines_and_the_link(self):
         b = self.browser
@@ -381,7 +393,7 @@ def main():
     if missing:
         print(f"SKIPPED: {' and '.join(missing)} not installed")
         sys.exit(77)
-    unittest.main(argv=[sys.argv[0], "--verbose"])
+    unittest.main(argv=[sys.argv[0], "--verbose", *sys.argv[4:]])
 
 
 if __name__ == "__main__":
