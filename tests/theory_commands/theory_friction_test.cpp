@@ -27,7 +27,7 @@ TEST(TheoryFriction, PrintsTheCurve) {
         std::getline(lines, line);
         EXPECT_NEAR(std::stod(mu), std::stod(friction), 1e-12);
         EXPECT_NEAR(std::stod(displacement), one.at("max_relative_displacement"), 1e-6);
-        EXPECT_EQ(line, one.at("mode"));
+        EXPECT_EQ(line, one.at("mode").get<std::string>());
     }
     EXPECT_FALSE(std::getline(lines, line));
     Answer const refused = run_program(shaken + "0.1:0.5");
