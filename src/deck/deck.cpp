@@ -52,10 +52,15 @@ std::map<std::string, std::string> make_meshes(prepare::PreparedCase const& prep
                  edge = 3 * mean_diameter(scenario);
     prepare::Domain const& domain = prepared.domain;
     // A screen has no holes while the grains settle.
-    std::map<std::string, std::string> files{
-        {settling_floor(scenario) + ".stl", domain.has_mesh()
-                                                ? scenario::stl_text("trough", own_trough(prepared))
-                                                : flat_trough_stl(length, width, edge)}};
+    std::string const floor = settling_floor(scenario) + ".stl";
+    std::map<std::string, std::string> files;
+    if (domain.has_mesh()) {
+        auto const own = own_trough(prepared);
+        for (std::size_t i = 0; i < own.size(); ++i)
+            files[i == 0 ? floor : part_file(i - 1)] = scenario::stl_text("trough", own[i]);
+    } else {
+        files[floor] = flat_trough_stl(length, width, edge);
+    }
     if (scenario.trough.side_wall_friction) {
         double const coarse = std::min(length, 4 * edge);
         files["left.stl"] = side_wall_stl(length, prepared.wall_height, 0, coarse);
@@ -79,11 +84,14 @@ std::map<std::string, std::string> const& meshes(prepare::PreparedCase const& pr
                                       has_holes(scenario) ? 1.0 : 0.0};
     thread_local std::array<double, 8> last_shape{};
     thread_local std::shared_ptr<scenario::TroughMesh const> last_mesh;
+    thread_local std::vector<std::string> last_parts;
     thread_local std::map<std::string, std::string> last;
-    if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh) {
+    std::vector<std::string> parts = own_parts(scenario);
+    if (last.empty() || shape != last_shape || scenario.trough.mesh != last_mesh || parts != last_parts) {
         last = make_meshes(prepared);
         last_shape = shape;
         last_mesh = scenario.trough.mesh;
+        last_parts = std::move(parts);
     }
     return last;
 }

@@ -156,8 +156,9 @@ double expected_work(prepare::PreparedCase const& c, Experience const& experienc
     constexpr double triangle_in_grains = 1.2;
     double const settling = 5 * std::sqrt(2 * c.fill_top / scenario::gravity) / c.settle_time_step;
     double const cycles = expected_cycles(c.scenario, experience);
-    double const triangles =
-        c.domain.has_mesh() ? static_cast<double>(own_trough(c).size()) : triangles_of_screen(c);
+    double triangles = triangles_of_screen(c);
+    if (c.domain.has_mesh())
+        for (auto const& part : own_trough(c)) triangles += static_cast<double>(part.size());
     return c.work(settling / c.time.steps_per_cycle + cycles) +
            triangle_in_grains * triangles * c.time.steps_per_cycle * cycles;
 }

@@ -60,21 +60,40 @@ ScreenNodes screen_nodes(double side, double opening, int holes, double plate) {
     return nodes;
 }
 
+/// Whether a surface has a triangle in the side at y that has a corner at this height.
+bool reaches_top(std::vector<scenario::Triangle> const& surface, double y, double top) {
+    return std::ranges::any_of(surface, [&](scenario::Triangle const& triangle) {
+        return std::ranges::all_of(triangle, [&](Node const& corner) { return corner[1] == y; }) &&
+               std::ranges::any_of(triangle, [&](Node const& corner) { return corner[2] == top; });
+    });
+}
+
 }  // namespace
 
-std::vector<scenario::Triangle> own_trough(prepare::PreparedCase const& prepared) {
+std::vector<std::vector<scenario::Triangle>> own_trough(prepare::PreparedCase const& prepared) {
     scenario::Layer const& layer = prepared.scenario.layer;
     prepare::Domain const& domain = prepared.domain;
     double const edge = 3 * mean_diameter(prepared.scenario);
-    std::vector<scenario::Triangle> all = scenario::divided(domain.surface, edge);
+    std::vector<std::vector<scenario::Triangle>> all{scenario::divided(domain.surface, edge)};
+    for (prepare::TroughPart const& part : domain.parts) all.push_back(scenario::divided(part.surface, edge));
     for (double const y : {0.0, layer.width}) {
         if (!domain.is_closed) break;
         scenario::Point const a{0, y, domain.top}, b{layer.length, y, domain.top},
             c{layer.length, y, prepared.wall_height}, d{0, y, prepared.wall_height};
+        auto const below =
+            std::ranges::find_if(all, [&](auto const& part) { return reaches_top(part, y, domain.top); });
         for (scenario::Triangle const& triangle : scenario::divided({{a, b, c}, {a, c, d}}, 4 * edge))
-            all.push_back(triangle);
+            (below == all.end() ? all.front() : *below).push_back(triangle);
     }
     return all;
+}
+
+std::string part_mesh(std::size_t part) {
+    return fmt::format("part_{}", part + 1);
+}
+
+std::string part_file(std::size_t part) {
+    return fmt::format("part.{}.stl", part + 1);
 }
 
 std::string screen_stl(double length, double width, double opening, int along, int across, double plate) {

@@ -17,10 +17,16 @@ inline constexpr std::array wall_files{"left.stl", "right.stl", "back.stl", "end
 /// refuses long thin triangles.
 std::string flat_trough_stl(double length, double width, double edge);
 
-/// The surface of the mesh of a case with triangles that are not much larger than grains. Upright sides are
-/// continued to the top of the box, so that grains that are poured in or thrown up do not leave it.
+/// The mesh of a case with triangles that are not much larger than grains: what has the trough's friction,
+/// and then each of prepared.domain.parts. Upright sides are continued to the top of the box, by what their
+/// upper edge belongs to, so that grains that are poured in or thrown up do not leave it.
 /// @pre prepared.domain.has_mesh()
-std::vector<scenario::Triangle> own_trough(prepare::PreparedCase const& prepared);
+std::vector<std::vector<scenario::Triangle>> own_trough(prepare::PreparedCase const& prepared);
+
+/// The name of a part's mesh in the engine.
+std::string part_mesh(std::size_t part);
+/// The name of the file of that mesh.
+std::string part_file(std::size_t part);
 
 /// The STL text of a flat sheet of the same size with square holes, in `along` columns and `across` rows.
 /// Bars of half their width are at its ends, so that the ends of the periodic box run along the middle of

@@ -1,6 +1,7 @@
 #include "prepare/domain.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace vibrotrough::prepare {
 
@@ -9,17 +10,20 @@ Domain domain_of(scenario::Scenario const& s) {
     scenario::TroughMesh const& mesh = *s.trough.mesh;
     double const unit = metres_in(s.trough.mesh_unit);
     Domain domain{.is_closed = mesh.has_upright_sides,
-                  .surface = mesh.triangles,
                   .floor_top = unit * mesh.floor_top,
                   .top = unit * mesh.extent[2]};
     std::array<double, 2> const ends{s.layer.length, s.layer.width};
-    for (scenario::Triangle& triangle : domain.surface) {
+    for (std::string& part : own_parts(s)) domain.parts.push_back({std::move(part), {}});
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        scenario::Triangle triangle = mesh.triangles[i];
         for (scenario::Point& corner : triangle) {
             for (std::size_t k = 0; k < 3; ++k) {
                 bool const is_at_end = k < 2 && corner[k] == mesh.extent[k];
                 corner[k] = is_at_end ? ends[k] : unit * corner[k];
             }
         }
+        auto const part = std::ranges::find(domain.parts, mesh.parts[mesh.part_of[i]], &TroughPart::name);
+        (part != domain.parts.end() ? part->surface : domain.surface).push_back(triangle);
     }
     return domain;
 }

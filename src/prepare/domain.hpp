@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// @file
@@ -40,6 +41,12 @@ struct ScreenFloor {
     double catch_z;     ///< a plane on which grains come to rest if they are not taken out before
 };
 
+/// A part of a mesh with a contact of its own.
+struct TroughPart {
+    std::string name;                         ///< as pairs name it
+    std::vector<scenario::Triangle> surface;  ///< m
+};
+
 /// The space of a layer. The box is periodic along the trough, so that all grains are conserved and the
 /// displacement of their centre of mass is the conveying speed; or the trough is open.
 struct Domain {
@@ -48,6 +55,7 @@ struct Domain {
     /// The surface of the trough, m, with its nodes exactly on the ends of the box; empty for the flat floor
     /// at z = 0.
     std::vector<scenario::Triangle> surface = {};
+    std::vector<TroughPart> parts = {};  ///< what is not in `surface`: scenario::own_parts()
     double floor_top = 0;  ///< m, its highest point but for upright walls, above which grains are poured
     double top = 0;        ///< m, its highest point
     std::optional<OpenTrough> open = {};     ///< only of an open trough

@@ -26,7 +26,7 @@ constexpr double point_damping_ratio = 5, plate_damping_ratio = 1.5;
 struct SmallestGrains {
     scenario::Grains grains;
     double radius;       ///< m
-    double restitution;  ///< the lower one of those on themselves and on the trough
+    double restitution;  ///< the lowest of those on themselves and on all parts of the trough
     ContactPair pair;    ///< two of them
 };
 
@@ -36,8 +36,10 @@ std::vector<SmallestGrains> smallest_grains(scenario::Scenario const& s, double 
     for (scenario::Material const& material : materials(s)) {
         scenario::Grains const& grains = material.grains;
         double const radius = s.materials.empty() ? smallest_radius : smallest_diameter(grains) / 2;
-        all.push_back({grains, radius, std::min(grains.restitution, material.trough_restitution),
-                       two_grains(grains, radius)});
+        double restitution = std::min(grains.restitution, material.trough_restitution);
+        for (std::string const& part : own_parts(s))
+            restitution = std::min(restitution, contact_with_trough(s, material, part).restitution);
+        all.push_back({grains, radius, restitution, two_grains(grains, radius)});
     }
     return all;
 }

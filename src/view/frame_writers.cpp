@@ -162,9 +162,12 @@ TroughWriter::TroughWriter(FrameSource const& source, std::vector<std::filesyste
     : source_(source) {
     for (auto const& path : meshes) {
         auto const mesh = read_stl(path);
+        part_.insert(part_.end(), static_cast<std::size_t>(mesh->GetNumberOfCells()),
+                     static_cast<int>(&path - meshes.data()));
         rest_ = rest_ ? joined(*rest_, *mesh) : mesh;
     }
     moved_->ShallowCopy(rest_);
+    if (meshes.size() > 1) moved_->GetCellData()->AddArray(view_of<vtkIntArray>(part_, "part", 1));
 }
 
 std::array<double, 6> TroughWriter::bounds() const {

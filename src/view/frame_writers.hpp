@@ -48,7 +48,8 @@ class GrainWriter {
     vtkNew<vtkPolyData> data_;
 };
 
-/// Writes the displaced trough, or its walls, of one frame after another.
+/// Writes the displaced trough, or its walls, of one frame after another. Triangles of several meshes have
+/// the number of theirs, `part`.
 class TroughWriter {
   public:
     /// @param source  must outlive the writer
@@ -66,6 +67,7 @@ class TroughWriter {
   private:
     FrameSource const& source_;
     vtkSmartPointer<vtkPolyData> rest_;
+    std::vector<int> part_;  ///< of each triangle: the number of its mesh, from 0
     vtkNew<vtkPolyData> moved_;
 };
 

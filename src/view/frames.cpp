@@ -109,7 +109,7 @@ class FrameExport {
     FrameExport(FrameSource const& source, fs::path const& target)
         : source_(source),
           target_(target),
-          trough_(source, {source.trough}),
+          trough_(source, source.trough),
           wear_(source),
           grains_(source),
           block_(trough_.bounds()) {

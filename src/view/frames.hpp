@@ -25,7 +25,7 @@ struct TheoryMotion {
 struct FrameSource {
     std::filesystem::path folder;  ///< holds frames.STEP.dump and frames.csv (step, trough x, trough z), and
                                    ///< perhaps contacts.STEP.dump and trough_contacts.STEP.dump
-    std::filesystem::path trough;  ///< the STL of the trough at rest, m
+    std::vector<std::filesystem::path> trough;      ///< the STL files of the trough at rest, m: its parts
     std::vector<std::filesystem::path> walls = {};  ///< those of its walls, which move with it; may be none
     double time_step;                               ///< s
     double angular_frequency;                       ///< omega, rad/s

@@ -6,6 +6,7 @@ import unittest
 import zipfile
 
 import h5py
+from vtk import vtkXMLPolyDataReader
 
 from trough_program import EndToEndTest, campaign_text
 
@@ -23,6 +24,13 @@ def stl(triangles):
     """A binary STL, as CAD programs write it."""
     body = b"".join(struct.pack("<12fH", 0, 0, 0, *(number for corner in triangle for number in corner), 0) for triangle in triangles)
     return b"made by a test".ljust(80) + struct.pack("<I", len(triangles)) + body
+
+
+def solid(name, start, end):
+    """A piece of a flat floor as a solid of a text STL."""
+    corners = [((start, 0, 0), (end, 0, 0), (end, WIDTH, 0)), ((start, 0, 0), (end, WIDTH, 0), (start, WIDTH, 0))]
+    facets = "".join("facet normal 0 0 1 outer loop " + " ".join(f"vertex {x} {y} {z}" for x, y, z in three) + " endloop endfacet\n" for three in corners)
+    return f"solid {name}\n{facets}endsolid {name}\n"
 
 
 class OwnTrough(EndToEndTest):
@@ -45,6 +53,32 @@ class OwnTrough(EndToEndTest):
         for one, other in zip(mesh, flat):
             # A contact that moves over an edge may lose its history in another step; layers are chaotic after that.
             self.assertAlmostEqual(one, other, delta=0.05)
+
+    def test_solids_with_a_friction_of_their_own(self):
+        """A layer stays where it is on a level floor without friction. A rough liner on half of the floor conveys it. A liner with the
+        floor's own friction changes nothing: the packings agree as those on the mesh and on the flat floor do."""
+        (self.folder / "own.stl").write_text(solid("floor", 0, LENGTH / 2) + solid("liner", LENGTH / 2, LENGTH))
+        mean = {}
+        for name, floor, liner in (("slippery", 0.0, None), ("lined", 0.0, 0.5), ("plain", 0.23, None), ("same", 0.23, 0.23)):
+            pair = "" if liner is None else f'[[pairs]]\nmaterials = ["grains", "liner"]\nfriction = {liner}\n'
+            campaign = self.folder / f"{name}.toml"
+            changes = {**CHANGES, "trough.mesh": "own.stl", "trough.mesh_unit": "mm", "trough.friction": floor, "output.frames_per_cycle": 2 if name == "lined" else 0}
+            campaign.write_text(campaign_text(changes) + pair)
+            self.run_campaign(campaign, self.folder / name)
+            mean[name] = sum(self.efficiencies(self.folder / name)) / 2
+        self.assertAlmostEqual(mean["slippery"], 0, delta=0.06)  # grains that began at the trough's speed keep it, as nothing stops them
+        self.assertGreater(mean["lined"], 0.4)
+        self.assertAlmostEqual(mean["same"], mean["plain"], delta=0.05)
+        done = self.call("export", self.folder / "lined")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (packing,) = (self.folder / "lined").glob("cases/*/packing-1")
+        self.assertIn("solid", (packing / "part.1.stl").read_text())
+        first = sorted((self.folder / "lined").glob("cases/*/frames/trough/*.vtp"))[0]
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(str(first))
+        reader.Update()
+        cells = reader.GetOutput().GetCellData().GetArray("part")
+        self.assertEqual({cells.GetValue(i) for i in range(cells.GetNumberOfTuples())}, {0, 1})
 
     def test_a_channel_keeps_its_grains(self):
         """With upright walls the box is not periodic across, and no grain leaves it."""

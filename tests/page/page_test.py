@@ -232,6 +232,7 @@ class PageTest(unittest.TestCase):
         damaged.write_text(re.sub(r'(id="theory">.{1000})[^<]*', r"\1", self.page.read_text(encoding="utf-8")), encoding="utf-8")
         self.browser.open(damaged)
         self.browser.wait("document.getElementById('reason').textContent.includes('the file is damaged')")
+        self.browser.console.clear()  # Firefox notes there that the packed part ends early
 
     def test_two_machines_and_the_link(self):
         b = self.browser
@@ -367,8 +368,7 @@ class PageTest(unittest.TestCase):
         for width in (360, 800, 1280):
             self.browser.size(width, 740)
             self.drawn()
-            wide, inner = self.browser.run("[document.documentElement.scrollWidth, innerWidth]")
-            self.assertLessEqual(wide, inner)
+            self.assertTrue(self.browser.run("document.documentElement.scrollWidth <= innerWidth"))
 
     def test_what_matters_is_always_in_sight(self):
         """Also on a telephone and at the end of the page; and the part that stays leaves most of the screen to the rest."""

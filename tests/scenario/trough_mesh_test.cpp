@@ -99,6 +99,25 @@ TEST(TroughMesh, TextAndBinaryAreTheSame) {
     EXPECT_EQ(read_trough_mesh(binary->file)->triangles, binary->triangles);
 }
 
+// Text files of CAD programs may hold a solid for each part of a trough; the first word of a line is its
+// name.
+TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
+    std::vector<Triangle> floor, liner;
+    add_rectangle(floor, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
+    add_rectangle(liner, {30, 0, 0}, {40, 0, 0}, {40, 20, 0}, {30, 20, 0});
+    std::string const text =
+        stl_text("floor sheet 2 mm", floor) + stl_text("Liner", liner) + stl_text("vertex", liner);
+    auto const mesh = read_trough_mesh({"a.stl", text});
+    EXPECT_THAT(mesh->parts, testing::ElementsAre("floor", "Liner", "vertex"));
+    EXPECT_THAT(mesh->part_of, testing::ElementsAre(0, 0, 1, 1, 2, 2));
+    EXPECT_EQ(mesh->extent, (Point{40, 20, 0})) << "they have one origin";
+    EXPECT_DOUBLE_EQ(mesh->share_in_plan("Liner"), 200.0 / 1000);  // of 600 + 200 + 200 mm2
+    EXPECT_EQ(mesh->share_in_plan("rubber"), 0);
+    EXPECT_THAT(read_trough_mesh({"a.stl", stl_text("one", floor) + stl_text("one", liner)})->parts,
+                testing::ElementsAre("one"));
+    EXPECT_THAT(read_trough_mesh({"b.stl", binary_stl(vee())})->part_of, testing::ElementsAre(0, 0, 0, 0));
+}
+
 TEST(TroughMesh, StepsWallsAndHolesAreSeen) {
     std::vector<Triangle> step;
     add_rectangle(step, {0, 0, 0}, {30, 0, 2}, {30, 20, 2}, {0, 20, 0});
@@ -181,7 +200,10 @@ class MeshCampaign : public testing::Test {
         return read_campaign(folder_.path() / "c.toml").cases.front();
     }
     void write(std::string const& name, std::vector<Triangle> const& mesh) const {
-        std::ofstream(folder_.path() / name) << stl_text("mesh", mesh);
+        write_text(name, stl_text("mesh", mesh));
+    }
+    void write_text(std::string const& name, std::string const& text) const {
+        std::ofstream(folder_.path() / name) << text;
     }
     std::string error(std::string const& text) const {
         try {
@@ -212,6 +234,35 @@ TEST_F(MeshCampaign, TheLevelGivesTheGrains) {
     EXPECT_THAT(to_toml(s), HasSubstr("mesh = \"vee.stl\"\nmesh_unit = \"mm\"\n"));
     EXPECT_EQ(named_files(s).front().name, "vee.stl");
     EXPECT_EQ(to_toml(scenario(example_campaign)).find("mesh"), std::string::npos);
+}
+
+// A pair of a material and a solid gives the coefficients of one on the other; all else is as on the trough.
+// The theory takes the mean over the trough in plan.
+TEST_F(MeshCampaign, PairsGiveSolidsAFrictionOfTheirOwn) {
+    std::vector<Triangle> left, right;
+    add_rectangle(left, {5, -9, 9}, {41, -9, 9}, {41, 0, 0}, {5, 0, 0});
+    add_rectangle(right, {5, 0, 0}, {41, 0, 0}, {41, 9, 9}, {5, 9, 9});
+    write_text("vee.stl", stl_text("steel", left) + stl_text("rubber", right));
+    std::string const rubber = "\n[[pairs]]\nmaterials = [\"rubber\", \"grains\"]\nfriction = 0.8\n";
+    Scenario const s = scenario(on_mesh() + rubber);
+    EXPECT_THAT(own_parts(s), testing::ElementsAre("rubber"));
+    Material const grains = materials(s).front();
+    EXPECT_EQ(contact_with_trough(s, grains, "rubber").friction, 0.8);
+    EXPECT_EQ(contact_with_trough(s, grains, "rubber").restitution, s.trough.restitution);
+    EXPECT_EQ(contact_with_trough(s, grains, "steel").friction, s.trough.friction);
+    EXPECT_NEAR(mean_trough_friction(s), (0.8 + s.trough.friction) / 2, 1e-15);  // half of the plan each
+    EXPECT_THAT(to_toml(s), HasSubstr(rubber));
+    EXPECT_THAT(own_parts(scenario(on_mesh())), testing::IsEmpty());
+
+    EXPECT_THAT(error(on_mesh() + "\n[[pairs]]\nmaterials = [\"ruber\", \"grains\"]\nfriction = 0.8\n"),
+                HasSubstr("write two of grains; the mesh's solids are: steel, rubber"));
+    EXPECT_THAT(error(on_mesh() + "\n[[pairs]]\nmaterials = [\"rubber\", \"steel\"]\nfriction = 0.8\n"),
+                HasSubstr("or one and a solid of the trough's mesh"));
+    EXPECT_THAT(
+        error(on_mesh() + rubber + "\n[[pairs]]\nmaterials = [\"grains\", \"steel\"]\nrestitution = 0.8\n"),
+        HasSubstr("every solid of the mesh has coefficients of its own; leave one of them to"));
+    EXPECT_THAT(error(on_mesh(with("half_width", "wear = true\nhalf_width")) + rubber),
+                HasSubstr("measure.wear: is measured only where all of the mesh"));
 }
 
 TEST_F(MeshCampaign, MistakesAreNamed) {

@@ -22,7 +22,7 @@ view::FrameSource sample(fs::path const& dumps) {
     theory::Conveyor conveyor{};
     conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
     return {.folder = dumps,
-            .trough = dumps / "trough.stl",
+            .trough = {dumps / "trough.stl"},
             .time_step = time_step,
             .angular_frequency = 2.0 * std::numbers::pi / (3000 * time_step),
             .drive = {.along = {{1, 0.00536656, 0}}, .normal = {{1, 0.00268328, 0}}},
@@ -80,7 +80,7 @@ void export_maps(fs::path const& folder) {
 void export_contacts(fs::path const& dumps, fs::path const& folder) {
     view::FrameSource const source{
         .folder = dumps,
-        .trough = dumps / "trough.stl",
+        .trough = {dumps / "trough.stl"},
         .time_step = 5.195752952985837e-05,
         .angular_frequency = 2.0 * std::numbers::pi * 19.246488604223018,
         .drive = {.along = {{1, 0.002683281573, 0}}, .normal = {{1, 0.001341640787, 0}}},

@@ -23,7 +23,7 @@ class FrameExport : public testing::Test {
     FrameExport(std::filesystem::path const& data, FrameSource values) : source(std::move(values)) {
         source.folder = own_folder.path() / "dump";
         std::filesystem::copy(data, source.folder);
-        source.trough = source.folder / "trough.stl";
+        source.trough = {source.folder / "trough.stl"};
     }
 
     /// An exported file, as VTK reads it.

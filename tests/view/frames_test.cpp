@@ -359,11 +359,11 @@ TEST_F(Frames, SaysWhatIsMissing) {
     source.folder = own_folder.path() / "none";
     EXPECT_THROW(export_frames(source, target), core::MissingError);
     source.folder = dump;
-    source.trough = own_folder.path() / "none.stl";
+    source.trough = {own_folder.path() / "none.stl"};
     EXPECT_THROW(export_frames(source, target), core::MissingError);
-    source.trough = dump / "frames.csv";
+    source.trough = {dump / "frames.csv"};
     EXPECT_THROW(export_frames(source, target), core::InputError);
-    source.trough = dump / "trough.stl";
+    source.trough = {dump / "trough.stl"};
     fs::remove(dump / "frames.csv");
     EXPECT_THROW(export_frames(source, target), core::MissingError);
 }

@@ -78,6 +78,14 @@ std::vector<fs::path> walls_in(fs::path const& packing) {
     return found;
 }
 
+/// The meshes of the trough without its walls.
+std::vector<fs::path> trough_in(fs::path const& packing, prepare::PreparedCase const& prepared) {
+    std::vector<fs::path> meshes{packing / "trough.stl"};
+    for (std::size_t i = 0; i < prepared.domain.parts.size(); ++i)
+        meshes.push_back(packing / deck::part_file(i));
+    return meshes;
+}
+
 /// What the scene says of the drive: its stages, or its numbers.
 std::string drive_caption(prepare::PreparedCase const& prepared) {
     if (!prepared.stages.empty()) return fmt::format("a drive in {} stages", prepared.stages.size());
@@ -101,7 +109,7 @@ std::optional<view::ExportedFrames> export_packing(campaign::PlannedCase const& 
     scenario::Trough const& trough = planned.scenario().trough;
     view::FrameSource const source{
         .folder = packing / "dump",
-        .trough = packing / "trough.stl",
+        .trough = trough_in(packing, *planned.prepared),
         .walls = walls_in(packing),
         .time_step = planned.prepared->time.time_step,
         .angular_frequency = planned.prepared->angular_frequency,

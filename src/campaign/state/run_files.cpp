@@ -61,7 +61,7 @@ bool is_run_file(std::string_view name) {
            is_numbered(name, "along.", ".txt") || is_numbered(name, "left.", ".dump") ||
            is_numbered(name, "passed.", ".dump") || is_numbered(name, "wear.", ".vtk") ||
            is_numbered(name, "grain_contacts.", ".dump") || is_numbered(name, "floor_contacts.", ".dump") ||
-           is_numbered(name, "masses.", ".dump");
+           is_numbered(name, "masses.", ".dump") || is_numbered(name, "part.", ".stl");
 }
 
 bool is_frame_file(std::string_view name) {

@@ -3,6 +3,7 @@
 #include "scenario/model/scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
 
@@ -31,8 +32,8 @@ double mass_of_grain(Material const& material) {
 }
 
 /// The mean of a number over the materials, weighted with their share of the volume or of the mass.
-double weighted(std::vector<Material> const& all, double (*weight)(Material const&),
-                double (*number)(Material const&)) {
+template <typename Number>
+double weighted(std::vector<Material> const& all, double (*weight)(Material const&), Number const& number) {
     double sum = 0, weights = 0;
     for (Material const& material : all) {
         double const w = material.number_fraction * weight(material);
@@ -64,6 +65,26 @@ void share_numbers(std::vector<Material>& all, std::vector<AddedMaterial> const&
     for (Material& material : all) material.number_fraction /= sum;
 }
 
+/// These coefficients, or what the campaign file gives for this pair of names.
+ContactCoefficients with_pair(Scenario const& s, std::string_view one, std::string_view other,
+                              ContactCoefficients contact) {
+    for (MaterialPair const& pair : s.pairs) {
+        if (!std::ranges::is_permutation(pair.materials, std::array{one, other})) continue;
+        contact.friction = pair.friction.value_or(contact.friction);
+        contact.restitution = pair.restitution.value_or(contact.restitution);
+    }
+    return contact;
+}
+
+/// The friction of a material on the trough, as the mean over the trough in plan.
+double mean_over_trough(Scenario const& s, std::vector<std::string> const& parts, Material const& material) {
+    double mean = material.trough_friction;
+    for (std::string const& part : parts)
+        mean += s.trough.mesh->share_in_plan(part) *
+                (contact_with_trough(s, material, part).friction - material.trough_friction);
+    return mean;
+}
+
 }  // namespace
 
 std::vector<Material> materials(Scenario const& s) {
@@ -82,15 +103,24 @@ double harmonic_mean(double a, double b) {
 }
 
 ContactCoefficients contact_of(Scenario const& s, Material const& one, Material const& other) {
-    ContactCoefficients contact{harmonic_mean(one.grains.friction, other.grains.friction),
-                                harmonic_mean(one.grains.restitution, other.grains.restitution)};
-    for (MaterialPair const& pair : s.pairs) {
-        bool const is_this = std::ranges::is_permutation(pair.materials, std::vector{one.name, other.name});
-        if (!is_this) continue;
-        contact.friction = pair.friction.value_or(contact.friction);
-        contact.restitution = pair.restitution.value_or(contact.restitution);
-    }
-    return contact;
+    return with_pair(s, one.name, other.name,
+                     {harmonic_mean(one.grains.friction, other.grains.friction),
+                      harmonic_mean(one.grains.restitution, other.grains.restitution)});
+}
+
+std::vector<std::string> own_parts(Scenario const& s) {
+    std::vector<std::string> own;
+    if (!s.trough.mesh) return own;
+    for (std::string const& part : s.trough.mesh->parts)
+        if (std::ranges::any_of(s.pairs, [&](MaterialPair const& pair) {
+                return std::ranges::find(pair.materials, part) != pair.materials.end();
+            }))
+            own.push_back(part);
+    return own;
+}
+
+ContactCoefficients contact_with_trough(Scenario const& s, Material const& material, std::string_view part) {
+    return with_pair(s, material.name, part, {material.trough_friction, material.trough_restitution});
 }
 
 std::vector<MixtureClass> size_classes(Scenario const& s) {
@@ -132,8 +162,10 @@ double mean_density(Scenario const& s) {
 }
 
 double mean_trough_friction(Scenario const& s) {
-    if (s.materials.empty()) return s.trough.friction;
-    return weighted(materials(s), mass_of_grain, [](Material const& m) { return m.trough_friction; });
+    std::vector<std::string> const parts = own_parts(s);
+    if (s.materials.empty() && parts.empty()) return s.trough.friction;
+    return weighted(materials(s), mass_of_grain,
+                    [&](Material const& m) { return mean_over_trough(s, parts, m); });
 }
 
 }  // namespace vibrotrough::scenario

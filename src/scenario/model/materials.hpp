@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// @file
@@ -28,9 +29,10 @@ struct AddedMaterial {
     std::optional<double> mass_fraction = {};       ///< of the mass of the layer
 };
 
-/// How grains of two materials touch, where it differs from the rule of contact_of().
+/// How grains of two materials touch, where it differs from the rule of contact_of(), or how grains touch a
+/// part of the trough's mesh, where it differs from the trough.
 struct MaterialPair {
-    std::vector<std::string> materials = {};  ///< two names
+    std::vector<std::string> materials = {};  ///< two names, of which one may be that of a part
     std::optional<double> friction = {};      ///< coefficient
     std::optional<double> restitution = {};   ///< coefficient
 };
@@ -65,6 +67,15 @@ double harmonic_mean(double a, double b);
 /// BaseSpecies::average).
 ContactCoefficients contact_of(Scenario const& scenario, Material const& one, Material const& other);
 
+/// The parts of the trough's mesh that pairs name, in the order of the mesh: grains touch them otherwise than
+/// the trough.
+std::vector<std::string> own_parts(Scenario const& scenario);
+
+/// The contact of a material with a part of the trough's mesh, or with the trough by any other name. A
+/// coefficient for which the campaign file gives no pair is that of the material on the trough.
+ContactCoefficients contact_with_trough(Scenario const& scenario, Material const& material,
+                                        std::string_view part);
+
 /// Grains of one size and material.
 struct MixtureClass {
     double diameter;         ///< m
@@ -88,6 +99,7 @@ double mean_density(Scenario const& scenario);
 
 /// Mean of the materials' friction on the trough, weighted with their masses: what the theory of a point
 /// mass takes, because in a layer that is well mixed the materials carry the normal force in this proportion.
+/// Parts of a mesh with a friction of their own are weighted with their area in plan.
 double mean_trough_friction(Scenario const& scenario);
 
 }  // namespace vibrotrough::scenario

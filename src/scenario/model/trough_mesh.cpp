@@ -55,7 +55,14 @@ std::optional<std::size_t> count_of_binary(std::string_view content) {
     return count;
 }
 
-std::vector<Triangle> read_binary(std::string_view content, std::size_t count) {
+/// What an STL file says.
+struct Solids {
+    std::vector<Triangle> triangles;
+    std::vector<std::string> parts;      ///< names, each once
+    std::vector<std::size_t> part_of{};  ///< of each triangle
+};
+
+Solids read_binary(std::string_view content, std::size_t count) {
     static_assert(std::endian::native == std::endian::little);
     std::vector<Triangle> triangles(std::min(count, most_triangles + 1));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -63,7 +70,8 @@ std::vector<Triangle> read_binary(std::string_view content, std::size_t count) {
         std::memcpy(corners.data(), content.data() + binary_head + binary_triangle * i + 12, sizeof corners);
         for (std::size_t k = 0; k < 9; ++k) triangles[i][k / 3][k % 3] = corners[k];
     }
-    return triangles;
+    std::vector<std::size_t> part_of(triangles.size());
+    return {std::move(triangles), {"trough"}, std::move(part_of)};
 }
 
 std::string lower(std::string word) {
@@ -72,29 +80,45 @@ std::string lower(std::string word) {
     return word;
 }
 
-std::vector<Triangle> read_text(std::string_view content) {
+/// The number of the part that begins with the rest of this line: its first word is the name.
+std::size_t begin_part(std::istringstream& text, std::vector<std::string>& parts) {
+    std::string line, name;
+    std::getline(text, line);
+    std::istringstream(line) >> name;
+    auto const known = std::ranges::find(parts, name);
+    if (known != parts.end()) return static_cast<std::size_t>(known - parts.begin());
+    parts.push_back(std::move(name));
+    return parts.size() - 1;
+}
+
+Solids read_text(std::string_view content) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
     std::istringstream text{std::string(content)};
     text.imbue(std::locale::classic());
-    std::vector<Triangle> triangles;
+    Solids solids{};
+    std::vector<Triangle>& triangles = solids.triangles;
     std::string word, name;
     if (!(text >> word) || lower(word) != "solid")
         throw std::invalid_argument("it is neither a text nor a binary STL");
-    std::getline(text, name);
-    std::size_t corner = 0;
+    std::size_t part = begin_part(text, solids.parts), corner = 0;
     Triangle triangle{};
     while (text >> word && triangles.size() <= most_triangles) {
-        if (lower(word) != "vertex") continue;
+        word = lower(word);
+        if (word == "endsolid") std::getline(text, name);
+        if (word == "solid") part = begin_part(text, solids.parts);
+        if (word != "vertex") continue;
         Point& p = triangle[corner];
         if (!(text >> p[0] >> p[1] >> p[2]))
             throw std::invalid_argument(
                 fmt::format("a corner of triangle {} is not three numbers", triangles.size() + 1));
         corner = (corner + 1) % 3;
-        if (corner == 0) triangles.push_back(triangle);
+        if (corner != 0) continue;
+        triangles.push_back(triangle);
+        solids.part_of.push_back(part);
     }
     if (corner != 0) throw std::invalid_argument("its last triangle has fewer than three corners");
-    return triangles;
+    return solids;
 }
 
 void check(std::vector<Triangle> const& triangles) {
@@ -267,7 +291,8 @@ double metres_in(MeshUnit unit) {
 
 std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file) {
     auto const binary = count_of_binary(file.content);
-    std::vector<Triangle> triangles = binary ? read_binary(file.content, *binary) : read_text(file.content);
+    Solids solids = binary ? read_binary(file.content, *binary) : read_text(file.content);
+    std::vector<Triangle>& triangles = solids.triangles;
     check(triangles);
     // A copy is kept in results, which hold texts.
     if (binary) file.content = stl_text("trough", triangles);
@@ -277,7 +302,8 @@ std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file) {
     Point const extent = move_to_zero(triangles);
     if (!(extent[0] > 0 && extent[1] > 0))
         throw std::invalid_argument("its surface has no length or no width");
-    TroughMesh mesh{std::move(file), std::move(triangles), extent, {}, 0, 0, false, 0, 0};
+    TroughMesh mesh{std::move(file),         std::move(triangles),     extent, {}, 0, 0, false, 0, 0,
+                    std::move(solids.parts), std::move(solids.part_of)};
     survey(mesh);
     return std::make_shared<TroughMesh const>(std::move(mesh));
 }
@@ -302,6 +328,16 @@ double TroughMesh::level_of(double volume) const {
         (volume_below(middle) < volume ? low : high) = middle;
     }
     return high;
+}
+
+double TroughMesh::share_in_plan(std::string_view part) const {
+    double its = 0, all = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        double const twice = std::abs(plan_area(triangles[i]));
+        all += twice;
+        if (parts[part_of[i]] == part) its += twice;
+    }
+    return its / all;
 }
 
 std::vector<Triangle> divided(std::vector<Triangle> const& triangles, double longest) {

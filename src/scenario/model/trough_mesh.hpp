@@ -45,6 +45,9 @@ struct TroughMesh {
     bool has_upright_sides;  ///< whether upright walls close both of its sides, from the surface to its top
     double floor_top;        ///< height of the highest node of a triangle that does not lie in a side
     double area;             ///< of all triangles
+    /// Names of the solids of a text file, in its order; a binary file is one.
+    std::vector<std::string> parts;
+    std::vector<std::size_t> part_of;  ///< of each triangle the index in `parts`
 
     /// The first place of the grid (x, y) without a surface; none when it covers its box in plan.
     std::optional<std::array<double, 2>> hole() const;
@@ -52,6 +55,8 @@ struct TroughMesh {
     double volume_below(double level) const;
     /// The level below which there is this volume.
     double level_of(double volume) const;
+    /// The share of its area in plan that a part has, 0 to 1.
+    double share_in_plan(std::string_view part) const;
 };
 
 /// Reads an STL file, text or binary.

@@ -54,7 +54,8 @@ void add_pair(std::vector<Key>& rows) {
     constexpr auto list = &Scenario::pairs;
     rows.push_back({path("materials"), texts, "", 0, 0,
                     "two names of materials; \"grains\" is that of [grains]", "", optional,
-                    "[\"grains\", \"fines\"]", "two materials whose contacts are given",
+                    "[\"grains\", \"fines\"]",
+                    "two materials whose contacts are given; one may be a solid of the trough's mesh",
                     entry_field<list, index, &MaterialPair::materials>});
     rows.push_back({path("friction"), number, "", 0, 5, "0 to 5", "", optional, "0.3",
                     "friction coefficient of one on the other",

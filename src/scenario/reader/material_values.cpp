@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +22,7 @@ std::string any_key_of(std::string_view section, std::size_t index, GivenKeys co
     return start + "name";
 }
 
-/// The names of all materials, for messages.
+/// The names of all materials of grains.
 std::vector<std::string> names_of(Scenario const& s) {
     std::vector<std::string> names{first_material};
     for (AddedMaterial const& added : s.materials) names.push_back(added.name);
@@ -63,17 +64,47 @@ void check_sum(Scenario const& s, GivenKeys const& given) {
                "write smaller ones: the rest, which is the share of [grains], must be at least 0.0001");
 }
 
+/// What a message says of the solids of a mesh.
+std::string solids_to_name(std::vector<std::string> const& parts) {
+    return parts.empty() ? "" : fmt::format("; the mesh's solids are: {}", fmt::join(parts, ", "));
+}
+
+/// Solids of a mesh that have the name of a material could not be told apart from it, and some of the mesh
+/// must be the trough itself, whose position is measured.
+void check_solids(Scenario const& s, GivenKeys const& given) {
+    std::vector<std::string> const own = own_parts(s);
+    if (own.empty()) return;
+    std::string const place = any_key_of(pairs_section, 0, given);
+    for (std::string const& name : names_of(s))
+        if (std::ranges::find(own, name) != own.end())
+            given.fail(place, fmt::format("'{}' is the name of a material and of a solid of the mesh", name),
+                       "give the solid another name in its file");
+    if (own.size() == s.trough.mesh->parts.size())
+        given.fail(place, "every solid of the mesh has coefficients of its own",
+                   "leave one of them to trough.friction and trough.restitution");
+    for (auto const& [key, is_asked] :
+         {std::pair("measure.wear", s.measure.wear), std::pair("measure.impacts", s.measure.impacts)})
+        if (is_asked)
+            given.fail(key, "is measured only where all of the mesh has the same coefficients",
+                       "remove it, or the [[pairs]] of the mesh's solids");
+}
+
 void check_pair(Scenario const& s, std::size_t index, GivenKeys const& given) {
     MaterialPair const& pair = s.pairs[index];
     std::string const place = any_key_of(pairs_section, index, given);
     std::vector<std::string> const names = names_of(s);
-    auto const is_known = [&](std::string const& name) {
-        return std::ranges::find(names, name) != names.end();
+    std::vector<std::string> const parts = s.trough.mesh ? s.trough.mesh->parts : std::vector<std::string>();
+    auto const is_in = [](std::vector<std::string> const& list, std::string const& name) {
+        return std::ranges::find(list, name) != list.end();
     };
+    auto const is_part = [&](std::string const& name) { return !is_in(names, name) && is_in(parts, name); };
+    auto const is_known = [&](std::string const& name) { return is_in(names, name) || is_part(name); };
     if (pair.materials.size() != 2 || pair.materials[0] == pair.materials[1] ||
-        !std::ranges::all_of(pair.materials, is_known))
-        given.fail(place, "'materials' does not name two different materials of this layer",
-                   fmt::format("write two of {}", fmt::join(names, ", ")));
+        !std::ranges::all_of(pair.materials, is_known) || std::ranges::all_of(pair.materials, is_part))
+        given.fail(place,
+                   fmt::format("'materials' does not name two different materials of this layer{}",
+                               parts.empty() ? "" : ", or one and a solid of the trough's mesh"),
+                   fmt::format("write two of {}{}", fmt::join(names, ", "), solids_to_name(parts)));
     for (std::size_t other = 0; other < index; ++other)
         if (std::ranges::is_permutation(s.pairs[other].materials, pair.materials))
             given.fail(place, fmt::format("{} and {} are given twice", pair.materials[0], pair.materials[1]),
@@ -116,6 +147,7 @@ void complete_materials(Scenario const& s, GivenKeys const& given) {
         check_share(s, i, given);
     }
     for (std::size_t i = 0; i < s.pairs.size(); ++i) check_pair(s, i, given);
+    check_solids(s, given);
     if (s.materials.empty()) return;
     check_sum(s, given);
     for (std::size_t i = 0; i < s.materials.size(); ++i) check_sizes(s, i, given);

@@ -86,7 +86,7 @@ view::FrameSource make_frames(fs::path const& folder, int count) {
     theory::Conveyor conveyor{};
     conveyor.point = {.throw_number = 2.0, .tan_vibration_angle = 0.5, .friction = 0.23};
     return {.folder = folder,
-            .trough = folder / "trough.stl",
+            .trough = {folder / "trough.stl"},
             .time_step = time_step,
             .angular_frequency = omega,
             .drive = {.along = {{1, amplitude_x, 0}}, .normal = {{1, amplitude_z, 0}}},
