@@ -20,6 +20,7 @@ import sys
 from sign import sign
 
 HOSTILE = "</pre><script>document.title = 'broken'</script> & \"quoted\" \u03b2"
+WATCHED = pathlib.Path(__file__).parent / "watched_figures.py"
 CASES = {"0123456789abcdef": 0.55, "fedcba9876543210": None}
 
 # What `vibrotrough convergence` writes, as far as the figure reads it: of a case, and of one that is no longer there.
@@ -247,6 +248,12 @@ def check_stroke(scripts, folder):
     assert len(set(both.colours)) == 3, "the throw number does not tell the stroke"
 
 
+def check_footers(scripts, folder):
+    """The watch sees a footer that is moved up into the figure."""
+    caught = subprocess.run([sys.executable, "-B", WATCHED, "0.3", scripts / "figures.py", folder, "--only", "residuals"], capture_output=True, text=True)
+    assert "lies over an axis" in caught.stderr, caught.stderr
+
+
 def figures_in(scripts, folder):
     (report,) = run_script(scripts, "report.py", folder)
     return re.findall(r"<figcaption>Figure \d+\. ([^<]*)<", report.read_text(encoding="utf-8"))
@@ -343,7 +350,9 @@ def check_in_browser(browser, report, work):
 def main(scripts, sample, columns, work):
     scripts, sample, work = pathlib.Path(scripts), pathlib.Path(sample), pathlib.Path(work).resolve()
     folder = make_campaign(sample, json.loads(subprocess.run([columns], capture_output=True, check=True).stdout), work)
-    drawn = run_script(scripts, "figures.py", folder)
+    done = subprocess.run([sys.executable, "-B", WATCHED, "0", scripts / "figures.py", folder], capture_output=True, text=True, check=True)
+    assert "lies over an axis" not in done.stderr, done.stderr
+    drawn = [pathlib.Path(line) for line in done.stdout.splitlines()]
     assert {path.name for path in drawn} >= {
         f"{name}.{kind}" for kind in ("svg", "png")
         for name in ("efficiency", "residuals", "budget", *(f"cycles-{case}" for case in CASES))}, drawn
@@ -353,6 +362,7 @@ def main(scripts, sample, columns, work):
             text = path.read_text(encoding="utf-8")
             assert "sample  \u00b7  Vibrotrough" in text, f"{path} does not name campaign and program"
     check_processes(scripts, folder, drawn)
+    check_footers(scripts, folder)
     check_budget(scripts, folder)
     check_words(scripts)
     check_swept(scripts, folder, work)

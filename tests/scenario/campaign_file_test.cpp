@@ -309,6 +309,9 @@ TEST(CampaignFile, KeysAreFoundByTheirMeaning) {
         {"layer.depth", "layer.height"},
         {"grains.inclination", "trough.inclination"},
         {"measure.seeds", "measure.packings"},
+        {"materials.2.polydispersity", "materials.2.diameter_spread"},
+        {"materials.1.mu", "materials.1.friction"},
+        {"stages.3.rpm", "stages.3.frequency"},
     };
     for (auto const& [word, key] : words) EXPECT_EQ(scenario::nearest_key(word), key) << word;
     EXPECT_NE(error_of(with("[trough]", "[drive]")).find("did you mean [trough]?"), std::string::npos);

@@ -114,12 +114,25 @@ std::string_view only_key_named(std::string_view name) {
     return found;
 }
 
+/// The key of the same entry of a list that a word means in a section, such as materials.1.friction for
+/// materials.1.mu; empty when it means none.
+std::string_view key_of_entry(std::string_view path, std::string_view name) {
+    std::string_view const entry = path.substr(0, path.rfind('.') + 1);
+    for (auto const& [word, meant] : keys_of_words) {
+        if (word != name) continue;
+        for (Key const& key : all_keys())
+            if (key.path.starts_with(entry) && key.path.substr(entry.size()) == last_name(meant))
+                return key.path;
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string_view key_in_other_words(std::string_view path) {
     std::string_view const first = path.substr(0, path.find('.'));
-    if (is_list_section(first)) return {};
     std::string const name = in_small_letters(last_name(path));
+    if (is_list_section(first)) return key_of_entry(path, name);
     std::string_view meant;
     for (auto const& [word, key] : keys_of_words) {
         if (word != name) continue;
