@@ -33,6 +33,16 @@ function drawFrame(now) {
   else work.asleep = true;
 }
 
+/// On paper all pictures are complete, also those that nobody has scrolled to.
+function completePictures() {
+  if (!page.theory) return;
+  growCurves(Infinity);
+  growMap(Infinity);
+  drawCurves();
+  drawMap();
+  drawMotion();
+}
+
 /// The map's points move at once, its colours follow.
 function drawMapFrame() { if (isSeen("map") && map.rows.length > 0) drawMap(); }
 
@@ -129,6 +139,7 @@ function listen() {
   on("copy-campaign", "click", () => copyText(campaignFile(machine()),
     machine().depth_mm < machine().grain_mm ? say("thin_layer") : say("copied_campaign")));
   on("copied-close", "click", () => { document.getElementById("copied").hidden = true; showMessage(""); });
+  window.addEventListener("beforeprint", completePictures);
   window.addEventListener("resize", changed);
   window.addEventListener("scroll", wake, { passive: true });
   // The link that is kept may have taken the place of this one meanwhile.

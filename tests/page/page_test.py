@@ -339,12 +339,14 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.browser.run(path), "")
 
     def test_printed_on_one_sheet(self):
+        """With the map, which is drawn also where nobody has scrolled to it."""
+        map_pixels = "(() => { const c = document.getElementById('map'); return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x > 0); })()"
+        self.assertFalse(self.browser.run(map_pixels))
+        self.browser.printed()
+        self.assertTrue(self.browser.run(map_pixels))
         for part in ("rpm=960", "b.stroke_mm=6&b.friction=0.35"):
             self.go(part)
-            self.browser.wait("document.documentElement.dataset.complete === 'true'")
-            printed = self.browser.printed()
-            (WORK / "printed.pdf").write_bytes(printed)
-            self.assertEqual(pages_in(printed), 1)
+            self.assertEqual(pages_in(self.browser.printed()), 1)
 
     def test_keyboard_and_names(self):
         """Tab reaches every control, each of which has a name for screen readers, and the focus can be seen."""
@@ -384,13 +386,11 @@ class PageTest(unittest.TestCase):
                     return [id, e.textContent.trim() !== "" && b.height > 0 && b.top >= 0 && b.bottom <= innerHeight && b.left >= 0 && b.right <= innerWidth
                       && e.contains(document.elementFromPoint(b.left + b.width / 2, b.top + b.height / 2))]; }})""")
                 self.assertEqual([one for one, is_seen in boxes if not is_seen], [], (language, width))
-                share = self.browser.run("document.getElementById('summary').getBoundingClientRect().height / innerHeight")
-                self.assertLess(share, most, (language, width))
+                self.assertLess(self.browser.run("document.getElementById('summary').getBoundingClientRect().height / innerHeight"), most, (language, width))
 
 
 def main():
-    missing = [one for one in NEEDS[NAME] if not shutil.which(one)]
-    if missing:
+    if missing := [one for one in NEEDS[NAME] if not shutil.which(one)]:
         print(f"SKIPPED: {' and '.join(missing)} not installed")
         sys.exit(77)
     unittest.main(argv=[sys.argv[0], "--verbose", *sys.argv[4:]])
