@@ -18,11 +18,11 @@ from figure_style import COLOURS, EFFICIENCY, GREY, MARKERS, Problem, TooMany, W
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
 
-# What theory, law and atlas say of the same case, as efficiencies of the table; their lines, and the words for them.
+# What theory, law and atlas say of the same case, as efficiencies of the table; their lines and marks, and the words for these.
 MODELS = {
-    "point-mass theory": ("efficiency_theory", "-", "solid"),
-    "rolling-layer law": ("efficiency_rolling_layer", "--", "dashed"),
-    "atlas": ("efficiency_atlas", ":", "dotted"),
+    "point-mass theory": ("efficiency_theory", "-", "x", "solid", "cross"),
+    "rolling-layer law": ("efficiency_rolling_layer", "--", "+", "dashed", "plus"),
+    "atlas": ("efficiency_atlas", ":", "*", "dotted", "star"),
 }
 # Quantities that are an efficiency times a number that is known of each case.
 OF_EFFICIENCY = ("efficiency", "conveying_speed", "mass_flow", "mass_flow_per_width")
@@ -147,7 +147,7 @@ def label_of(row: Row, columns: Iterable[Mapping[str, Any]]) -> str:
 def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colour: str) -> set[str]:
     """The theory, the law and the atlas at the cases, joined by lines. The names of those that were drawn."""
     drawn = set()
-    for name, (column, dash, _) in MODELS.items():
+    for name, (column, dash, mark, _, _) in MODELS.items():
         values = []
         for row in rows:
             model, known = row.get(column), row.get("efficiency")
@@ -155,14 +155,16 @@ def draw_models(axes: Axes, places: list[float], y: Shown, rows: list[Row], colo
             scale = 1.0 if y.name == "efficiency" else y.of(row) / known / y.factor if known else math.nan
             values.append(math.nan if model is None else y.factor * scale * model)
         if np.isfinite(values).any():
-            axes.plot(places, values, color=colour, linestyle=dash, linewidth=1.0, marker="x", markersize=4)
+            axes.plot(places, values, color=colour, linestyle=dash, linewidth=1.0, marker=mark, markersize=4)
             drawn.add(name)
     return drawn
 
 
-def words_of_models(drawn: set[str]) -> str:
-    """Which line is which model."""
-    return "; ".join(f"{words}: {name}" for name, (_, _, words) in MODELS.items() if name in drawn)
+def words_of_models(drawn: set[str], panels: Iterable[Axes]) -> str:
+    """Which line is which model, or which mark where no series has more than one case."""
+    marks = {mark for _, _, mark, _, _ in MODELS.values()}
+    has_lines = any(line.get_marker() in marks and len(line.get_xdata()) > 1 for one in panels for line in one.lines)
+    return "; ".join(f"{line if has_lines else mark}: {name}" for name, (_, _, _, line, mark) in MODELS.items() if name in drawn)
 
 
 def series_of(tables: list[Table], x: Shown, by: Sequence[str] | None) -> dict[str, list[Row]]:
@@ -215,7 +217,7 @@ def plot_columns(outputs: list[pathlib.Path], target: pathlib.Path, x_name: str,
         raise WrongInput(why_nothing(tables, x, y))
     axes.set_xlabel(x.title)
     axes.set_ylabel(y.title)
-    lines = words_of_models(models)
+    lines = words_of_models(models, [axes])
     if len(series) > 1:
         axes.legend(frameon=False, fontsize=points(8), loc="best", title=lines or None, title_fontsize=points(8))
     elif lines:

@@ -327,7 +327,7 @@ def plot_efficiency(directory: pathlib.Path, theory_file: pathlib.Path | None, o
         one.set_title(name, fontsize=points(9)) if len(shown) > 1 else None
     for one in grid[len(shown):]:
         one.set_visible(False)
-    taken = label(figure, grid[:len(shown)], series, attributes, told + "".join(f"; {words}" for words in [words_of_models(models)] if words))
+    taken = label(figure, grid[:len(shown)], series, attributes, told + "".join(f"; {words}" for words in [words_of_models(models, grid)] if words))
     figure.tight_layout(rect=(0, 0.02, 1, 1 - taken))
     return save(figure, output)
 

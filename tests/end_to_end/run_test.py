@@ -191,7 +191,7 @@ class Run(EndToEndTest):
         shown = self.call("compare", "runs/small", cwd=self.folder)
         self.assertRegex(shown.stdout, r"(?m)^[0-9a-f]{12} .* finished$")
         status = self.call("status", "runs/small", cwd=self.folder)
-        told = "campaign small: 1 cases; 1 finished, 0 not steady or not precise, 0 failed, 0 running, 0 left\n"
+        told = "campaign small: 1 case; 1 finished, 0 not steady or not precise, 0 failed, 0 running, 0 left\n"
         self.assertTrue(status.stdout.endswith(told), status.stdout)
 
     def test_progress_on_a_terminal_and_in_a_file(self):

@@ -61,13 +61,20 @@ def check_numbers(scripts, outputs):
         low, high = bars.get_segments()[0][:, 1]
         assert math.isclose(high - low, 2 * 60 * 0.01)
     # The theory and the law in the unit of the points: of the first series both, of the second the theory alone.
-    lines = [line.get_ydata()[0] for line in axes.lines if line.get_marker() == "x"]
+    models = [line for line in axes.lines if line.get_marker() in ("x", "+")]
+    lines = [line.get_ydata()[0] for line in models]
     expected = [60 * SPEED_SCALE * one for one in (0.55, 0.7, 0.55)] * 2
     assert len(lines) == len(expected) and all(map(math.isclose, lines, expected)), lines
     # Dashes tell the models apart, also in black and white.
-    assert [line.get_linestyle() for line in axes.lines if line.get_marker() == "x"] == ["-", "--", "-"] * 2
+    assert [line.get_linestyle() + line.get_marker() for line in models] == ["-x", "--+", "-x"] * 2
     assert axes.get_legend().get_title().get_text() == "solid: point-mass theory; dashed: rolling-layer law"
     assert "2 of 14 cases are not known" in [text.get_text() for text in figure.texts]
+
+
+def check_single_cases(scripts, outputs):
+    """Where each series has one case there is no line: the marks are named."""
+    figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency", ["layer.height", "grains.rolling_friction"], None, 1.0)
+    assert figure.axes[0].get_legend().get_title().get_text() == "cross: point-mass theory; plus: rolling-layer law"
 
 
 def check_whole_interval(scripts, outputs):
@@ -82,7 +89,7 @@ def check_flow_of_a_metre(scripts, outputs):
     figure, path = drawn_by(scripts, outputs[:1], "layer.height", "mass_flow_per_width_t_per_h_m", [], None, 1.0)
     axes = figure.axes[0]
     assert path.name == "mass_flow_per_width-over-height" and axes.get_ylabel() == "mass flow per width  [t/h/m]", (path, axes.get_ylabel())
-    assert axes.containers[0].has_yerr and len([line for line in axes.lines if line.get_marker() == "x"]) == 2
+    assert axes.containers[0].has_yerr and len([line for line in axes.lines if line.get_marker() in ("x", "+")]) == 2
 
 
 def check_that_only_speeds_have_a_theory(scripts, outputs):
@@ -106,6 +113,7 @@ def main():
     for folder in outputs:
         make_table(described, folder, folder.name)
     check_numbers(scripts, outputs)
+    check_single_cases(scripts, outputs)
     check_whole_interval(scripts, outputs)
     check_that_only_speeds_have_a_theory(scripts, outputs)
     check_flow_of_a_metre(scripts, outputs)

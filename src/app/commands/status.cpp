@@ -182,9 +182,9 @@ void print_text(StatusView const& view) {
                    one.message.empty() ? "" : "  ", core::harmless(one.message));
     }
     fmt::print(
-        "campaign {}: {} cases; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
-        view.plan.name, view.cases.size(), counts.finished, counts.unsure, counts.failed, counts.running,
-        counts.left);
+        "campaign {}: {} case{}; {} finished, {} not steady or not precise, {} failed, {} running, {} left\n",
+        view.plan.name, view.cases.size(), view.cases.size() == 1 ? "" : "s", counts.finished, counts.unsure,
+        counts.failed, counts.running, counts.left);
     if (view.spent) print_spent(*view.spent);
     if (counts.running + counts.left == 0 || view.cost.core_time <= 0) return;
     fmt::print("about {:.3g} core-hours to go (probably {:.2g} to {:.2g})\n", view.cost.core_time / 3600,
