@@ -144,7 +144,7 @@ const germanWords = {
   about: "In dieser Seite berechnet mit der Theorie von Vibrotrough {0}: Massenpunkt nach Sloot und Kruyt (1996), Gesetz der rollenden Schicht und Atlas simulierter Schichten. Nichts wird versendet.",
   skip: "Zur Antwort",
   over_trough: "relativ zur Rinne",
-  loading_failed: "Die Theorie in dieser Seite startet nicht, weil der Browser älter als 2023 oder die Datei beschädigt ist: {0}",
+  loading_failed: "Die Theorie in dieser Seite startet nicht, weil der Browser älter als Mitte 2023 oder die Datei beschädigt ist: {0}",
   no_answer: "Keine Antwort: {0}",
   theory_outside: "{0} {1}{2} liegt außerhalb von {3}, wo das Gesetz der rollenden Schicht geprüft ist.",
   theory_there: "{0} {1}{2}: das Gesetz der rollenden Schicht ist dort bei {3} geprüft.",

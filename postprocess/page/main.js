@@ -150,13 +150,13 @@ function listen() {
 async function start() {
   const theory = openTheory();
   page.language = (navigator.language || "en").startsWith("de") ? "de" : "en";
-  readDesigns(location.hash === "");
-  readLink(location.hash);
-  makeInputs();
-  readCases();
-  listen();
-  translate();
   try {
+    readDesigns(location.hash === "");
+    readLink(location.hash);
+    makeInputs();
+    readCases();
+    listen();
+    translate();
     page.theory = await theory;
   } catch (error) {
     showNoAnswer(say("loading_failed", error.message));

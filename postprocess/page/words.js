@@ -144,7 +144,7 @@ const englishWords = {
   about: "Computed in this page by the theory of Vibrotrough {0}: the point mass of Sloot and Kruyt (1996), the law for rolling layers and the atlas of simulated layers. Nothing is sent anywhere.",
   skip: "To the answer",
   over_trough: "relative to the trough",
-  loading_failed: "The theory within this page does not start, because the browser is older than 2023 or the file is damaged: {0}",
+  loading_failed: "The theory within this page does not start, because the browser is older than mid-2023 or the file is damaged: {0}",
   no_answer: "There is no answer: {0}",
   theory_outside: "{0} {1}{2} is outside {3}, where the rolling-layer law was tested.",
   theory_there: "{0} {1}{2}: the rolling-layer law was tested at {3} there.",

@@ -16,7 +16,9 @@ scenario::ContactCoefficients contact_with_wall(scenario::Scenario const& s, Ato
     if (one.kind == side_wall || other.kind == side_wall)
         return {s.trough.side_wall_friction.value_or(0), restitution};
     if (grains == nullptr) return {s.trough.friction, restitution};
-    return contact_with_trough(s, *grains, one.material != nullptr ? other.name : one.name);
+    AtomType const& wall = one.material != nullptr ? other : one;
+    if (wall.kind == part) return contact_with_trough(s, *grains, wall.name);
+    return {grains->trough_friction, restitution};
 }
 
 }  // namespace
@@ -29,8 +31,7 @@ std::vector<AtomType> atom_types(prepare::PreparedCase const& prepared) {
         types.push_back({trough, nullptr, "trough"});
         if (prepared.scenario.trough.side_wall_friction) types.push_back({side_wall, nullptr, "side walls"});
     }
-    for (prepare::TroughPart const& part : prepared.domain.parts)
-        types.push_back({trough, nullptr, part.name});
+    for (prepare::TroughPart const& one : prepared.domain.parts) types.push_back({part, nullptr, one.name});
     return types;
 }
 

@@ -15,7 +15,8 @@ struct AtomType {
     /// What a type can stand for.
     enum class Kind {
         grains,     ///< of one material
-        trough,     ///< its floor or mesh, or a part of the mesh
+        trough,     ///< its floor or mesh
+        part,       ///< a part of the mesh with a contact of its own
         side_wall,  ///< the side walls beside the flat floor
     };
     Kind kind;                                     ///< what it stands for

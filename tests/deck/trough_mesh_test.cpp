@@ -73,17 +73,17 @@ TEST(TroughMesh, CoversTheFloorOnceWithStoutTriangles) {
 }
 
 /// A channel of the example's box in millimetres: a floor, and walls of a solid of their own.
-prepare::PreparedCase lined_channel() {
+prepare::PreparedCase lined_channel(std::string const& walls = "walls") {
     auto const rectangle = [](scenario::Point a, scenario::Point b, scenario::Point c, scenario::Point d) {
         return std::vector<scenario::Triangle>{{a, b, c}, {a, c, d}};
     };
     std::string const text =
         scenario::stl_text("floor", rectangle({0, 0, 0}, {36, 0, 0}, {36, 18, 0}, {0, 18, 0})) +
-        scenario::stl_text("walls", rectangle({0, 0, 0}, {36, 0, 0}, {36, 0, 15}, {0, 0, 15})) +
-        scenario::stl_text("walls", rectangle({0, 18, 0}, {36, 18, 0}, {36, 18, 15}, {0, 18, 15}));
+        scenario::stl_text(walls, rectangle({0, 0, 0}, {36, 0, 0}, {36, 0, 15}, {0, 0, 15})) +
+        scenario::stl_text(walls, rectangle({0, 18, 0}, {36, 18, 0}, {36, 18, 15}, {0, 18, 15}));
     scenario::Scenario s = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
     s.trough.mesh = scenario::read_trough_mesh({"channel.stl", text});
-    s.pairs = {{.materials = {"walls", "grains"}, .friction = 0.1}};
+    s.pairs = {{.materials = {walls, "grains"}, .friction = 0.1}};
     return prepare::prepare_case(s);
 }
 
@@ -112,6 +112,8 @@ TEST(TroughMesh, SolidsWithAFrictionOfTheirOwnAreMeshesOfTheirOwn) {
     EXPECT_THAT(moving, HasSubstr("force_x equal f_trough[1]+f_part_1[1]\n"));
     EXPECT_THAT(moving, HasSubstr("force_z equal f_trough[3]+f_part_1[3]\n"));
     EXPECT_EQ(atom_types(lined).back().name, "walls");
+    // A solid may be called as the trough, whose friction stays.
+    EXPECT_EQ(pair_tables(lined_channel("trough")).frictions, "0.5 0.23 0.1 0.23 0.23 0.23 0.1 0.23 0.23");
 }
 
 }  // namespace

@@ -310,7 +310,7 @@ TEST(CampaignFile, KeysAreFoundByTheirMeaning) {
         {"grains.inclination", "trough.inclination"},
         {"measure.seeds", "measure.packings"},
         {"materials.2.polydispersity", "materials.2.diameter_spread"},
-        {"materials.1.mu", "materials.1.friction"},
+        {"materials.1.mu", "materials.1.trough_friction"},
         {"stages.3.rpm", "stages.3.frequency"},
     };
     for (auto const& [word, key] : words) EXPECT_EQ(scenario::nearest_key(word), key) << word;

@@ -99,8 +99,8 @@ TEST(TroughMesh, TextAndBinaryAreTheSame) {
     EXPECT_EQ(read_trough_mesh(binary->file)->triangles, binary->triangles);
 }
 
-// Text files of CAD programs may hold a solid for each part of a trough; the first word of a line is its
-// name.
+// Text files of CAD programs may hold a solid for each part of a trough. Names become such as a campaign file
+// may have.
 TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
     std::vector<Triangle> floor, liner;
     add_rectangle(floor, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
@@ -108,7 +108,7 @@ TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
     std::string const text =
         stl_text("floor sheet 2 mm", floor) + stl_text("Liner", liner) + stl_text("vertex", liner);
     auto const mesh = read_trough_mesh({"a.stl", text});
-    EXPECT_THAT(mesh->parts, testing::ElementsAre("floor", "Liner", "vertex"));
+    EXPECT_THAT(mesh->parts, testing::ElementsAre("floor_sheet_2_mm", "Liner", "vertex"));
     EXPECT_THAT(mesh->part_of, testing::ElementsAre(0, 0, 1, 1, 2, 2));
     EXPECT_EQ(mesh->extent, (Point{40, 20, 0})) << "they have one origin";
     EXPECT_DOUBLE_EQ(mesh->share_in_plan("Liner"), 200.0 / 1000);  // of 600 + 200 + 200 mm2
@@ -116,6 +116,16 @@ TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
     EXPECT_THAT(read_trough_mesh({"a.stl", stl_text("one", floor) + stl_text("one", liner)})->parts,
                 testing::ElementsAre("one"));
     EXPECT_THAT(read_trough_mesh({"b.stl", binary_stl(vee())})->part_of, testing::ElementsAre(0, 0, 0, 0));
+    // Solids without triangles are none, also those that seem to begin with "end solid".
+    std::string const odd =
+        stl_text("empty", {}) + stl_text("C:\\a\"b&", floor) + "end solid\n" + stl_text("", liner);
+    EXPECT_THAT(read_trough_mesh({"a.stl", odd})->parts, testing::ElementsAre("C__a_b_", "unnamed"));
+    EXPECT_THAT(read_trough_mesh({"a.stl", odd})->part_of, testing::ElementsAre(0, 0, 1, 1));
+    EXPECT_THAT(error_of_text("solid a facet normal 0 0 1\n"),
+                HasSubstr("a facet stands on the line of a solid"));
+    std::string many;
+    for (int i = 0; i < 101; ++i) many += fmt::format("solid {}\nendsolid\n", i);
+    EXPECT_THAT(error_of_text(many), HasSubstr("it has more than 100 solids"));
 }
 
 TEST(TroughMesh, StepsWallsAndHolesAreSeen) {

@@ -72,7 +72,8 @@ int run_friction_test(FrictionTestArguments const& options) {
         options.output.empty() ? fs::path("runs") / campaign.name : fs::path(options.output);
     fs::path const test_folder = folder / "friction-test";
     double friction = 0;
-    for (scenario::Scenario const& one : campaign.cases) friction = std::max(friction, one.trough.friction);
+    for (scenario::Scenario const& one : campaign.cases)
+        friction = std::max({friction, one.trough.friction, mean_trough_friction(one)});
     double const k = options.machine_number.value_or(evaluate::default_machine_number(friction));
 
     core::make_folder(folder);

@@ -111,8 +111,12 @@ ContactCoefficients contact_of(Scenario const& s, Material const& one, Material 
 std::vector<std::string> own_parts(Scenario const& s) {
     std::vector<std::string> own;
     if (!s.trough.mesh) return own;
+    auto const is_material = [&](std::string const& name) {
+        return name == first_material ||
+               std::ranges::find(s.materials, name, &AddedMaterial::name) != s.materials.end();
+    };
     for (std::string const& part : s.trough.mesh->parts)
-        if (std::ranges::any_of(s.pairs, [&](MaterialPair const& pair) {
+        if (!is_material(part) && std::ranges::any_of(s.pairs, [&](MaterialPair const& pair) {
                 return std::ranges::find(pair.materials, part) != pair.materials.end();
             }))
             own.push_back(part);

@@ -68,11 +68,11 @@ double harmonic_mean(double a, double b);
 ContactCoefficients contact_of(Scenario const& scenario, Material const& one, Material const& other);
 
 /// The parts of the trough's mesh that pairs name, in the order of the mesh: grains touch them otherwise than
-/// the trough.
+/// the trough. A name that is also that of a material means the material.
 std::vector<std::string> own_parts(Scenario const& scenario);
 
-/// The contact of a material with a part of the trough's mesh, or with the trough by any other name. A
-/// coefficient for which the campaign file gives no pair is that of the material on the trough.
+/// The contact of a material with a part of the trough's mesh. A coefficient for which the campaign file
+/// gives no pair is that of the material on the trough.
 ContactCoefficients contact_with_trough(Scenario const& scenario, Material const& material,
                                         std::string_view part);
 

@@ -1,14 +1,10 @@
 #include "scenario/model/trough_mesh.hpp"
 
+#include "scenario/model/stl_reader.hpp"
+
 #include <algorithm>
-#include <bit>
-#include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,7 +12,6 @@
 namespace vibrotrough::scenario {
 namespace {
 
-constexpr std::size_t most_triangles = 5'000;
 constexpr std::size_t most_bytes = 1 << 20;  ///< of the text, as of every file that a campaign names
 constexpr std::size_t places = 300;          ///< of the grid in plan, along and across
 constexpr double at_end = 1e-6;              ///< of the length or width: nodes so close to an end lie on it
@@ -41,84 +36,6 @@ Point area(Triangle const& t) {
 
 double longest_edge(Triangle const& t) {
     return std::max({length(minus(t[1], t[0])), length(minus(t[2], t[1])), length(minus(t[0], t[2]))});
-}
-
-/// A binary STL: 80 bytes, the number of triangles, and 50 bytes for each, a normal, three corners and two
-/// bytes.
-constexpr std::size_t binary_head = 84, binary_triangle = 50;
-
-std::optional<std::size_t> count_of_binary(std::string_view content) {
-    if (content.size() < binary_head) return {};
-    std::uint32_t count = 0;
-    std::memcpy(&count, content.data() + 80, sizeof count);
-    if (content.size() != binary_head + binary_triangle * std::size_t{count}) return {};
-    return count;
-}
-
-/// What an STL file says.
-struct Solids {
-    std::vector<Triangle> triangles;
-    std::vector<std::string> parts;      ///< names, each once
-    std::vector<std::size_t> part_of{};  ///< of each triangle
-};
-
-Solids read_binary(std::string_view content, std::size_t count) {
-    static_assert(std::endian::native == std::endian::little);
-    std::vector<Triangle> triangles(std::min(count, most_triangles + 1));
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        std::array<float, 9> corners{};
-        std::memcpy(corners.data(), content.data() + binary_head + binary_triangle * i + 12, sizeof corners);
-        for (std::size_t k = 0; k < 9; ++k) triangles[i][k / 3][k % 3] = corners[k];
-    }
-    std::vector<std::size_t> part_of(triangles.size());
-    return {std::move(triangles), {"trough"}, std::move(part_of)};
-}
-
-std::string lower(std::string word) {
-    std::ranges::transform(word, word.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word;
-}
-
-/// The number of the part that begins with the rest of this line: its first word is the name.
-std::size_t begin_part(std::istringstream& text, std::vector<std::string>& parts) {
-    std::string line, name;
-    std::getline(text, line);
-    std::istringstream(line) >> name;
-    auto const known = std::ranges::find(parts, name);
-    if (known != parts.end()) return static_cast<std::size_t>(known - parts.begin());
-    parts.push_back(std::move(name));
-    return parts.size() - 1;
-}
-
-Solids read_text(std::string_view content) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
-    std::istringstream text{std::string(content)};
-    text.imbue(std::locale::classic());
-    Solids solids{};
-    std::vector<Triangle>& triangles = solids.triangles;
-    std::string word, name;
-    if (!(text >> word) || lower(word) != "solid")
-        throw std::invalid_argument("it is neither a text nor a binary STL");
-    std::size_t part = begin_part(text, solids.parts), corner = 0;
-    Triangle triangle{};
-    while (text >> word && triangles.size() <= most_triangles) {
-        word = lower(word);
-        if (word == "endsolid") std::getline(text, name);
-        if (word == "solid") part = begin_part(text, solids.parts);
-        if (word != "vertex") continue;
-        Point& p = triangle[corner];
-        if (!(text >> p[0] >> p[1] >> p[2]))
-            throw std::invalid_argument(
-                fmt::format("a corner of triangle {} is not three numbers", triangles.size() + 1));
-        corner = (corner + 1) % 3;
-        if (corner != 0) continue;
-        triangles.push_back(triangle);
-        solids.part_of.push_back(part);
-    }
-    if (corner != 0) throw std::invalid_argument("its last triangle has fewer than three corners");
-    return solids;
 }
 
 void check(std::vector<Triangle> const& triangles) {
@@ -290,12 +207,11 @@ double metres_in(MeshUnit unit) {
 }
 
 std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file) {
-    auto const binary = count_of_binary(file.content);
-    Solids solids = binary ? read_binary(file.content, *binary) : read_text(file.content);
+    Solids solids = read_stl(file.content);
     std::vector<Triangle>& triangles = solids.triangles;
     check(triangles);
     // A copy is kept in results, which hold texts.
-    if (binary) file.content = stl_text("trough", triangles);
+    if (solids.is_binary) file.content = stl_text("trough", triangles);
     if (file.content.size() > most_bytes)
         throw std::invalid_argument(
             "as a text it is larger than 1 MiB; simplify it to fewer than 4000 triangles");

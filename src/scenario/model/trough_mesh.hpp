@@ -45,7 +45,8 @@ struct TroughMesh {
     bool has_upright_sides;  ///< whether upright walls close both of its sides, from the surface to its top
     double floor_top;        ///< height of the highest node of a triangle that does not lie in a side
     double area;             ///< of all triangles
-    /// Names of the solids of a text file, in its order; a binary file is one.
+    /// Names of the solids of a text file that have triangles, in its order, with '_' for all but letters,
+    /// digits, '.' and '-'; a binary file is one.
     std::vector<std::string> parts;
     std::vector<std::size_t> part_of;  ///< of each triangle the index in `parts`
 

@@ -1,6 +1,7 @@
 #include "scenario/reader/given_values.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -66,19 +67,18 @@ void check_sum(Scenario const& s, GivenKeys const& given) {
 
 /// What a message says of the solids of a mesh.
 std::string solids_to_name(std::vector<std::string> const& parts) {
-    return parts.empty() ? "" : fmt::format("; the mesh's solids are: {}", fmt::join(parts, ", "));
+    constexpr std::size_t most = 10;
+    return parts.empty()
+               ? ""
+               : fmt::format("; the mesh's solids are: {}{}", fmt::join(parts | std::views::take(most), ", "),
+                             parts.size() > most ? " ..." : "");
 }
 
-/// Solids of a mesh that have the name of a material could not be told apart from it, and some of the mesh
-/// must be the trough itself, whose position is measured.
+/// Some of the mesh must be the trough itself, whose position is measured.
 void check_solids(Scenario const& s, GivenKeys const& given) {
     std::vector<std::string> const own = own_parts(s);
     if (own.empty()) return;
     std::string const place = any_key_of(pairs_section, 0, given);
-    for (std::string const& name : names_of(s))
-        if (std::ranges::find(own, name) != own.end())
-            given.fail(place, fmt::format("'{}' is the name of a material and of a solid of the mesh", name),
-                       "give the solid another name in its file");
     if (own.size() == s.trough.mesh->parts.size())
         given.fail(place, "every solid of the mesh has coefficients of its own",
                    "leave one of them to trough.friction and trough.restitution");

@@ -118,11 +118,15 @@ std::string_view only_key_named(std::string_view name) {
 /// materials.1.mu; empty when it means none.
 std::string_view key_of_entry(std::string_view path, std::string_view name) {
     std::string_view const entry = path.substr(0, path.rfind('.') + 1);
+    auto const key_of = [&](std::string const& last) {
+        auto const found = std::ranges::find(all_keys(), std::string(entry) + last, &Key::path);
+        return found == all_keys().end() ? std::string_view{} : found->path;
+    };
     for (auto const& [word, meant] : keys_of_words) {
         if (word != name) continue;
-        for (Key const& key : all_keys())
-            if (key.path.starts_with(entry) && key.path.substr(entry.size()) == last_name(meant))
-                return key.path;
+        std::string const last(last_name(meant)), of_trough = "trough_" + last;
+        for (std::string const& one : {is_in_section(meant, "trough") ? of_trough : last, last})
+            if (std::string_view const key = key_of(one); !key.empty()) return key;
     }
     return {};
 }
