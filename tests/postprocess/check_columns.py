@@ -72,7 +72,7 @@ def check_numbers(scripts, outputs):
 
 
 def check_single_cases(scripts, outputs):
-    """Where each series has one case there is no line: the marks are named."""
+    """Where each series has only one case, the figure says which mark stands for which model."""
     figure, _ = drawn_by(scripts, outputs[:1], "layer.height", "efficiency", ["layer.height", "grains.rolling_friction"], None, 1.0)
     assert figure.axes[0].get_legend().get_title().get_text() == "cross: point-mass theory; plus: rolling-layer law"
 

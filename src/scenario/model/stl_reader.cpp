@@ -1,5 +1,7 @@
 #include "scenario/model/stl_reader.hpp"
 
+#include "scenario/model/run_settings.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cctype>
@@ -63,7 +65,7 @@ std::size_t begin_part(std::istringstream& text, std::vector<std::string>& parts
     name.erase(0, name.find_first_not_of(" \t\r"));
     name.erase(std::min({name.size(), longest, name.find_last_not_of(" \t\r") + 1}));
     for (char& c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '-') c = '_';
+        if (!is_plain_text({&c, 1})) c = '_';
     if (name.empty()) name = "unnamed";
     auto const known = std::ranges::find(parts, name);
     if (known != parts.end()) return static_cast<std::size_t>(known - parts.begin());
