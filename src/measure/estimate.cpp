@@ -12,15 +12,15 @@
 namespace vibrotrough::measure {
 namespace {
 
-using Values = Eigen::Map<Eigen::ArrayXd const>;
+using ValueMap = Eigen::Map<Eigen::ArrayXd const>;
 
-double sample_deviation(Values const& values) {
+double sample_deviation(ValueMap const& values) {
     if (values.size() < 2) return 0;
     return std::sqrt((values - values.mean()).square().sum() / static_cast<double>(values.size() - 1));
 }
 
 /// The half-width of the confidence interval of the mean of `values` with the statistical inefficiency g.
-double mean_half_width(Values const& values, double g, double confidence) {
+double mean_half_width(ValueMap const& values, double g, double confidence) {
     double const independent = static_cast<double>(values.size()) / g;
     // Fewer than two independent values do not allow an interval.
     if (!(independent >= 2)) return std::numeric_limits<double>::infinity();
@@ -29,8 +29,8 @@ double mean_half_width(Values const& values, double g, double confidence) {
 
 bool drifts(std::span<double const> kept, double g, Precision const& wanted) {
     std::size_t const third = kept.size() / 3;
-    Values const first = as_array(kept.first(third));
-    Values const last = as_array(kept.last(third));
+    ValueMap const first = as_array(kept.first(third));
+    ValueMap const last = as_array(kept.last(third));
     double const difference = std::abs(last.mean() - first.mean());
     double const tolerated =
         std::hypot(mean_half_width(first, g, wanted.confidence), mean_half_width(last, g, wanted.confidence));
@@ -102,7 +102,7 @@ Fluctuations fluctuations_of(Runs runs) {
     Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::max<Eigen::Index>(2, n / 2));  // at each lag
     double rounding = 0;
     for (std::span<double const> const run : runs) {
-        Values const y = as_array(run);
+        ValueMap const y = as_array(run);
         double const mean = n > 0 ? y.mean() : 0;
         Eigen::ArrayXd const centred = y - mean;
         for (Eigen::Index lag = 0; lag < std::min(sums.size(), n); ++lag)

@@ -1,13 +1,13 @@
 #include "measure/landing.hpp"
 
+#include "measure/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double landed = 0.01;  ///< of the approach: the landing is over
 constexpr int most_periods = 1000;
 constexpr double settled = 1e-9;  ///< of the velocity scale, change over a period

@@ -1,13 +1,12 @@
 #include "measure/layer_mode.hpp"
 
+#include "measure/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace vibrotrough::measure {
 namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
 
 /// Indices wrap around because the curves are periodic.
 std::size_t wrapped(int i, std::size_t size) {

@@ -1,11 +1,11 @@
 #include "measure/layer_motion.hpp"
 
+#include "measure/constants.hpp"
 #include "measure/layer_mode.hpp"
 #include "measure/reaction.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -15,8 +15,6 @@ namespace {
 
 using Values = std::vector<double>;
 constexpr std::size_t per_cycle = PhaseSeries::per_cycle;
-constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
 
 /// The lines that are looked at, cut into whole periods.
 struct Window {

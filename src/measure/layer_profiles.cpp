@@ -1,6 +1,7 @@
 #include "measure/layer_profiles.hpp"
 
 #include "core/error.hpp"
+#include "measure/constants.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +18,6 @@ namespace vibrotrough::measure {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
 
 /// All numbers in a line; std::nullopt if the line contains anything else.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
@@ -169,16 +169,16 @@ void add_bin(Profiles& profiles, std::vector<Snapshot const*> const& snapshots, 
 
 /// The variance of the height of the surface along the trough.
 double surface_variance(Snapshot const& one) {
-    double sum = 0, squares = 0, columns = 0;
+    double sum = 0, squares = 0, filled = 0;
     for (Bin const& bin : one.bins) {
         if (bin.grains == 0) continue;
         double const height = 2 * bin.means[0];
         sum += height;
         squares += height * height;
-        ++columns;
+        ++filled;
     }
-    if (columns < 2) return 0;
-    return std::max(0.0, squares - sum * sum / columns) / (columns - 1);
+    if (filled < 2) return 0;
+    return std::max(0.0, squares - sum * sum / filled) / (filled - 1);
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 #include "measure/reaction.hpp"
 
+#include "measure/constants.hpp"
+
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace vibrotrough::measure {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double interval = two_pi / PhaseSeries::per_cycle;  // rad
 
 /// The first harmonic of the drive in a curve over one or more cycles: value(phase) = Re(result e^(i phase)).

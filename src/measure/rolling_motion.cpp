@@ -1,12 +1,12 @@
 #include "measure/rolling_motion.hpp"
 
 #include "core/error.hpp"
+#include "measure/constants.hpp"
 #include "measure/table_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -16,71 +16,71 @@ namespace vibrotrough::measure {
 namespace {
 
 using Values = std::vector<double>;
-constexpr std::size_t per_cycle = PhaseSeries::per_cycle;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
+constexpr std::size_t phases_per_cycle = PhaseSeries::per_cycle;
 
 /// Sums of one column at each phase.
-using Sums = std::array<double, per_cycle>;
+using PhaseSums = std::array<double, phases_per_cycle>;
 
 /// Sums over the lines that are looked at, phase by phase.
 class Folder {
   public:
     Folder(RollingSeries const& series, RollingFacts const& facts)
         : series_(series),
-          first_(static_cast<std::size_t>(std::max(facts.discarded, 1)) * per_cycle),
-          end_(static_cast<std::size_t>(std::max(facts.used, 0)) * per_cycle) {
+          first_(static_cast<std::size_t>(std::max(facts.discarded, 1)) * phases_per_cycle),
+          end_(static_cast<std::size_t>(std::max(facts.used, 0)) * phases_per_cycle) {
         count_ = over_lines([](std::size_t, std::size_t) { return 1.0; });
     }
 
     /// Over the lines of rolling.csv.
-    Sums of(Values const& column) const {
+    PhaseSums of(Values const& column) const {
         return over_lines([&column](std::size_t line, std::size_t) { return column[line]; });
     }
 
     /// Of a column of phases.csv over the lines that rolling.csv has, too.
-    Sums of_same_lines(Values const& column) const {
+    PhaseSums of_same_lines(Values const& column) const {
         return over_lines([&column](std::size_t, std::size_t hundredth) { return column[hundredth]; });
     }
 
     /// Of a column of phases.csv over all its lines.
-    Sums of_all_lines(Values const& column) const {
-        Sums sums{};
-        for (std::size_t i = first_; i < end_; ++i) sums[i % per_cycle] += column[i];
+    PhaseSums of_all_lines(Values const& column) const {
+        PhaseSums sums{};
+        for (std::size_t i = first_; i < end_; ++i) sums[i % phases_per_cycle] += column[i];
         return sums;
     }
 
     /// The mean over the lines.
     Values mean(Values const& column, double unit = 1) const {
         Values values;
-        Sums const sums = of(column);
-        for (std::size_t j = 0; j < per_cycle; ++j)
+        PhaseSums const sums = of(column);
+        for (std::size_t j = 0; j < phases_per_cycle; ++j)
             values.push_back(count_[j] > 0 ? sums[j] / (count_[j] * unit) : gap);
         return values;
     }
 
     /// Number of cycles at each phase of phases.csv.
-    double cycles() const { return static_cast<double>((end_ - first_) / per_cycle); }
+    double cycles() const { return static_cast<double>((end_ - first_) / phases_per_cycle); }
 
   private:
     template <typename Value>
-    Sums over_lines(Value const& value) const {
-        Sums sums{};
+    PhaseSums over_lines(Value const& value) const {
+        PhaseSums sums{};
         for (std::size_t line = 0; line < series_.lines(); ++line) {
             std::size_t const hundredth = RollingSeries::stride * (line + 1) - 1;
             if (hundredth < first_ || hundredth >= end_) continue;
-            sums[hundredth % per_cycle] += value(line, hundredth);
+            sums[hundredth % phases_per_cycle] += value(line, hundredth);
         }
         return sums;
     }
 
     RollingSeries const& series_;
     std::size_t first_, end_;
-    Sums count_{};
+    PhaseSums count_{};
 };
 
-Values ratio(Sums const& above, Sums const& below) {
+Values ratio(PhaseSums const& above, PhaseSums const& below) {
     Values values;
-    for (std::size_t j = 0; j < per_cycle; ++j) values.push_back(below[j] > 0 ? above[j] / below[j] : gap);
+    for (std::size_t j = 0; j < phases_per_cycle; ++j)
+        values.push_back(below[j] > 0 ? above[j] / below[j] : gap);
     return values;
 }
 
@@ -92,7 +92,7 @@ Values less(Values const& from, Values const& values) {
 
 void add_grains(RollingCurves& curves, Folder const& fold, RollingSeries const& s, PhaseSeries const& phases,
                 Values const& trough) {
-    Sums const touching = fold.of_all_lines(phases.touching);
+    PhaseSums const touching = fold.of_all_lines(phases.touching);
     for (double const number : touching) curves.floor_grains.push_back(number / fold.cycles());
     curves.floor_velocity = less(ratio(fold.of_all_lines(phases.touching_vx), touching), trough);
     curves.floor_spin = ratio(fold.of_all_lines(phases.touching_spin), touching);
@@ -118,7 +118,7 @@ std::optional<double> mean_of_known(Values const& curve) {
 }
 
 void check_length(RollingSeries const& series, PhaseSeries const& phases, RollingFacts const& facts) {
-    std::size_t const hundredths = static_cast<std::size_t>(std::max(facts.used, 0)) * per_cycle;
+    std::size_t const hundredths = static_cast<std::size_t>(std::max(facts.used, 0)) * phases_per_cycle;
     if (phases.lines() >= hundredths && series.lines() >= hundredths / RollingSeries::stride) return;
     throw core::InputError(fmt::format("rolling.csv holds {} lines and should hold {} for {} cycles",
                                        series.lines(), hundredths / RollingSeries::stride, facts.used));
@@ -153,8 +153,8 @@ RollingCurves rolling_curves(RollingSeries const& s, PhaseSeries const& phases, 
     RollingCurves curves;
     if (facts.used <= std::max(facts.discarded, 1)) return curves;
     Folder const fold(s, facts);
-    for (std::size_t j = 0; j < per_cycle; ++j)
-        curves.phase.push_back(2 * std::numbers::pi * static_cast<double>(j + 1) / per_cycle);
+    for (std::size_t j = 0; j < phases_per_cycle; ++j)
+        curves.phase.push_back(2 * std::numbers::pi * static_cast<double>(j + 1) / phases_per_cycle);
     add_grains(curves, fold, s, phases, facts.trough_velocity);
     curves.floor_contacts = fold.mean(s.loaded);
     curves.sliding_share = ratio(fold.of(s.sliding), fold.of(s.loaded));
@@ -163,10 +163,10 @@ RollingCurves rolling_curves(RollingSeries const& s, PhaseSeries const& phases, 
     curves.friction = fold.mean(s.friction);
     curves.floor_torque = fold.mean(s.floor_torque);
     curves.grain_torque = less(fold.mean(s.torque), curves.floor_torque);
-    Sums const touching = fold.of_same_lines(phases.touching);
+    PhaseSums const touching = fold.of_same_lines(phases.touching);
     curves.contacts_per_floor_grain = ratio(fold.of(s.contacts), touching);
     Values const between = fold.mean(s.all_contacts, facts.grains);
-    for (std::size_t j = 0; j < per_cycle; ++j) {
+    for (std::size_t j = 0; j < phases_per_cycle; ++j) {
         double const with_floor = curves.floor_grains[j] / facts.grains;
         curves.contacts_per_grain.push_back(between[j] + with_floor);
     }

@@ -14,7 +14,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double near_limit = 1e-3;
 
 /// The design of a drive without its verdict.

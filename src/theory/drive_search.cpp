@@ -13,8 +13,8 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using std::numbers::pi;
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 /// The search aims so far inside each limit, relatively, so that what it finds lies inside and not on it.
 constexpr double margin = 1e-8;
 
@@ -104,7 +104,7 @@ class Search {
     std::vector<double> excesses_;
     std::vector<Limit> limits_;
     Variables last_;
-    double merit_ = 0, best_merit_ = -infinity;
+    double merit_ = 0, best_merit_ = -no_limit;
     std::optional<Variables> best_;
 };
 

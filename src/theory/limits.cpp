@@ -15,7 +15,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Eq. 10 for a slide from omega t = d to e that starts from rest.
 double slide_displacement(double factor, double sine, double d, double e) {

@@ -1,12 +1,12 @@
 #include "theory/quantities.hpp"
 
 #include "theory/detail/common/input_check.hpp"
+#include "theory/detail/common/instant.hpp"
 #include "theory/detail/conveyor/model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -15,7 +15,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+using detail::two_pi;
 
 /// A piece of a motion with its velocities as functions of time.
 class PieceMotion {

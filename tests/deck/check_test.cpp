@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,11 +18,7 @@
 namespace vibrotrough::deck {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-scenario::Scenario scenario(std::string const& text = example_campaign) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
+using std::numbers::pi;
 
 prepare::PreparedCase prepared(scenario::Scenario const& s) {
     return prepare::prepare_case(s);
@@ -37,7 +34,7 @@ Finding finding(scenario::Scenario const& s, std::string const& item) {
 // Possible, but hardly any machine or material: told only where it is so, with the slip that would explain
 // it.
 TEST(Check, TellsWhatIsUnusual) {
-    scenario::Scenario s = scenario();
+    scenario::Scenario s = scenario_of();
     EXPECT_THROW(finding(s, "machine number"), std::out_of_range);
     EXPECT_THROW(finding(s, "density of the grains"), std::out_of_range);
     s.grains.density = 0.6;  // t/m3 taken for kg/m3
@@ -45,7 +42,7 @@ TEST(Check, TellsWhatIsUnusual) {
     EXPECT_NE(light.severity, Severity::fine);
     EXPECT_NE(light.advice.find("0.6 t/m3 meant (600 kg/m3)"), std::string::npos) << light.advice;
     // K = omega^2 r / g: a stroke taken for the amplitude doubles it.
-    s = scenario();
+    s = scenario_of();
     double const omega = 2 * pi * s.trough.frequency;
     s.trough.amplitude = 10 * scenario::gravity / (omega * omega);
     Finding const strong = finding(s, "machine number");
@@ -58,32 +55,32 @@ TEST(Check, TellsWhatIsUnusual) {
 
 // What the user typed is named, in its unit: a stroke, turns of the drive, a bulk density, a throw number.
 TEST(Check, NamesWhatIsUnusualAsItWasTyped) {
-    scenario::Scenario const slow = scenario(with("amplitude = \"6 mm\"", "stroke = \"120 mm\"",
-                                                  with("throw_number = 2.0", "frequency = \"16 rpm\"")));
+    scenario::Scenario const slow = scenario_of(with("amplitude = \"6 mm\"", "stroke = \"120 mm\"",
+                                                     with("throw_number = 2.0", "frequency = \"16 rpm\"")));
     Finding const turns = finding(slow, "speed of the drive");
     EXPECT_EQ(turns.key, "trough.frequency");
     EXPECT_EQ(turns.unit, "1/min");
     EXPECT_NEAR(turns.measured, 16, 1e-12);
     EXPECT_NE(turns.advice.find("were 16 Hz meant, not rpm?"), std::string::npos) << turns.advice;
-    scenario::Scenario const wide = scenario(with("amplitude = \"6 mm\"", "stroke = \"120 mm\""));
+    scenario::Scenario const wide = scenario_of(with("amplitude = \"6 mm\"", "stroke = \"120 mm\""));
     Finding const stroke = finding(wide, "stroke");
     EXPECT_EQ(stroke.key, "trough.stroke");
     EXPECT_NEAR(stroke.measured, 120, 1e-12);
     EXPECT_EQ(stroke.unit, "mm");
     scenario::Scenario const light =
-        scenario(with("density = \"1400 kg/m3\"", "bulk_density = \"0.6 kg/m3\""));
+        scenario_of(with("density = \"1400 kg/m3\"", "bulk_density = \"0.6 kg/m3\""));
     Finding const bulk = finding(light, "bulk density");
     EXPECT_EQ(bulk.key, "grains.bulk_density");
     EXPECT_NE(bulk.advice.find("were 0.6 t/m3 meant (600 kg/m3)?"), std::string::npos) << bulk.advice;
     // The frequency follows from the throw number, which is what can be changed.
-    scenario::Scenario const fast = scenario(with("amplitude = \"6 mm\"", "stroke = \"4 um\""));
+    scenario::Scenario const fast = scenario_of(with("amplitude = \"6 mm\"", "stroke = \"4 um\""));
     EXPECT_EQ(finding(fast, "frequency").key, "trough.throw_number");
 }
 
 // One grain of the floor carries rho phi g h d^2 where the layer is h high; the example is asked for as 12 mm
 // at a solid fraction of 0.58, rounded to whole grains (1 / 500).
 TEST(Estimates, BottomLoadIsTheColumnsWeight) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     EXPECT_NEAR(bottom_load(prepared(s)), 1400 * 0.58 * 9.81 * 0.012 * 0.003 * 0.003,
                 0.003 * bottom_load(prepared(s)));
     scenario::Scenario steep = s;
@@ -93,13 +90,13 @@ TEST(Estimates, BottomLoadIsTheColumnsWeight) {
 
 // F = 4/3 E* sqrt(R) d^(3/2), evaluated by hand with E* = 5e6 / (2 (1 - 0.35^2)) = 2.849003e6 Pa.
 TEST(Estimates, HertzOverlapCarriesTheForce) {
-    double const overlap = overlap_under(prepared(scenario()), 1e-3);
+    double const overlap = overlap_under(prepared(scenario_of()), 1e-3);
     EXPECT_NEAR(4.0 / 3 * 2.849003e6 * std::sqrt(0.0015) * std::pow(overlap, 1.5), 1e-3, 1e-9);
 }
 
 // m v^2 / 2 = 8/15 E* sqrt(R) d^(5/2): all kinetic energy is in the contact.
 TEST(Estimates, ImpactOverlapHoldsTheEnergy) {
-    scenario::Scenario const s = scenario(with("diameter_spread = 0.1", "diameter_spread = 0.0"));
+    scenario::Scenario const s = scenario_of(with("diameter_spread = 0.1", "diameter_spread = 0.0"));
     double const overlap = overlap_at_impact(prepared(s), 0.7);
     double const mass = 1400 * pi / 6 * std::pow(0.003, 3);
     EXPECT_NEAR(8.0 / 15 * 2.849003e6 * std::sqrt(0.0015) * std::pow(overlap, 2.5), mass * 0.49 / 2,
@@ -109,7 +106,7 @@ TEST(Estimates, ImpactOverlapHoldsTheEnergy) {
 // The duration of a Hertz impact is 2.9432 d_max / v (Johnson, section 11.4): a check of both against each
 // other; 2.87 has three digits.
 TEST(Estimates, ImpactDurationBelongsToItsOverlap) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     EXPECT_NEAR(impact_duration(prepared(s), 0.7), 2.9432 * overlap_at_impact(prepared(s), 0.7) / 0.7,
                 2e-3 * impact_duration(prepared(s), 0.7));
     EXPECT_NEAR(impact_duration(prepared(s), 32 * 0.7) * 2, impact_duration(prepared(s), 0.7),
@@ -119,13 +116,13 @@ TEST(Estimates, ImpactDurationBelongsToItsOverlap) {
 // Eq. 15 of the theory: at Gamma = sqrt(1 + pi^2) the flight lasts exactly one cycle; none below Gamma = 1.
 TEST(Estimates, FlightTime) {
     scenario::Scenario const full =
-        scenario(with("throw_number = 2.0", fmt::format("throw_number = {}", std::sqrt(1 + pi * pi))));
+        scenario_of(with("throw_number = 2.0", fmt::format("throw_number = {}", std::sqrt(1 + pi * pi))));
     EXPECT_NEAR(flight_time(prepared(full)) * full.trough.frequency, 1, 1e-6);
-    EXPECT_EQ(flight_time(prepared(scenario(with("throw_number = 2.0", "throw_number = 0.99")))), 0);
+    EXPECT_EQ(flight_time(prepared(scenario_of(with("throw_number = 2.0", "throw_number = 0.99")))), 0);
 }
 
 TEST(Estimates, SkinIsTheDecks) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     EXPECT_NE(make_deck(prepared(s), {1})
                   .files.at("in.liggghts")
                   .find(fmt::format("neighbor        {} bin", skin_in_diameters * s.grains.diameter)),
@@ -136,7 +133,7 @@ TEST(Estimates, SkinIsTheDecks) {
 // 0.0627 and 0.0469 for P = 4 and 5 (t = 4.177, 3.495), of which half of the whole half-width is asked. A
 // block has no numerical errors, so that all of the half-width is left to statistics.
 TEST(Estimates, PackingsAreWhatTheHalfWidthNeeds) {
-    scenario::Scenario asking = scenario();
+    scenario::Scenario asking = scenario_of();
     scenario::MeasurementPlan& plan = asking.measure;
     auto const packings = [&](double half_width) {
         plan.half_width = half_width;
@@ -155,7 +152,7 @@ TEST(Estimates, PackingsAreWhatTheHalfWidthNeeds) {
 
 // The numerical errors take 0.8 of 0.05, so that 0.03 = 0.6 x 0.05 is left: as many packings as for 0.03.
 TEST(Estimates, PackingsAreMoreWhereNumericsTakeAShare) {
-    scenario::Scenario asking = prepared(scenario()).scenario;
+    scenario::Scenario asking = prepared(scenario_of()).scenario;
     double const numerics = prepare::numerical_errors(asking).total();
     asking.measure.half_width = numerics / 0.8;
     EXPECT_NEAR(prepare::statistics_plan(asking).half_width, 0.75 * numerics, 1e-12);
@@ -168,7 +165,7 @@ TEST(Estimates, PackingsAreMoreWhereNumericsTakeAShare) {
 }
 
 TEST(Estimates, WorkIsThatOfCyclesAndSettling) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     // Settling comes to the cycles: 5 falls are a few cycles long.
     double const cycles = s.layer.grains * prepared(s).time.steps_per_cycle * expected_cycles(s);
     EXPECT_GT(expected_work(prepared(s)), cycles);
@@ -179,7 +176,7 @@ TEST(Estimates, WorkIsThatOfCyclesAndSettling) {
 TEST(Check, TheExampleIsFine) {
     std::string const stiff =
         with("youngs_modulus = \"5 MPa\"\n", "", with("half_width = 0.02", "half_width = 0.05"));
-    for (Finding const& one : check(prepared(scenario(stiff)))) {
+    for (Finding const& one : check(prepared(scenario_of(stiff)))) {
         EXPECT_EQ(one.severity, Severity::fine) << one.item << ": " << one.measured;
         EXPECT_TRUE(std::isfinite(one.measured)) << one.item;
         EXPECT_FALSE(one.advice.empty()) << one.item;
@@ -189,18 +186,18 @@ TEST(Check, TheExampleIsFine) {
 // Bound 4 s^2, an error from twice the half-width on (src/prepare/softness.hpp): 14 diameters of 5 MPa.
 TEST(Check, SoftGrainsOfADeepLayerAreAnError) {
     char const* const item = "bound of the error of eta by soft grains";
-    Finding const deep = finding(scenario(with("height = \"12 mm\"", "height = \"42 mm\"")), item);
+    Finding const deep = finding(scenario_of(with("height = \"12 mm\"", "height = \"42 mm\"")), item);
     EXPECT_EQ(deep.severity, Severity::error);
     EXPECT_EQ(deep.key, "grains.youngs_modulus");
     EXPECT_NE(deep.advice.find("leave out grains.youngs_modulus"), std::string::npos) << deep.advice;
     std::string const wide = with("half_width = 0.02", "half_width = 0.05");
-    EXPECT_EQ(finding(scenario(wide), item).severity, Severity::warning) << "four diameters, for +- 0.05";
+    EXPECT_EQ(finding(scenario_of(wide), item).severity, Severity::warning) << "four diameters, for +- 0.05";
 }
 
 // A block is one body with a contact of its own: nothing of layers, and its contact is T / 300.
 TEST(Check, ABlockIsNoLayer) {
     std::string const one_size = with("diameter_spread = 0.1", "diameter_spread = 0.0");
-    scenario::Scenario const s = scenario(with("height = \"12 mm\"", "block = \"point\"", one_size));
+    scenario::Scenario const s = scenario_of(with("height = \"12 mm\"", "block = \"point\"", one_size));
     EXPECT_NEAR(finding(s, "contact time at the trough's speed / cycle").measured, 1.0 / 300, 1e-12);
     EXPECT_EQ(finding(s, "contact time at the trough's speed / cycle").key, "solver.block_stiffness");
     for (Finding const& one : check(prepared(s))) {
@@ -211,7 +208,7 @@ TEST(Check, ABlockIsNoLayer) {
 
 TEST(Check, EveryItemHasItsOwnNameAndAKeyThatExists) {
     std::set<std::string> names;
-    for (Finding const& one : check(prepared(scenario()))) {
+    for (Finding const& one : check(prepared(scenario_of()))) {
         EXPECT_TRUE(names.insert(one.item).second) << one.item;
         EXPECT_NE(scenario::find_key(one.key), nullptr) << one.key;
     }
@@ -221,7 +218,7 @@ TEST(Check, EveryItemHasItsOwnNameAndAKeyThatExists) {
 TEST(Check, FindsWhatIsWrong) {
     char const* const impact = "overlap of a grain at impact at twice the trough's speed / diameter";
     auto const modulus = [](char const* value) {
-        return scenario(with("youngs_modulus = \"5 MPa\"", fmt::format("youngs_modulus = \"{}\"", value)));
+        return scenario_of(with("youngs_modulus = \"5 MPa\"", fmt::format("youngs_modulus = \"{}\"", value)));
     };
     EXPECT_EQ(finding(modulus("0.5 MPa"), impact).severity, Severity::warning);
     scenario::Scenario soft = modulus("0.1 MPa");
@@ -231,12 +228,12 @@ TEST(Check, FindsWhatIsWrong) {
     EXPECT_EQ(finding(soft, impact).key, "grains.youngs_modulus");
     EXPECT_NE(finding(soft, "overlap under the layer's own weight / diameter").severity, Severity::fine);
 
-    auto const shortened = scenario(with("length = \"36 mm\"", "length = \"15 mm\""));
+    auto const shortened = scenario_of(with("length = \"36 mm\"", "length = \"15 mm\""));
     EXPECT_EQ(finding(shortened, "periodic length / diameter").severity, Severity::warning);
     EXPECT_NEAR(finding(shortened, "periodic length / diameter").measured, 5, 1e-12);
-    auto const high = scenario(with("height = \"12 mm\"", "height = \"50 mm\""));
+    auto const high = scenario_of(with("height = \"12 mm\"", "height = \"50 mm\""));
     EXPECT_EQ(finding(high, "periodic length / layer height").severity, Severity::warning);
-    auto const many = scenario(with("frames_per_cycle = 0", "frames_per_cycle = 1000"));
+    auto const many = scenario_of(with("frames_per_cycle = 0", "frames_per_cycle = 1000"));
     // 102 bytes for each grain in each frame of the first packing outweigh everything else.
     EXPECT_NEAR(1e9 * finding(many, "disk").measured / (102.0 * 1000 * 24 * many.layer.grains), 1, 0.1);
 }
@@ -246,12 +243,12 @@ TEST(Check, AContactMustBeShortAgainstTheFlight) {
     // Gamma a little above 1: a hop of a fifth of a cycle, which soft grains do not resolve.
     std::string const soft = with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"0.5 MPa\"",
                                   with("throw_number = 2.0", "throw_number = 1.05"));
-    auto const hop = finding(scenario(soft), item);
+    auto const hop = finding(scenario_of(soft), item);
     EXPECT_NE(hop.severity, Severity::fine) << hop.measured;
     // Below, and where the point mass only grazes, there is no flight to compare with.
     for (char const* gamma : {"0.9", "1.0", "1.000000001", "1.0001", "1.01"}) {
         EXPECT_THROW(
-            finding(scenario(with("throw_number = 2.0", std::string("throw_number = ") + gamma)), item),
+            finding(scenario_of(with("throw_number = 2.0", std::string("throw_number = ") + gamma)), item),
             std::out_of_range)
             << gamma;
     }
@@ -259,7 +256,7 @@ TEST(Check, AContactMustBeShortAgainstTheFlight) {
 
 // The trough's speed is omega r where its motion has no harmonics; an impact takes twice that speed at most.
 TEST(Check, ContactTimesAreThoseAtTheTroughsSpeed) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     double const speed = 2 * pi * s.trough.frequency * s.trough.amplitude;
     EXPECT_NEAR(finding(s, "contact time at the trough's speed / cycle").measured,
                 impact_duration(prepared(s), speed) * s.trough.frequency, 1e-12);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <regex>
 
 #include <fmt/format.h>
@@ -17,11 +18,7 @@
 namespace vibrotrough::deck {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-scenario::Scenario scenario(std::string const& text = example_campaign) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
+using std::numbers::pi;
 
 /// Both decks, one after the other.
 std::string decks(scenario::Scenario const& s, int packing = 1) {
@@ -42,7 +39,7 @@ TEST(Deck, AnOpenTroughIsFedAndDischarged) {
     std::string const text =
         with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
     scenario::Scenario const s =
-        scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text));
+        scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text));
     prepare::PreparedCase const prepared = prepare::prepare_case(s);
     Deck const deck = make_deck(prepared, {1});
     std::string const drive = deck.files.at("in.liggghts");
@@ -55,7 +52,7 @@ TEST(Deck, AnOpenTroughIsFedAndDischarged) {
     // One grain of each of the three sizes is there at first.
     EXPECT_EQ(prepared.settled_grains, 3);
     EXPECT_NEAR(prepared.settled_weight / prepared.weight * s.layer.grains, 3, 0.05);
-    std::string const periodic = decks(scenario());
+    std::string const periodic = decks(scenario_of());
     for (char const* part : {"feed", "back.stl", "outlet", "along."})
         EXPECT_EQ(periodic.find(part), std::string::npos) << part;
 }
@@ -67,7 +64,7 @@ TEST(Deck, OfAShortOpenTroughKeepsItsFirstGrainsFromTheEdge) {
         std::string const text = with("height = \"12 mm\"\n", "", with("36 mm", length)) +
                                  "[feed]\nmass_flow = \"0.1 t/h\"\nlength = \"20 mm\"\n";
         auto const prepared = prepare::prepare_case(
-            scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+            scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
         Deck const deck = make_deck(prepared, {1});
         std::string const& settle = deck.settle_files.at(settle_file);
         bool const is_short = prepared.scenario.layer.length < 0.1;
@@ -83,7 +80,7 @@ TEST(Deck, GrainsAreTakenOutBeforeTheyLeaveTheBox) {
     std::string const text =
         with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
     prepare::PreparedCase const c = prepare::prepare_case(
-        scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+        scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
     prepare::OpenTrough const& open = *c.domain.open;
     double const period = 1 / c.scenario.trough.frequency, way = c.largest_speed * period;
     EXPECT_LT(c.box_bottom, open.out_z - way - 9.81 / 2 * period * period);
@@ -102,7 +99,7 @@ TEST(Deck, TheBoxOfAShortTroughHoldsWhatTheFallOfTheFeedThrowsOverTheEdge) {
         std::string const text = with("height = \"12 mm\"\n", "", with("36 mm", length)) +
                                  "[feed]\nmass_flow = \"0.1 t/h\"\nheight = \"60 mm\"\nlength = \"20 mm\"\n";
         prepare::PreparedCase const c = prepare::prepare_case(
-            scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+            scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
         prepare::OpenTrough const& open = *c.domain.open;
         double const fed = std::sqrt(open.feed_speed * open.feed_speed + 2 * 9.81 * open.feed_top);
         EXPECT_GT(fed, 2 * c.largest_speed);
@@ -114,7 +111,7 @@ TEST(Deck, TheBoxOfAShortTroughHoldsWhatTheFallOfTheFeedThrowsOverTheEdge) {
 // m = rho pi / 6 sum d^3 over three classes of equal number.
 TEST(Deck, MassAndWeightOfThreeClasses) {
     scenario::Scenario const s =
-        scenario(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
+        scenario_of(with("height = \"12 mm\"", "grains = 300", with("\"0 deg\"", "\"10 deg\"")));
     prepare::PreparedCase const prepared = prepare::prepare_case(s);
     double const volume = 100 * pi / 6 * (std::pow(2.7e-3, 3) + std::pow(3e-3, 3) + std::pow(3.3e-3, 3));
     EXPECT_NEAR(prepared.mass, 1400 * volume, 1e-12);
@@ -124,7 +121,7 @@ TEST(Deck, MassAndWeightOfThreeClasses) {
 TEST(Deck, CountsEqualWithinOne) {
     for (int const grains : {1, 2, 3, 100, 101, 500}) {
         std::string const deck =
-            decks(scenario(with("height = \"12 mm\"", fmt::format("grains = {}", grains))));
+            decks(scenario_of(with("height = \"12 mm\"", fmt::format("grains = {}", grains))));
         std::regex const target("particles_in_region ([0-9]+)");
         int last = 0, most = 0, least = grains;
         for (std::sregex_iterator match(deck.begin(), deck.end(), target), end; match != end; ++match) {
@@ -139,19 +136,19 @@ TEST(Deck, CountsEqualWithinOne) {
 }
 
 TEST(Deck, ASingleGrainIsOfTheMiddleSize) {
-    std::string const deck = decks(scenario(with("height = \"12 mm\"", "grains = 1")));
+    std::string const deck = decks(scenario_of(with("height = \"12 mm\"", "grains = 1")));
     EXPECT_NE(deck.find("1 of diameter 0.003 m"), std::string::npos);
 }
 
 TEST(Deck, OneSizeIsOneClass) {
-    std::string const deck = decks(scenario(with("diameter_spread = 0.1", "diameter_spread = 0.0")));
+    std::string const deck = decks(scenario_of(with("diameter_spread = 0.1", "diameter_spread = 0.0")));
     EXPECT_EQ(deck.find("class2"), std::string::npos);
 }
 
 // 36.3 mm / 1.5 / 3 mm = 8 columns, each slightly wider than an eighth, so that rounding does not add a
 // ninth.
 TEST(Deck, CutsTheLayerIntoBins) {
-    scenario::Scenario const s = scenario(with("length = \"36 mm\"", "length = \"36.3 mm\""));
+    scenario::Scenario const s = scenario_of(with("length = \"36 mm\"", "length = \"36.3 mm\""));
     std::string const deck = decks(s);
     int const n = prepare::prepare_case(s).time.steps_per_cycle;
     EXPECT_EQ(number_after(deck, "window all ave/time 1 "), n / 100);
@@ -165,7 +162,7 @@ TEST(Deck, CutsTheLayerIntoBins) {
 
 // g (-sin(alpha), 0, -cos(alpha)): uphill positive, gravity pulls a layer on an incline backwards.
 TEST(Deck, TiltsGravityNotTheTrough) {
-    std::string const deck = decks(scenario(with("inclination = \"0 deg\"", "inclination = \"30 deg\"")));
+    std::string const deck = decks(scenario_of(with("inclination = \"0 deg\"", "inclination = \"30 deg\"")));
     EXPECT_NEAR(number_after(deck, "fix             gravity all gravity 9.81 vector "), -0.5, 1e-15);
     EXPECT_NE(deck.find("vector -0.49999999999999994 0 -0.8660254037844387"), std::string::npos);
 }
@@ -174,7 +171,7 @@ TEST(Deck, AvoidsTheKnownPitfalls) {
     for (std::string const& text :
          {example_campaign,
           with("rolling_friction = 0.0", "rolling_friction = 0.1\nrotation = \"rolling\"")}) {
-        std::string const deck = decks(scenario(text));
+        std::string const deck = decks(scenario_of(text));
         // Coulomb friction needs both options, in the pair style and in the wall.
         std::regex const coulomb("limitForce on tangential_damping off");
         EXPECT_EQ(std::distance(std::sregex_iterator(deck.begin(), deck.end(), coulomb), {}), 4);
@@ -188,13 +185,13 @@ TEST(Deck, AvoidsTheKnownPitfalls) {
         EXPECT_LT(deck.find("move/mesh"), deck.find("fix             means"));
         EXPECT_EQ(deck.find("{{"), std::string::npos);
     }
-    EXPECT_EQ(decks(scenario()).find("rolling_friction epsd2"), std::string::npos);
+    EXPECT_EQ(decks(scenario_of()).find("rolling_friction epsd2"), std::string::npos);
 }
 
 // A sweep over drives settles each packing once, because the first deck does not depend on the drive.
 TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
     auto const settle = [](std::string const& text) {
-        return make_deck(prepare::prepare_case(scenario(text)), {1}).settle_files;
+        return make_deck(prepare::prepare_case(scenario_of(text)), {1}).settle_files;
     };
     auto const first = settle(example_campaign);
     EXPECT_EQ(first, settle(with("throw_number = 2.0", "throw_number = 3.0")));
@@ -206,23 +203,23 @@ TEST(Deck, CasesThatDifferByTheirDriveShareThePacking) {
               settle(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"3, 0.1, 0 deg\"]")));
     EXPECT_NE(first, settle(with("friction = 0.23", "friction = 0.24")));
     EXPECT_NE(first, settle(with("\"0 deg\"", "\"1 deg\"")));
-    EXPECT_NE(first, make_deck(prepare::prepare_case(scenario()), {2}).settle_files);
+    EXPECT_NE(first, make_deck(prepare::prepare_case(scenario_of()), {2}).settle_files);
 }
 
 // Every order has 50 steps in its period.
 TEST(Deck, HarmonicsHaveSteps) {
     scenario::Scenario s =
-        scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"100, 0.2, 0 deg\"]"));
+        scenario_of(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"100, 0.2, 0 deg\"]"));
     EXPECT_GE(prepare::prepare_case(s).time.steps_per_cycle, 5000);
 }
 
 TEST(Deck, RotationChoosesTheIntegrator) {
     auto const integrator = [](std::string const& lines) {
-        return decks(scenario(with("rolling_friction = 0.0", lines)));
+        return decks(scenario_of(with("rolling_friction = 0.0", lines)));
     };
     EXPECT_NE(integrator("rotation = \"free\"").find("integrate all nve/sphere\n"), std::string::npos);
     EXPECT_NE(integrator("rotation = \"blocked\"").find("integrate all nve\n"), std::string::npos);
-    std::string const rods = decks(scenario(with("diameter_spread = 0.1", "shape = \"rod\"")));
+    std::string const rods = decks(scenario_of(with("diameter_spread = 0.1", "shape = \"rod\"")));
     EXPECT_NE(rods.find("particletemplate/multisphere"), std::string::npos);
     EXPECT_NE(rods.find("integrate all multisphere allow_group_and_set yes\n"), std::string::npos);
     EXPECT_NE(rods.find("atoms/3"), std::string::npos);
@@ -240,7 +237,7 @@ TEST(Deck, ALongRunPausesAtTheSameCyclesAsOneThatIsContinued) {
 }
 
 TEST(Deck, ControlSaysAfterWhichCycleARunEnds) {
-    prepare::PreparedCase const prepared = prepare::prepare_case(scenario());
+    prepare::PreparedCase const prepared = prepare::prepare_case(scenario_of());
     EXPECT_EQ(make_deck(prepared, {1}).files.at("control.in"), control_go_on);
     std::string const control = make_deck(prepared, {1, 24}).files.at("control.in");
     EXPECT_NE(control.find("variable stop equal ${done}>=24\n"), std::string::npos);
@@ -252,7 +249,7 @@ TEST(Deck, ControlSaysAfterWhichCycleARunEnds) {
 
 // velocity all set V NULL NULL with V = eta omega r cos(beta), before the first cycle only.
 TEST(Deck, GrainsMayStartWithASpeed) {
-    prepare::PreparedCase const prepared = prepare::prepare_case(scenario());
+    prepare::PreparedCase const prepared = prepare::prepare_case(scenario_of());
     std::string const started = make_deck(prepared, {2, 24, 0.5}).files.at("in.liggghts");
     std::string const command = fmt::format(
         "if \"${{done}} == 0\" then \"velocity all set {:.6g} NULL NULL\"\n", 0.5 * prepared.velocity_scale);
@@ -261,7 +258,7 @@ TEST(Deck, GrainsMayStartWithASpeed) {
 }
 
 TEST(Deck, SideWallsAreMeshesThatMove) {
-    Deck const deck = make_deck(prepare::prepare_case(scenario(with(
+    Deck const deck = make_deck(prepare::prepare_case(scenario_of(with(
                                     "restitution = 0.5", "restitution = 0.5\nside_wall_friction = 0.3"))),
                                 {1});
     std::string const& text = deck.files.at("in.liggghts");
@@ -274,20 +271,20 @@ TEST(Deck, SideWallsAreMeshesThatMove) {
 }
 
 TEST(Deck, SoftGrainsNeedAnExtraCommand) {
-    EXPECT_EQ(decks(scenario()).find("soft_particles"), std::string::npos);
-    std::string const soft = decks(scenario(with("5 MPa", "1 MPa")));
+    EXPECT_EQ(decks(scenario_of()).find("soft_particles"), std::string::npos);
+    std::string const soft = decks(scenario_of(with("5 MPa", "1 MPa")));
     EXPECT_LT(soft.find("soft_particles  yes"), soft.find("create_box"));
 }
 
 // LIGGGHTS refuses more than 1 GPa without it, which stiff_enough() chooses for deep layers.
 TEST(Deck, HardGrainsNeedAnExtraCommand) {
-    EXPECT_EQ(decks(scenario(with("5 MPa", "1000 MPa"))).find("hard_particles"), std::string::npos);
-    std::string const hard = decks(scenario(with("5 MPa", "1500 MPa")));
+    EXPECT_EQ(decks(scenario_of(with("5 MPa", "1000 MPa"))).find("hard_particles"), std::string::npos);
+    std::string const hard = decks(scenario_of(with("5 MPa", "1500 MPa")));
     EXPECT_LT(hard.find("hard_particles  yes"), hard.find("create_box"));
 }
 
 TEST(Deck, PackingsDifferBySeedsAndOnlyTheFirstHasFrames) {
-    scenario::Scenario s = scenario();
+    scenario::Scenario s = scenario_of();
     s.output.frames_per_cycle = 10;
     Deck const first = make_deck(prepare::prepare_case(s), {1}),
                second = make_deck(prepare::prepare_case(s), {2});
@@ -316,7 +313,7 @@ TEST(Deck, ARampEndsAfterWholeCyclesAtTheNewFrequency) {
         "[[stages]]\ncycles = 4\n[[stages]]\nramp_cycles = 3\ncycles = 9\nfrequency = \"20 Hz\"\n";
     std::string const text =
         with("throw_number = 2.0", "frequency = \"10 Hz\"", with("max_cycles = 200\n", ""));
-    std::string const deck = decks(scenario(text + stages));
+    std::string const deck = decks(scenario_of(text + stages));
     std::regex const angle(R"(2\*PI\*3\*v_\w+\*\(([-+.e\d]+)\+\(([-+.e\d]+)\)\*v_)");
     std::smatch found;
     ASSERT_TRUE(std::regex_search(deck, found, angle));
@@ -331,7 +328,7 @@ TEST(Deck, MaterialsHaveTheTypesOfTheTable) {
         std::string text = with("restitution = 0.5", "restitution = 0.5" + walls);
         for (char const* name : {"fines", "coarse"})
             text += fmt::format("\n[[materials]]\nname = \"{}\"\nmass_fraction = 0.2\n", name);
-        prepare::PreparedCase const prepared = prepare::prepare_case(scenario(text));
+        prepare::PreparedCase const prepared = prepare::prepare_case(scenario_of(text));
         std::vector<AtomType> const types = atom_types(prepared);
         ASSERT_EQ(prepared.materials.size(), 3u);
         for (int material = 0; material < 3; ++material) {

@@ -16,11 +16,11 @@
 namespace vibrotrough::deck {
 namespace {
 
-constexpr char const* lines =
+constexpr char const* three_places =
     "[after-contact]\nfix a all viscous 0.1\n[before-first-cycle]\ncompute b all ke\n"
     "[at-cycle-end]\nprint \"cycle ${done}\"\n";
 
-prepare::PreparedCase prepared(std::string const& engine, std::string const& extra = lines,
+prepare::PreparedCase prepared(std::string const& engine, std::string const& extra = three_places,
                                std::vector<scenario::NamedFile> files = {}) {
     files.push_back({"x.liggghts", extra});
     return prepare::prepare_case(
@@ -28,11 +28,11 @@ prepare::PreparedCase prepared(std::string const& engine, std::string const& ext
             .cases.front());
 }
 
-Deck deck(std::string const& engine, std::string const& extra = lines) {
+Deck deck(std::string const& engine, std::string const& extra = three_places) {
     return make_deck(prepared(engine, extra), {1});
 }
 
-std::string digest(std::string const& engine, std::string const& extra = lines) {
+std::string digest(std::string const& engine, std::string const& extra = three_places) {
     return digest_of_commands(deck(engine, extra).files);
 }
 
@@ -101,8 +101,8 @@ TEST(EngineSection, ExtraLinesStandAtTheirPlaces) {
 TEST(EngineSection, TheCommandsOfTheLinesBelongToTheId) {
     std::string const with_lines = digest("extra = \"x.liggghts\"\n");
     EXPECT_NE(with_lines, digest(""));
-    EXPECT_EQ(with_lines, digest("extra = \"x.liggghts\"\n", "# a comment\n" + std::string(lines)));
-    EXPECT_NE(with_lines, digest("extra = \"x.liggghts\"\n", lines + std::string("print \"more\"\n")));
+    EXPECT_EQ(with_lines, digest("extra = \"x.liggghts\"\n", "# a comment\n" + std::string(three_places)));
+    EXPECT_NE(with_lines, digest("extra = \"x.liggghts\"\n", three_places + std::string("print \"more\"\n")));
     EXPECT_NE(digest("contact = \"hooke\"\n"), digest(""));
     EXPECT_NE(digest("cohesion = \"1 J/m3\"\n"), digest(""));
 }
@@ -110,7 +110,7 @@ TEST(EngineSection, TheCommandsOfTheLinesBelongToTheId) {
 // What another template says is in the deck, and in the id only if its commands differ.
 TEST(EngineSection, TemplatesAreReplaced) {
     auto const with_template = [](std::string const& name, std::string const& text) {
-        return make_deck(prepared("templates = [\"" + name + "\"]\n", lines, {{name, text}}), {1});
+        return make_deck(prepared("templates = [\"" + name + "\"]\n", three_places, {{name, text}}), {1});
     };
     Deck const plain = deck("");
     Deck const other = with_template("inputs.mustache", "# {{{grains}}} grains, in my own words\n");

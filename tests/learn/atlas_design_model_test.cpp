@@ -11,12 +11,12 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double diameter = 0.003;
+constexpr double grain_diameter = 0.003;
 
 /// A drive in the middle of the atlas: throw number 2, tan(beta) 0.65, amplitude of two diameters.
 theory::Drive middle() {
     theory::Drive d{};
-    d.amplitude = 2 * diameter;
+    d.amplitude = 2 * grain_diameter;
     d.vibration_angle = std::atan(0.65);
     d.inclination = 0;
     d.frequency = std::sqrt(2 * 9.81 / (d.amplitude * std::sin(d.vibration_angle))) / (2 * std::acos(-1.0));
@@ -26,7 +26,7 @@ theory::Drive middle() {
 // The model is the atlas with what is not known in the middle of its ranges: depth 4.5, friction of grains
 // 0.55, restitution 0.55. Tolerance: rounding of the throw number.
 TEST(AtlasDesignModel, IsTheAtlas) {
-    DesignModel const model = atlas_design_model({diameter, Uncertain{0.05}});
+    DesignModel const model = atlas_design_model({grain_diameter, Uncertain{0.05}});
     auto const value = model.at(middle(), 0.3).value();
     auto const known = atlas::value_at({2, 0.65, 0, 0.3, 2, 4.5, 0.55, 0.05, 0.55}).value();
     EXPECT_NEAR(value.efficiency, known.efficiency, 1e-6);
@@ -34,16 +34,16 @@ TEST(AtlasDesignModel, IsTheAtlas) {
 }
 
 TEST(AtlasDesignModel, IsLessSureWithoutTheRollingFriction) {
-    double const known = atlas_design_model({diameter, Uncertain{0.1}}).at(middle(), 0.3)->sd(),
-                 unknown = atlas_design_model({diameter, {}}).at(middle(), 0.3)->sd();
+    double const known = atlas_design_model({grain_diameter, Uncertain{0.1}}).at(middle(), 0.3)->sd(),
+                 unknown = atlas_design_model({grain_diameter, {}}).at(middle(), 0.3)->sd();
     EXPECT_GT(unknown, known);
-    EXPECT_THROW(atlas_design_model({diameter, Uncertain{0.5}}), core::InputError);
+    EXPECT_THROW(atlas_design_model({grain_diameter, Uncertain{0.5}}), core::InputError);
 }
 
 TEST(AtlasDesignModel, KnowsWhereItEnds) {
-    DesignModel const model = atlas_design_model({diameter, {}});
+    DesignModel const model = atlas_design_model({grain_diameter, {}});
     theory::DriveSpace const space = model.narrowed({});
-    EXPECT_NEAR(space.amplitude.high, 4 * diameter, 1e-12);
+    EXPECT_NEAR(space.amplitude.high, 4 * grain_diameter, 1e-12);
     EXPECT_NEAR(std::tan(space.vibration_angle.low), 0.3, 1e-12);
     EXPECT_LE(space.max_throw_number, 3.2);
     EXPECT_LE(model.excess(middle()), 0);
@@ -62,21 +62,21 @@ TEST(AtlasDesignModel, KnowsWhereItEnds) {
 // A task within the atlas: 1.5 t/h of 3 mm grains on 200 mm, in a layer of 9 to 18 mm.
 TEST(AtlasDesignModel, DesignsAMachine) {
     DesignTask task{};
-    task.models = {atlas_design_model({diameter, Uncertain{0.05}})};
+    task.models = {atlas_design_model({grain_diameter, Uncertain{0.05}})};
     task.space.vibration_angle = {0.6, 0.6};
     task.friction = normal_friction(0.3, 0);
     task.bulk_density = 600;
     task.width = 0.2;
     task.mass_flow = 1500.0 / 3600;
-    task.depth = {3 * diameter, 6 * diameter};
-    task.grain_diameter = diameter;
+    task.depth = {3 * grain_diameter, 6 * grain_diameter};
+    task.grain_diameter = grain_diameter;
     RiskDesign const design = design_with_risk(task);
     EXPECT_TRUE(design.feasible);
     EXPECT_FALSE(design.untested);
     EXPECT_LE(task.models.front().excess(design.drive), 1e-6);
     // Mass flow = bulk density, depth, width and speed; the layer is not thinner than the task allows.
     EXPECT_GE(600 * design.depth * 0.2 * design.sure_speed, 0.999 * task.mass_flow);
-    EXPECT_GE(design.depth, 3 * diameter * (1 - 1e-9));
+    EXPECT_GE(design.depth, 3 * grain_diameter * (1 - 1e-9));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "atlas/atlas.hpp"
 #include "core/error.hpp"
+#include "learn/machine_keys.hpp"
 #include "learn/point_mass_model.hpp"
 
 #include <array>
@@ -17,7 +18,6 @@
 namespace vibrotrough::learn {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double diameter = 0.003;
 
 /// Five settings of a machine, throw numbers 1.2 to 2.8 at an amplitude of a diameter, without speeds.

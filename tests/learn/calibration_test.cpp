@@ -4,6 +4,7 @@
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "learn/calibration_report.hpp"
+#include "learn/machine_keys.hpp"
 #include "learn/model_errors.hpp"
 #include "learn/point_mass_model.hpp"
 
@@ -21,8 +22,6 @@
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Six settings of a machine, throw numbers 0.7 to 2.7, without speeds.
 std::vector<MeasuredSpeed> six_settings() {

@@ -1,6 +1,7 @@
 #include "learn/point_mass_model.hpp"
 
 #include "core/error.hpp"
+#include "learn/machine_keys.hpp"
 #include "theory/point_mass.hpp"
 
 #include <array>
@@ -11,8 +12,6 @@
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 MeasuredSpeed setting(double amplitude, double frequency, double angle_deg, double inclination_deg) {
     return {2, amplitude, frequency, angle_deg * degree, inclination_deg * degree, 0.1, 0.01};

@@ -1,6 +1,7 @@
 #include "learn/speeds.hpp"
 
 #include "core/csv.hpp"
+#include "learn/machine_keys.hpp"
 
 #include <numbers>
 
@@ -9,8 +10,6 @@
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // r = stroke / 2; f = rpm / 60.
 TEST(Speeds, StrokeAndRevolutions) {

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
+#include "learn/machine_keys.hpp"
 #include "scenario/example_campaign.hpp"
 
 #include <array>
@@ -14,8 +15,6 @@
 
 namespace vibrotrough::learn {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A campaign over throw number and friction whose layer is faster than the theory by 0.1 (2 - Gamma)^2 + 0.2
 /// (mu - 0.4), known exactly on a grid.

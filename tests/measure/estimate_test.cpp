@@ -25,7 +25,7 @@ struct Series {
     }
 };
 
-constexpr Precision wanted{0.95, 0.02};
+constexpr Precision two_percent{0.95, 0.02};
 
 // eta_k = (x_k - x_(k-1)) / (2 pi r cos(beta)): one unit of r cos(beta) per radian.
 TEST(Estimate, VelocityEfficiencyIsDisplacementPerCycle) {
@@ -79,17 +79,17 @@ TEST(Estimate, StatisticalInefficiencyOfAKnownProcess) {
 // A 95 % interval contains the true mean in 95 % of all series. For 500 series the standard deviation of this
 // fraction is 1 %.
 TEST(Estimate, IntervalCoversTheTruth) {
-    struct Case {
+    struct Sample {
         double rho;
         double at_least;
     };
     // Independent cycles: 95 % minus three standard deviations. Correlated cycles: the inefficiency estimated
     // from 60 values is too low on average; 85 % is required.
-    for (Case const& c : {Case{0.0, 0.92}, Case{0.5, 0.88}}) {
+    for (Sample const& c : {Sample{0.0, 0.92}, Sample{0.5, 0.88}}) {
         int covered = 0;
         for (unsigned seed = 1; seed <= 500; ++seed) {
             auto const estimate =
-                estimate_packing(Series{.start = -0.5, .rho = c.rho}.make(80, seed), wanted);
+                estimate_packing(Series{.start = -0.5, .rho = c.rho}.make(80, seed), two_percent);
             if (std::abs(estimate.mean - 0.8) <= estimate.half_width) ++covered;
         }
         EXPECT_GE(covered / 500.0, c.at_least) << c.rho;
@@ -100,12 +100,12 @@ TEST(Estimate, IntervalCoversTheTruth) {
 TEST(Estimate, SaysWhenALayerIsNotSteady) {
     std::vector<double> drifting;
     for (int i = 0; i < 60; ++i) drifting.push_back(0.01 * i);
-    EXPECT_EQ(estimate_packing(drifting, wanted).verdict, Verdict::not_steady);
+    EXPECT_EQ(estimate_packing(drifting, two_percent).verdict, Verdict::not_steady);
     // A start-up that lasts longer than half of the run.
-    EXPECT_EQ(estimate_packing(Series{.start = -0.8, .decay = 60}.make(40, 1), wanted).verdict,
+    EXPECT_EQ(estimate_packing(Series{.start = -0.8, .decay = 60}.make(40, 1), two_percent).verdict,
               Verdict::not_steady);
-    EXPECT_EQ(estimate_packing({}, wanted).verdict, Verdict::not_steady);
-    EXPECT_EQ(estimate_packing(std::vector<double>{0.8}, wanted).verdict, Verdict::not_steady);
+    EXPECT_EQ(estimate_packing({}, two_percent).verdict, Verdict::not_steady);
+    EXPECT_EQ(estimate_packing(std::vector<double>{0.8}, two_percent).verdict, Verdict::not_steady);
 }
 
 // A layer may fluctuate slowly forever; if it does so by less than the required half-width, it counts as
@@ -119,15 +119,15 @@ TEST(Estimate, WanderingWithinWhatWasAskedIsSteady) {
 }
 
 TEST(Estimate, SaysWhenAMeanIsNotPrecise) {
-    EXPECT_EQ(estimate_packing(Series{.sigma = 0.3}.make(40, 3), wanted).verdict, Verdict::not_precise);
-    EXPECT_EQ(estimate_packing(Series{}.make(40, 3), wanted).verdict, Verdict::precise);
+    EXPECT_EQ(estimate_packing(Series{.sigma = 0.3}.make(40, 3), two_percent).verdict, Verdict::not_precise);
+    EXPECT_EQ(estimate_packing(Series{}.make(40, 3), two_percent).verdict, Verdict::precise);
     // Five equal cycles are not sufficient, however small their scatter.
-    EXPECT_NE(estimate_packing(std::vector<double>(5, 0.8), wanted).verdict, Verdict::precise);
+    EXPECT_NE(estimate_packing(std::vector<double>(5, 0.8), two_percent).verdict, Verdict::precise);
 }
 
 TEST(Estimate, AKnownStartupIsLeftOut) {
     std::vector<double> const values{9, 9, 0.5, 0.7, 0.5, 0.7};
-    auto const estimate = estimate_packing_after(2, values, wanted);
+    auto const estimate = estimate_packing_after(2, values, two_percent);
     EXPECT_EQ(estimate.discarded, 2);
     EXPECT_EQ(estimate.measured, 4);
     EXPECT_NEAR(estimate.mean, 0.6, 1e-15);

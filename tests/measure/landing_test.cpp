@@ -2,6 +2,8 @@
 
 #include "point_mass_phases.hpp"
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 // A point mass that moves according to the theory serves as a layer whose landing and normal force are known
@@ -9,7 +11,7 @@
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 SlidingMass facts_of(PointMassPhases const& mass, double friction) {
     return {PointMassPhases::mass, friction, mass.facts.gravity_x, mass.facts.frequency,

@@ -4,6 +4,7 @@
 #include "point_mass_phases.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double interval = 2 * pi / 100;
 
 std::string name(theory::PointMass const& p) {

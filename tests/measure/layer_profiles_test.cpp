@@ -86,7 +86,7 @@ TEST_F(Snapshots, AreRefusedWhenDamaged) {
     EXPECT_NE(error_of(snapshot(0) + "30 1\n1 0.5 0 0 0 0\n").find("different size"), std::string::npos);
 }
 
-ProfileFacts facts(int discarded, int used) {
+ProfileFacts profile_facts(int discarded, int used) {
     ProfileFacts facts{1400, 100, discarded, used, 2, {0, 0.2}, {1, -1}, {0, 0.125}, 0.5};
     return facts;
 }
@@ -94,19 +94,18 @@ ProfileFacts facts(int discarded, int used) {
 // Steps 150 (phase pi) and 200 (phase 0) of 100 per cycle are in cycle 2.
 TEST_F(Snapshots, MakeProfiles) {
     write("profiles.0.txt", head + snapshot(50) + snapshot(150) + snapshot(200));
-    Profiles const profiles = layer_profiles(read(), facts(1, 2));
-    double const pi = std::numbers::pi;
-    EXPECT_EQ(profiles.phase, (std::vector<double>{0, 0, pi, pi}));
+    Profiles const profiles = layer_profiles(read(), profile_facts(1, 2));
+    EXPECT_EQ(profiles.phase, (std::vector<double>{0, 0, std::numbers::pi, std::numbers::pi}));
     EXPECT_EQ(profiles.height, (std::vector<double>{1.5, 2.5, 1.3, 2.3}));
     EXPECT_EQ(profiles.solid_fraction, (std::vector<double>{0.5, 0.25, 0.5, 0.25}));
     EXPECT_EQ(profiles.velocity_x, (std::vector<double>{199, 399, 151, 301}));
     EXPECT_EQ(profiles.velocity_z, (std::vector<double>{0.5, 0.25, 0.375, 0.125}));
     // Thirds of 20 grains lie within the bins of 10: (400 - 200 + 300 - 150) / 2 over 0.5.
     EXPECT_NEAR(profiles.velocity_gradient.value(), 350, 1e-10);
-    ProfileFacts still = facts(1, 2);
+    ProfileFacts still = profile_facts(1, 2);
     still.conveying_speed = 0.001;
     EXPECT_FALSE(layer_profiles(read(), still).velocity_gradient);
-    EXPECT_TRUE(layer_profiles(read(), facts(2, 9)).phase.empty());
+    EXPECT_TRUE(layer_profiles(read(), profile_facts(2, 9)).phase.empty());
 }
 
 // h = 0.01 + 0.002 sin(2 pi i / 8): the mean height of a column is half of it; s^2 = A^2/2 * 8/7.
@@ -119,13 +118,13 @@ TEST(Surface, HasTheAmplitudeOfItsWave) {
     Snapshot holed = one;
     holed.bins.push_back({0.1, 0, 0, {0}});  // the height of a column without grains is undefined
     for (Snapshot const& snapshot : {one, holed}) {
-        Surface const surface = layer_surface({snapshot}, facts(1, 2));
+        Surface const surface = layer_surface({snapshot}, profile_facts(1, 2));
         EXPECT_NEAR(surface.wiggle_amplitude.value(), 0.002 * std::sqrt(8.0 / 7), 1e-12);
         EXPECT_NEAR(surface.height[2], 0.012, 1e-12);
         EXPECT_EQ(surface.x[2], 0.002);
     }
-    EXPECT_TRUE(std::isnan(layer_surface({holed}, facts(1, 2)).height.back()));
-    EXPECT_FALSE(layer_surface({}, facts(1, 2)).wiggle_amplitude);
+    EXPECT_TRUE(std::isnan(layer_surface({holed}, profile_facts(1, 2)).height.back()));
+    EXPECT_FALSE(layer_surface({}, profile_facts(1, 2)).wiggle_amplitude);
 }
 
 }  // namespace

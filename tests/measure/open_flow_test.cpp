@@ -22,7 +22,7 @@ CycleSeries steady_flow() {
     return series;
 }
 
-OpenFacts facts(int discarded) {
+OpenFacts open_facts(int discarded) {
     return {0.1, 0.5, 100, discarded, 4, 800, 0.02, 0.1, 0.02 * 0.1};
 }
 
@@ -54,7 +54,7 @@ TEST(OpenFlow, AMissingGrainIsNamedWithItsCycle) {
 }
 
 TEST(OpenFlow, FlowsAreThoseOfTheCyclesThatCount) {
-    OpenFlow const flow = open_flow(steady_flow(), {}, {dump("along.0.txt", "")}, "/packing", facts(2));
+    OpenFlow const flow = open_flow(steady_flow(), {}, {dump("along.0.txt", "")}, "/packing", open_facts(2));
     EXPECT_NEAR(*flow.inflow, 0.1, 1e-14);
     EXPECT_NEAR(*flow.outflow, 0.1, 1e-14);
     EXPECT_NEAR(*flow.hold_up, 0.022, 1e-15);
@@ -70,12 +70,13 @@ TEST(OpenFlow, FlowsAreThoseOfTheCyclesThatCount) {
 TEST(OpenFlow, ResidenceIsFromTheFeedToTheEdge) {
     std::vector<LeftGrain> left;
     for (int i = 0; i < 20; ++i) left.push_back({3 + i / 10, 3 + i, 0.51, 0.5});
-    OpenFlow const flow = open_flow(steady_flow(), left, {dump("along.0.txt", "")}, "/packing", facts(0));
+    OpenFlow const flow =
+        open_flow(steady_flow(), left, {dump("along.0.txt", "")}, "/packing", open_facts(0));
     EXPECT_NEAR(*flow.residence_time, 0.275 - 0.045, 1e-14);
     EXPECT_NEAR(flow.residence.front(), 0.185, 1e-14);
     EXPECT_NEAR(flow.residence.back(), 0.275, 1e-14);
     left[0] = {1, 30, 0.51, 0.5};
-    EXPECT_THROW(open_flow(steady_flow(), left, {}, "/packing", facts(0)), core::InputError);
+    EXPECT_THROW(open_flow(steady_flow(), left, {}, "/packing", open_facts(0)), core::InputError);
 }
 
 // A run that was cut after step 200 and started again from step 100: the later file counts from there on, and

@@ -11,7 +11,7 @@
 namespace vibrotrough::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double frequency = 13, omega = 2 * pi * frequency;
 
 /// The curves of a body on a trough with the velocities Re(V e^(i phase)), whose force on the trough is

@@ -45,7 +45,7 @@ std::string lines_of(int cycles) {
     return text;
 }
 
-RollingFacts facts(int discarded, int used) {
+RollingFacts rolling_facts(int discarded, int used) {
     return {10, 1e-8, discarded, used, std::vector<double>(100, 1.0)};
 }
 
@@ -88,7 +88,7 @@ TEST(RollingFile, IsRefusedWhenDamaged) {
 // the cycle is seen in one of the three that are left: in hundredth h = 3 i - 1 of the run.
 TEST(RollingCurves, AreMeansOverTheCyclesKept) {
     RollingSeries const series = parse_rolling(file_of(lines_of(5)), steps_per_cycle);
-    RollingCurves const curves = rolling_curves(series, phases_of(5), facts(2, 5));
+    RollingCurves const curves = rolling_curves(series, phases_of(5), rolling_facts(2, 5));
     ASSERT_EQ(curves.phase.size(), 100u);
     EXPECT_NEAR(curves.phase[24], std::acos(-1) / 2, 1e-15);
     for (std::size_t j = 0; j < 100; ++j) {
@@ -125,21 +125,21 @@ TEST(RollingCurves, HaveGapsWhereNothingWasSeen) {
     RollingSeries series = parse_rolling(file_of(lines_of(3)), steps_per_cycle);
     std::fill(series.loaded.begin(), series.loaded.end(), 0);
     // Two cycles are kept: a third of the phases has no line.
-    RollingCurves const curves = rolling_curves(series, phases, facts(1, 3));
+    RollingCurves const curves = rolling_curves(series, phases, rolling_facts(1, 3));
     EXPECT_TRUE(std::isnan(curves.floor_velocity[7]) && std::isnan(curves.floor_slip[7]));
     EXPECT_EQ(curves.floor_grains[7], 0);
     EXPECT_TRUE(std::isnan(curves.sliding_share[8]));
     auto const gaps = std::count_if(curves.normal_force.begin(), curves.normal_force.end(),
                                     [](double force) { return std::isnan(force); });
     EXPECT_EQ(gaps, 33);
-    EXPECT_TRUE(rolling_curves(series, phases, facts(1, 1)).phase.empty()) << "no cycle is kept";
+    EXPECT_TRUE(rolling_curves(series, phases, rolling_facts(1, 1)).phase.empty()) << "no cycle is kept";
 }
 
 TEST(RollingCurves, RefuseASeriesThatIsTooShort) {
     RollingSeries const series = parse_rolling(file_of(lines_of(4)), steps_per_cycle);
-    EXPECT_NO_THROW(rolling_curves(series, phases_of(4), facts(1, 4)));
+    EXPECT_NO_THROW(rolling_curves(series, phases_of(4), rolling_facts(1, 4)));
     try {
-        rolling_curves(series, phases_of(5), facts(1, 5));
+        rolling_curves(series, phases_of(5), rolling_facts(1, 5));
         FAIL() << "the last cycle is missing";
     } catch (core::InputError const& error) {
         EXPECT_STREQ(error.what(), "rolling.csv holds 133 lines and should hold 166 for 5 cycles");

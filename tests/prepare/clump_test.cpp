@@ -11,7 +11,7 @@
 namespace vibrotrough::prepare {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // The integration uses 400 x 400 lines, so the edges of the outline are known to half a line in 400.
 constexpr double grid = 2e-4;
 

@@ -6,38 +6,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 namespace vibrotrough::prepare {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
-scenario::Scenario scenario(std::string const& engine = "") {
+scenario::Scenario with_engine(std::string const& engine = "") {
     return scenario::parse_campaign(example_campaign + "[engine]\n" + engine, "test.toml").cases.front();
 }
 
 // E* = 5e6 / (2 (1 - 0.35^2)) = 2.849003e6 Pa, evaluated by hand.
-constexpr double modulus = 2.849003e6;
+constexpr double effective = 2.849003e6;
 
 TEST(Contact, PairsOfSpheres) {
-    scenario::Grains const grains = scenario().grains;
+    scenario::Grains const grains = with_engine().grains;
     double const mass = 1400 * pi / 6 * 27e-9;
     EXPECT_NEAR(grain_on_trough(grains, 0.0015).mass, mass, 1e-12 * mass);
     EXPECT_NEAR(two_grains(grains, 0.0015).mass, mass / 2, 1e-12 * mass);
     EXPECT_DOUBLE_EQ(two_grains(grains, 0.0015).radius, 0.00075);
-    EXPECT_NEAR(effective_modulus(grains), modulus, 1);
+    EXPECT_NEAR(effective_modulus(grains), effective, 1);
 }
 
 // m* v^2 / 2 = 8/15 E* sqrt(R*) d^(5/2) gives the largest overlap d of Hertz. The spring stores the same
 // energy at the same overlap: k d^2 / 2. E* has seven digits here.
 TEST(Contact, TheSpringOfHookeHoldsTheEnergyOfHertz) {
-    scenario::Grains const grains = scenario().grains;
+    scenario::Grains const grains = with_engine().grains;
     for (double const speed : {0.1, 0.7, 3.0}) {
         ContactPair const pair = two_grains(grains, 0.0015);
         double const energy = pair.mass * speed * speed / 2;
-        double const overlap = std::pow(15.0 / 8 * energy / (modulus * std::sqrt(pair.radius)), 0.4);
+        double const overlap = std::pow(15.0 / 8 * energy / (effective * std::sqrt(pair.radius)), 0.4);
         EXPECT_NEAR(hooke_stiffness(grains, pair, speed) * overlap * overlap / 2, energy, 1e-6 * energy);
     }
 }
@@ -71,17 +72,17 @@ TEST(Contact, ALinearImpactEndsWhenItsForceDoes) {
 
 /// Net force of Hertz and sjkr on a pair, N, with the energy density w.
 double net_force(ContactPair const& pair, double w, double overlap) {
-    return 4.0 / 3 * modulus * std::sqrt(pair.radius) * std::pow(overlap, 1.5) -
+    return 4.0 / 3 * effective * std::sqrt(pair.radius) * std::pow(overlap, 1.5) -
            2 * pi * pair.radius * w * overlap;
 }
 
 // The pull-off force is the depth of the net force's minimum, looked for in steps of 1/1000 of its place.
 TEST(Contact, PullOffIsTheLeastNetForce) {
-    scenario::Grains const grains = scenario().grains;
+    scenario::Grains const grains = with_engine().grains;
     ContactPair const pair = grain_on_trough(grains, 0.0015);
     for (double const w : {1e4, 5e4, 2e5}) {
         double least = 0;
-        double const place = std::pow(pi * w / modulus, 2) * pair.radius;
+        double const place = std::pow(pi * w / effective, 2) * pair.radius;
         for (int i = 0; i < 3000; ++i) least = std::min(least, net_force(pair, w, place * i / 1000));
         EXPECT_NEAR(pull_off_force(grains, w, pair), -least, 1e-5 * -least);
     }
@@ -92,7 +93,7 @@ TEST(Contact, PullOffIsTheLeastNetForce) {
 // much larger than F, cancel to 1e-6 of either.
 TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
     for (char const* cohesion : {"0 J/m3", "20 kJ/m3", "200 kJ/m3"}) {
-        scenario::Scenario const s = scenario(std::string("cohesion = \"") + cohesion + "\"\n");
+        scenario::Scenario const s = with_engine(std::string("cohesion = \"") + cohesion + "\"\n");
         ContactPair const pair = grain_on_trough(s.grains, 0.0015);
         for (double const force : {0.0, 1e-4, 1e-2}) {
             double const overlap = overlap_under_force(s, pair, force, 1);
@@ -101,7 +102,7 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
         }
     }
     // Hooke: (k - 2 pi R* w) d = F; no balance when the attraction is stronger than the spring.
-    scenario::Scenario s = scenario("contact = \"hooke\"\ncohesion = \"20 kJ/m3\"\n");
+    scenario::Scenario s = with_engine("contact = \"hooke\"\ncohesion = \"20 kJ/m3\"\n");
     ContactPair const pair = grain_on_trough(s.grains, 0.0015);
     double const net = hooke_stiffness(s.grains, pair, 1) - 2 * pi * 0.0015 * 2e4;
     EXPECT_NEAR(overlap_under_force(s, pair, 1e-3, 1), 1e-3 / net, 1e-12);
@@ -111,23 +112,23 @@ TEST(Contact, OverlapBalancesSpringAttractionAndForce) {
 
 // m v^2 / 2 + pi R* w d^2 = 8/15 E* sqrt(R*) d^(5/2).
 TEST(Contact, AttractionDeepensAnImpact) {
-    scenario::Scenario const s = scenario("cohesion = \"100 kJ/m3\"\n");
+    scenario::Scenario const s = with_engine("cohesion = \"100 kJ/m3\"\n");
     ContactPair const pair = grain_on_trough(s.grains, 0.0015);
     double const d = overlap_of_impact(s, pair, 0.7, 0.7), energy = pair.mass * 0.49 / 2;
-    EXPECT_NEAR(8.0 / 15 * modulus * std::sqrt(0.0015) * std::pow(d, 2.5), energy + pi * 0.0015 * 1e5 * d * d,
-                1e-6 * energy);
-    EXPECT_GT(d, overlap_of_impact(scenario(), pair, 0.7, 0.7));
+    EXPECT_NEAR(8.0 / 15 * effective * std::sqrt(0.0015) * std::pow(d, 2.5),
+                energy + pi * 0.0015 * 1e5 * d * d, 1e-6 * energy);
+    EXPECT_GT(d, overlap_of_impact(with_engine(), pair, 0.7, 0.7));
     // At the speed for which it was chosen, the spring of Hooke is pressed as far as Hertz.
-    EXPECT_NEAR(overlap_of_impact(scenario("contact = \"hooke\"\n"), pair, 0.7, 0.7),
-                overlap_of_impact(scenario(), pair, 0.7, 0.7), 1e-12);
+    EXPECT_NEAR(overlap_of_impact(with_engine("contact = \"hooke\"\n"), pair, 0.7, 0.7),
+                overlap_of_impact(with_engine(), pair, 0.7, 0.7), 1e-12);
 }
 
 // k goes with E^(4/5) v^(2/5): the contact of two equal grains lasts pi (15/16)^(2/5) = 3.06 instead of 2.87
 // (m*^2 / (R* E*^2 v))^(1/5) without damping, and 2 acos(z) / pi / sqrt(1 - z^2) = 0.884 of that at a
 // restitution of 0.5 (z = 0.2154).
 TEST(Contact, TheTimeStepOfHookeFollowsItsContactTime) {
-    PreparedCase const hertz = prepare_case(scenario()),
-                       hooke = prepare_case(scenario("contact = \"hooke\"\n"));
+    PreparedCase const hertz = prepare_case(with_engine()),
+                       hooke = prepare_case(with_engine("contact = \"hooke\"\n"));
     double const hertz_time = hertz.time.time_step / hertz.time.contact_fraction,
                  hooke_time = hooke.time.time_step / hooke.time.contact_fraction;
     double const damped = 2 * std::acos(0.215449) / pi / std::sqrt(1 - 0.215449 * 0.215449);

@@ -20,13 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-scenario::Scenario scenario_of(std::string const& text) {
+scenario::Scenario prepared_scenario(std::string const& text) {
     return prepare_case(scenario::parse_campaign(text, "example.toml").cases.front()).scenario;
 }
 
 /// A layer of a depth in a box, all in diameters.
 scenario::Scenario layer(double length, double width, double depth) {
-    scenario::Scenario s = scenario_of(example_campaign);
+    scenario::Scenario s = prepared_scenario(example_campaign);
     s.layer.length = length * s.grains.diameter;
     s.layer.width = width * s.grains.diameter;
     s.layer.height = depth * s.grains.diameter;

@@ -12,17 +12,13 @@
 namespace vibrotrough::prepare {
 namespace {
 
-PreparedCase prepared(std::string const& text) {
-    return prepare_case(scenario::parse_campaign(text, "test.toml").cases.front());
-}
-
 VariedSetting const& find(std::vector<VariedSetting> const& all, NumericalSetting setting) {
     return *std::find_if(all.begin(), all.end(), [&](auto const& one) { return one.setting == setting; });
 }
 
 // Written as a campaign and read back, every variation differs from the case in exactly its own key.
 TEST(NumericsVariations, EachChangesOneKey) {
-    PreparedCase const base = prepared(example_campaign);
+    PreparedCase const base = prepare_case(scenario_of(example_campaign));
     std::vector<scenario::Scenario> all{base.scenario};
     std::vector<std::string_view> keys{""};
     for (VariedSetting const& setting : vary_numerics(base)) {
@@ -44,7 +40,7 @@ TEST(NumericsVariations, EachChangesOneKey) {
 
 // Contact time and overlap at impact are proportional to E^(-2/5): 4^(-0.4) = 0.574, 16^(-0.4) = 0.330.
 TEST(NumericsVariations, CoarsenessOfTheModulusIsThatOfAContact) {
-    auto const all = vary_numerics(prepared(example_campaign));
+    auto const all = vary_numerics(prepare_case(scenario_of(example_campaign)));
     VariedSetting const& modulus = find(all, NumericalSetting::youngs_modulus);
     ASSERT_EQ(modulus.variations.size(), 2u);
     EXPECT_EQ(modulus.value, 5e6);
@@ -58,7 +54,7 @@ TEST(NumericsVariations, CoarsenessOfTheModulusIsThatOfAContact) {
 // Steps per cycle are a multiple of 100, so that the step is at most half as long and at least 100 steps off.
 TEST(NumericsVariations, HalvesTheTimeStepThatIsReallyUsed) {
     for (char const* const asked : {"", "\n[solver]\nrayleigh_fraction = 0.5\n"}) {
-        PreparedCase const base = prepared(example_campaign + asked);
+        PreparedCase const base = prepare_case(scenario_of(example_campaign + asked));
         auto const all = vary_numerics(base);
         VariedSetting const& step = find(all, NumericalSetting::time_step);
         ASSERT_EQ(step.variations.size(), 1u);
@@ -71,7 +67,7 @@ TEST(NumericsVariations, HalvesTheTimeStepThatIsReallyUsed) {
 // Twice the floor, the same height: twice the grains, whether height or grains were given.
 TEST(NumericsVariations, DoublesTheBoxAtTheSameHeight) {
     for (std::string const& text : {example_campaign, with("height = \"12 mm\"", "grains = 360")}) {
-        PreparedCase const base = prepared(text);
+        PreparedCase const base = prepare_case(scenario_of(text));
         auto const all = vary_numerics(base);
         for (auto const setting : {NumericalSetting::length, NumericalSetting::width}) {
             VariedSetting const& box = find(all, setting);
@@ -88,8 +84,8 @@ TEST(NumericsVariations, DoublesTheBoxAtTheSameHeight) {
 }
 
 TEST(NumericsVariations, LeavesOutTheWidthBetweenSideWalls) {
-    auto const all =
-        vary_numerics(prepared(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0.2")));
+    auto const all = vary_numerics(
+        prepare_case(scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0.2"))));
     VariedSetting const& width = find(all, NumericalSetting::width);
     EXPECT_TRUE(width.variations.empty());
     EXPECT_NE(width.left_out.find("side walls"), std::string::npos);
@@ -99,7 +95,7 @@ TEST(NumericsVariations, LeavesOutTheWidthBetweenSideWalls) {
 TEST(NumericsVariations, OfABlockAreThoseOfItsContact) {
     std::string const text =
         with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1\n", ""));
-    auto const all = vary_numerics(prepared(text));
+    auto const all = vary_numerics(prepare_case(scenario_of(text)));
     VariedSetting const& stiffness = find(all, NumericalSetting::block_stiffness);
     ASSERT_EQ(stiffness.variations.size(), 2u);
     EXPECT_EQ(stiffness.variations[0].value, 600);
@@ -114,14 +110,14 @@ TEST(NumericsVariations, OfABlockAreThoseOfItsContact) {
 
 // A variation that the keys do not allow is left out and named, so that the study is never refused.
 TEST(NumericsVariations, KeepToTheRangesOfTheKeys) {
-    auto const stiff =
-        vary_numerics(prepared(with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"100 GPa\"")));
+    auto const stiff = vary_numerics(
+        prepare_case(scenario_of(with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"100 GPa\""))));
     EXPECT_EQ(find(stiff, NumericalSetting::youngs_modulus).variations.size(), 1u) << "400 GPa, not 1600";
-    auto const stiffest =
-        vary_numerics(prepared(with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"1 TPa\"")));
+    auto const stiffest = vary_numerics(
+        prepare_case(scenario_of(with("youngs_modulus = \"5 MPa\"", "youngs_modulus = \"1 TPa\""))));
     EXPECT_FALSE(find(stiffest, NumericalSetting::youngs_modulus).left_out.empty());
-    auto const fine =
-        vary_numerics(prepared(example_campaign + std::string("\n[solver]\nrayleigh_fraction = 0.015\n")));
+    auto const fine = vary_numerics(
+        prepare_case(scenario_of(example_campaign + std::string("\n[solver]\nrayleigh_fraction = 0.015\n"))));
     EXPECT_FALSE(find(fine, NumericalSetting::time_step).left_out.empty());
 }
 

@@ -12,7 +12,7 @@
 namespace vibrotrough::prepare {
 namespace {
 
-scenario::Scenario scenario(std::string const& lines, scenario::FileSource const& source = {}) {
+scenario::Scenario with_lines(std::string const& lines, scenario::FileSource const& source = {}) {
     return scenario::parse_campaign(with("throw_number = 2.0", "throw_number = 2.0\n" + lines), "c", source)
         .cases.front();
 }
@@ -23,7 +23,7 @@ PointMassInputs inputs(scenario::Scenario const& s) {
 
 // Both solvers on the plain drive: they agree to 1e-9 by the theory's own tests.
 TEST(PointMassMotion, OfAPlainDriveIsTheFastSolvers) {
-    scenario::Scenario const s = scenario("");
+    scenario::Scenario const s = with_lines("");
     EXPECT_TRUE(inputs(s).is_plain);
     EXPECT_NEAR(solve(inputs(s)).velocity_efficiency,
                 theory::solve(inputs(s).conveyor).motion.velocity_efficiency, 1e-9);
@@ -60,29 +60,29 @@ void expect_same_acceleration(scenario::Scenario const& s) {
 }
 
 TEST(PointMassMotion, SeesEllipsesHarmonicsAndWaveforms) {
-    expect_same_acceleration(scenario(""));
+    expect_same_acceleration(with_lines(""));
     expect_same_acceleration(
-        scenario("along_phase = \"20 deg\"\nharmonics = [\"5, 0.2, 30 deg\", \"25, 0.1, -9 deg\"]"));
+        with_lines("along_phase = \"20 deg\"\nharmonics = [\"5, 0.2, 30 deg\", \"25, 0.1, -9 deg\"]"));
     std::string csv = "time_s,x_m,z_m\n";
-    scenario::Scenario const plain = scenario("");
+    scenario::Scenario const plain = with_lines("");
     for (int i = 0; i < 32; ++i) {
         double const t = 2 * std::numbers::pi * i / 32;
         csv += fmt::format("{},{},{}\n", i / 32.0 / plain.trough.frequency,
                            6e-3 * std::cos(std::numbers::pi / 6) * std::sin(t + 0.7) + 1e-4 * std::sin(3 * t),
                            3e-3 * std::sin(t + 0.4) + 2e-4 * std::sin(2 * t - 1));
     }
-    expect_same_acceleration(scenario("waveform = \"m.csv\"", {{}, {{"m.csv", csv}}}));
+    expect_same_acceleration(with_lines("waveform = \"m.csv\"", {{}, {{"m.csv", csv}}}));
 }
 
 // Janssen's ratio: two walls add k mu_w H / W to mu (theory/conveyor.hpp).
 TEST(PointMassMotion, SeesSideWalls) {
-    scenario::Scenario const s = scenario("side_wall_friction = 0.3");
+    scenario::Scenario const s = with_lines("side_wall_friction = 0.3");
     double const expected = 0.23 + 0.5 * 0.3 * 12.0 / 18.0;
     EXPECT_NEAR(theory::effective_friction(inputs(s).conveyor).kinetic_friction, expected, 1e-12);
-    EXPECT_NE(solve(inputs(s)).velocity_efficiency, solve(inputs(scenario(""))).velocity_efficiency);
+    EXPECT_NE(solve(inputs(s)).velocity_efficiency, solve(inputs(with_lines(""))).velocity_efficiency);
     // A measured friction includes the walls' effect: the walls are left out.
     EXPECT_EQ(solve(with_friction(inputs(s), 0.23)).velocity_efficiency,
-              solve(inputs(scenario(""))).velocity_efficiency);
+              solve(inputs(with_lines(""))).velocity_efficiency);
 }
 
 }  // namespace

@@ -12,18 +12,14 @@
 namespace vibrotrough::prepare {
 namespace {
 
-scenario::Scenario scenario(std::string const& text = example_campaign) {
-    return scenario::parse_campaign(text, "c").cases.front();
-}
-
 // What the user gave is kept, not computed back from the frequency.
 TEST(PreparedCase, KeepsTheNumbersAsGiven) {
     for (double const given : {0.7, 1.1, 1.7, 2.3, 2.9}) {
         auto const by_throw =
-            prepare_case(scenario(with("throw_number = 2.0", fmt::format("throw_number = {}", given))));
+            prepare_case(scenario_of(with("throw_number = 2.0", fmt::format("throw_number = {}", given))));
         EXPECT_EQ(by_throw.throw_number, given);
         auto const by_machine =
-            prepare_case(scenario(with("throw_number = 2.0", fmt::format("machine_number = {}", given))));
+            prepare_case(scenario_of(with("throw_number = 2.0", fmt::format("machine_number = {}", given))));
         EXPECT_EQ(by_machine.machine_number, given);
         EXPECT_EQ(by_throw.point_mass.conveyor.point.throw_number, given);
     }
@@ -32,15 +28,15 @@ TEST(PreparedCase, KeepsTheNumbersAsGiven) {
 // Gamma = K sin(beta) / cos(alpha), v = omega r cos(beta); the example has beta = 30 deg, alpha = 0, r = 6
 // mm.
 TEST(PreparedCase, DriveNumbersBelongTogether) {
-    PreparedCase const c = prepare_case(scenario());
+    PreparedCase const c = prepare_case(scenario_of());
     EXPECT_NEAR(c.machine_number, 4, 1e-12);
     EXPECT_NEAR(c.angular_frequency, std::sqrt(4 * 9.81 / 6e-3), 1e-9);
     EXPECT_NEAR(c.velocity_scale, c.angular_frequency * 6e-3 * std::cos(std::numbers::pi / 6), 1e-12);
 }
 
 TEST(PreparedCase, AClumpCostsItsSpheres) {
-    PreparedCase const spheres = prepare_case(scenario());
-    PreparedCase const cubes = prepare_case(scenario(with("diameter_spread = 0.1", "shape = \"cube\"")));
+    PreparedCase const spheres = prepare_case(scenario_of());
+    PreparedCase const cubes = prepare_case(scenario_of(with("diameter_spread = 0.1", "shape = \"cube\"")));
     EXPECT_EQ(spheres.spheres_per_grain, 1);
     EXPECT_EQ(cubes.spheres_per_grain, 8);
     EXPECT_DOUBLE_EQ(cubes.grain_steps(10),
@@ -57,15 +53,15 @@ TEST(PreparedCase, AStepCostsMoreInALargeLayer) {
     EXPECT_NEAR(relative_step_cost(10'000), 1.35, 0.135);
     EXPECT_NEAR(relative_step_cost(100'000), 2.6, 0.26);
     EXPECT_LT(relative_step_cost(1e6), 3);
-    PreparedCase const c = prepare_case(scenario(with("height = \"12 mm\"", "grains = 100000")));
+    PreparedCase const c = prepare_case(scenario_of(with("height = \"12 mm\"", "grains = 100000")));
     EXPECT_DOUBLE_EQ(c.work(3), c.grain_steps(3) * relative_step_cost(c.scenario.layer.grains));
 }
 
 TEST(PreparedCase, CasesShareTheirClump) {
     CasePreparer preparer;
     std::string const cubes = with("diameter_spread = 0.1", "shape = \"cube\"");
-    auto const first = preparer.prepare(scenario(cubes));
-    auto const second = preparer.prepare(scenario(cubes + "[sweep]\n\"trough.friction\" = [0.5]\n"));
+    auto const first = preparer.prepare(scenario_of(cubes));
+    auto const second = preparer.prepare(scenario_of(cubes + "[sweep]\n\"trough.friction\" = [0.5]\n"));
     EXPECT_EQ(first.clump, second.clump);
 }
 
@@ -75,7 +71,7 @@ TEST(PreparedCase, AnOpenTroughKeepsTheGrainsThatAreStillOverIt) {
     std::string const text =
         with("height = \"12 mm\"\n", "", with("36 mm", "200 mm")) + "[feed]\nmass_flow = \"0.1 t/h\"\n";
     PreparedCase const c =
-        prepare_case(scenario(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
+        prepare_case(scenario_of(with("friction = 0.23", "friction = 0.23\nside_wall_friction = 0", text)));
     OpenTrough const& open = c.domain.open.value();
     double const edge = c.scenario.layer.length, excursion = largest_excursion(c.motion);
     EXPECT_GE(open.out_x - c.largest_extent / 2, edge + excursion);

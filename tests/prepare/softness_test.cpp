@@ -14,10 +14,6 @@
 namespace vibrotrough::prepare {
 namespace {
 
-PreparedCase prepared(std::string const& text) {
-    return prepare_case(scenario::parse_campaign(text, "example.toml").cases.front());
-}
-
 std::string without_modulus(std::string const& text = example_campaign) {
     return with("youngs_modulus = \"5 MPa\"\n", "", text);
 }
@@ -25,7 +21,7 @@ std::string without_modulus(std::string const& text = example_campaign) {
 // s = omega h / c, c = (E* / rho)^(1/3) (p / rho)^(1/6), p = 0.58 rho h g cos(alpha) (1 + Gamma) / 2. Worked
 // out here from the case's own numbers in another order: c^6 = (E* / rho)^2 p / rho.
 TEST(Softness, TheWaveNumberIsTheAngleOfACrossing) {
-    PreparedCase const c = prepared(example_campaign);
+    PreparedCase const c = prepare_case(scenario_of(example_campaign));
     scenario::Grains const& grains = c.scenario.grains;
     double const h = c.layer_height, nu = grains.poisson_ratio;
     double const stiff = 5e6 / (2 * (1 - nu * nu)) / grains.density;
@@ -38,7 +34,7 @@ TEST(Softness, TheWaveNumberIsTheAngleOfACrossing) {
 
 // The bound is at most what was asked for, and that of the next softer value of the series is not.
 TEST(Softness, TheChosenModulusIsTheLowestThatIsStiffEnough) {
-    PreparedCase const c = prepared(example_campaign);
+    PreparedCase const c = prepare_case(scenario_of(example_campaign));
     for (double const error : {0.05, 0.02, 0.01, 0.004, 0.001}) {
         double const modulus = stiff_enough(c.scenario, error);
         EXPECT_LE(softness_bound(c.scenario, modulus), error * (1 + 1e-9));
@@ -49,7 +45,8 @@ TEST(Softness, TheChosenModulusIsTheLowestThatIsStiffEnough) {
 }
 
 TEST(Softness, WithoutAModulusACaseGetsOne) {
-    PreparedCase const given = prepared(example_campaign), chosen = prepared(without_modulus());
+    PreparedCase const given = prepare_case(scenario_of(example_campaign)),
+                       chosen = prepare_case(scenario_of(without_modulus()));
     EXPECT_FALSE(given.modulus_chosen);
     EXPECT_TRUE(chosen.modulus_chosen);
     double const half_width = chosen.scenario.measure.half_width;
@@ -65,7 +62,7 @@ TEST(Softness, WithoutAModulusACaseGetsOne) {
 // A deeper layer needs stiffer grains, whatever the modulus of its neighbour in the campaign.
 TEST(Softness, ADeepLayerGetsStifferGrains) {
     auto const modulus = [](std::string const& height) {
-        return *prepared(with("height = \"12 mm\"", height, without_modulus()))
+        return *prepare_case(scenario_of(with("height = \"12 mm\"", height, without_modulus())))
                     .scenario.grains.youngs_modulus;
     };
     EXPECT_LT(modulus("height = \"9 mm\""), modulus("height = \"18 mm\""));
@@ -73,14 +70,17 @@ TEST(Softness, ADeepLayerGetsStifferGrains) {
 }
 
 TEST(Softness, DeepLayersOfFiveMegapascalsAreSoft) {
-    EXPECT_TRUE(is_soft(prepared(with("height = \"12 mm\"", "height = \"42 mm\"")).scenario));
-    EXPECT_FALSE(is_soft(prepared(with("height = \"12 mm\"", "height = \"6 mm\"")).scenario));
+    EXPECT_TRUE(
+        is_soft(prepare_case(scenario_of(with("height = \"12 mm\"", "height = \"42 mm\""))).scenario));
+    EXPECT_FALSE(
+        is_soft(prepare_case(scenario_of(with("height = \"12 mm\"", "height = \"6 mm\""))).scenario));
 }
 
 // A block has a contact of its own, and its modulus does not matter.
 TEST(Softness, ABlockHasNone) {
     std::string const one_size = with("diameter_spread = 0.1", "diameter_spread = 0.0", without_modulus());
-    PreparedCase const c = prepared(with("height = \"12 mm\"", "block = \"point\"", one_size));
+    PreparedCase const c =
+        prepare_case(scenario_of(with("height = \"12 mm\"", "block = \"point\"", one_size)));
     EXPECT_EQ(c.numerics.total(), 0) << "its meshes are exact, and it has no layer";
     EXPECT_FALSE(is_soft(c.scenario));
 }

@@ -8,10 +8,6 @@
 namespace vibrotrough::prepare {
 namespace {
 
-scenario::Scenario scenario(std::string const& text = example_campaign) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
-
 TimeGrid time_of(scenario::Scenario const& s) {
     return prepare_case(s).time;
 }
@@ -19,7 +15,7 @@ TimeGrid time_of(scenario::Scenario const& s) {
 // Rayleigh time by hand for R = 1.35 mm, rho = 1400, E = 5 MPa, nu = 0.35:
 // G = 5e6 / 2.7 = 1.851852e6, pi R sqrt(rho / G) / (0.1631 nu + 0.8766) = 1.24895e-4 s.
 TEST(TimeGrid, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
-    scenario::Scenario const s = scenario();
+    scenario::Scenario const s = scenario_of();
     TimeGrid const time = time_of(s);
     double const rayleigh = 1.24895e-4;
     EXPECT_LE(time.time_step, 0.2 * rayleigh * 1.0001);  // the hand value has six digits
@@ -31,7 +27,7 @@ TEST(TimeGrid, TimeStepIsAFifthOfTheRayleighTimeAndWholePerCycle) {
 
 // t_H = 2.87 (m*^2 / (R* E*^2 v))^(1/5): a hundred times faster impacts shorten it by 100^(1/5) = 2.5.
 TEST(TimeGrid, FastImpactsShortenTheTimeStep) {
-    scenario::Scenario fast = scenario();
+    scenario::Scenario fast = scenario_of();
     fast.trough.amplitude *= 100;
     TimeGrid const time = time_of(fast);
     EXPECT_NEAR(time.contact_fraction, 0.1, 2e-3);  // 5,000 steps are made a multiple of 100
@@ -40,7 +36,7 @@ TEST(TimeGrid, FastImpactsShortenTheTimeStep) {
 
 // The Rayleigh time of a 30 mm grain is ten cycles of 10 kHz: the sinusoid itself needs steps, too.
 TEST(TimeGrid, TheSinusoidHasSteps) {
-    scenario::Scenario s = scenario();
+    scenario::Scenario s = scenario_of();
     s.grains.diameter = 0.03;
     s.trough.amplitude = 1e-6;
     s.trough.frequency = 1e4;
@@ -53,7 +49,7 @@ TEST(TimeGrid, TheSinusoidHasSteps) {
 
 TEST(TimeGrid, StepsDivideIntoFrames) {
     for (int const frames : {1, 7, 12, 100}) {
-        scenario::Scenario s = scenario();
+        scenario::Scenario s = scenario_of();
         s.output.frames_per_cycle = frames;
         EXPECT_EQ(time_of(s).steps_per_cycle % frames, 0) << frames;
         EXPECT_EQ(time_of(s).steps_per_cycle % phases_per_cycle, 0) << frames;

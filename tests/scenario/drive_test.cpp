@@ -17,15 +17,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-scenario::Scenario scenario(std::string const& text) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
-
 // X'' = - omega^2 r cos(beta) (sin t + a sin(k t + phase)), so X = r cos(beta) (sin t + a / k^2 sin(k t +
 // phase)).
 TEST(Drive, HarmonicsAreOfAcceleration) {
     scenario::Scenario const s =
-        scenario(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"5, 0.25, 90 deg\"]"));
+        scenario_of(with("throw_number = 2.0", "throw_number = 2.0\nharmonics = [\"5, 0.25, 90 deg\"]"));
     scenario::DriveMotion const motion = drive_motion(s.trough);
     ASSERT_EQ(motion.along.size(), 2u);
     EXPECT_NEAR(motion.along[0].amplitude, 6e-3 * std::cos(pi / 6), 1e-15);
@@ -39,7 +35,7 @@ TEST(Drive, HarmonicsAreOfAcceleration) {
 
 TEST(Drive, AlongPhaseMakesAnEllipse) {
     scenario::DriveMotion const motion = drive_motion(
-        scenario(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\"")).trough);
+        scenario_of(with("throw_number = 2.0", "throw_number = 2.0\nalong_phase = \"20 deg\"")).trough);
     EXPECT_NEAR(motion.along[0].phase, pi / 9, 1e-15);
     EXPECT_EQ(motion.normal[0].phase, 0);
 }
@@ -123,7 +119,7 @@ TEST(Drive, AWaveformWithASmallFundamentalIsRefused) {
         text += fmt::format("{},{},{}\n", 0.1 * i / 64, 5e-3 * std::sin(t),
                             1e-6 * std::sin(t) + 1e-3 * std::sin(3 * t));
     }
-    scenario::Trough trough = scenario(with("throw_number = 2.0", "frequency = \"20 Hz\"")).trough;
+    scenario::Trough trough = scenario_of(with("throw_number = 2.0", "frequency = \"20 Hz\"")).trough;
     auto const fault = find_fault(*scenario::read_waveform({"w.csv", text}), trough);
     ASSERT_TRUE(fault);
     for (char const* const part :

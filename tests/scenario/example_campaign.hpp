@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scenario/reader/campaign_file.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -46,6 +48,11 @@ frames_per_cycle = 0
 inline std::string with(std::string_view from, std::string_view to, std::string text = example_campaign) {
     text.replace(text.find(from), from.size(), to);
     return text;
+}
+
+/// The first case of a campaign file with this text.
+inline scenario::Scenario scenario_of(std::string const& text = example_campaign) {
+    return scenario::parse_campaign(text, "test.toml").cases.front();
 }
 
 }  // namespace vibrotrough

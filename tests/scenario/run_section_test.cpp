@@ -9,19 +9,19 @@
 namespace vibrotrough {
 namespace {
 
-scenario::RunSettings parse(std::string const& section) {
+scenario::RunSettings run_settings(std::string const& section) {
     return scenario::parse_campaign(example_campaign + section, "campaign.toml").run;
 }
 
 TEST(RunSection, LocalByDefault) {
-    scenario::RunSettings const settings = parse("");
+    scenario::RunSettings const settings = run_settings("");
     EXPECT_EQ(settings.executor, "local");
     EXPECT_EQ(settings.retries, 0);
     EXPECT_FALSE(settings.ranks || settings.time_limit || settings.slurm.partition || settings.slurm.minutes);
 }
 
 TEST(RunSection, ReadsAllItsKeys) {
-    scenario::RunSettings const settings = parse(
+    scenario::RunSettings const settings = run_settings(
         "[run]\nexecutor = \"slurm\"\nretries = 2\nranks = 4\ntime_limit = \"2 hours\"\n"
         "[run.slurm]\npartition = \"compute\"\naccount = \"granular-1\"\ntime = \"90 s\"\nmemory = \"1.5 "
         "GB\"\n"
@@ -42,7 +42,7 @@ TEST(RunSection, ReadsAllItsKeys) {
 }
 
 TEST(RunSection, EachSchedulerHasItsOwnSection) {
-    scenario::RunSettings const settings = parse(
+    scenario::RunSettings const settings = run_settings(
         "[run]\nexecutor = \"pbs\"\n[run.pbs]\nqueue = \"workq\"\naccount = \"a\"\ntime = \"2 hours\"\n"
         "memory = \"2 GB\"\nconcurrent_tasks = 7\nminutes_per_task = 30\ncores_per_task = 64\nextra = "
         "[\"-lplace=excl\"]\n"
@@ -77,7 +77,7 @@ TEST(RunSection, NamesThatCouldBeCommandsAreRefused) {
                              "a&b", "a/b", ".", "\\u00e9", "a|b", "a>b", "a\\\"b"}) {
         for (char const* key : {"partition", "account", "memory"}) {
             try {
-                parse(std::string("[run.slurm]\n") + key + " = \"" + name + "\"\n");
+                run_settings(std::string("[run.slurm]\n") + key + " = \"" + name + "\"\n");
                 ADD_FAILURE() << key << " took " << name;
             } catch (core::InputError const& error) {
                 std::string const message = error.what();
@@ -130,7 +130,7 @@ TEST(RunSection, MistakesNameTheirPlace) {
              {"[run.slurm]\nsetup = [3]\n", "printable"},
          }) {
         try {
-            parse(section);
+            run_settings(section);
             ADD_FAILURE() << "accepted " << section;
         } catch (core::InputError const& error) {
             EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();

@@ -12,15 +12,11 @@
 namespace vibrotrough {
 namespace {
 
-scenario::Scenario scenario(std::string const& text) {
-    return scenario::parse_campaign(text, "test.toml").cases.front();
-}
-
 // Gamma = omega^2 r sin(beta) / (g cos(alpha)), K = omega^2 r / g: a dozen roundings at most.
 constexpr double rounding = 1e-13;
 
 TEST(Scenario, DriveFromThrowNumber) {
-    scenario::Scenario const s = scenario(with("inclination = \"0 deg\"", "tan_inclination = 0.1"));
+    scenario::Scenario const s = scenario_of(with("inclination = \"0 deg\"", "tan_inclination = 0.1"));
     EXPECT_NEAR(throw_number(s.trough), 2.0, 2 * rounding);
     double const omega = std::sqrt(2.0 * scenario::gravity * std::cos(std::atan(0.1)) /
                                    (6e-3 * std::sin(std::numbers::pi / 6)));
@@ -29,24 +25,24 @@ TEST(Scenario, DriveFromThrowNumber) {
 }
 
 TEST(Scenario, DriveFromMachineNumberOrFrequency) {
-    scenario::Scenario const by_number = scenario(with("throw_number = 2.0", "machine_number = 4.0"));
+    scenario::Scenario const by_number = scenario_of(with("throw_number = 2.0", "machine_number = 4.0"));
     EXPECT_NEAR(machine_number(by_number.trough), 4.0, 4 * rounding);
     // K = Gamma cos(alpha) / sin(beta): at beta = 30 degrees Gamma = K / 2.
     EXPECT_NEAR(throw_number(by_number.trough), 2.0, 2 * rounding);
     scenario::Scenario const by_frequency =
-        scenario(with("throw_number = 2.0", "frequency = \"774 / minute\""));
+        scenario_of(with("throw_number = 2.0", "frequency = \"774 / minute\""));
     EXPECT_NEAR(by_frequency.trough.frequency, 12.9, 12.9 * rounding);
 }
 
 // N = phi L W H / (pi d^3 / 6 (1 + 2 s^2)) with phi = 0.58.
 TEST(Scenario, GrainsFromHeight) {
-    scenario::Scenario const s = scenario(example_campaign);
+    scenario::Scenario const s = scenario_of(example_campaign);
     double const volume = std::numbers::pi / 6 * 27 * 1.02;
     EXPECT_EQ(s.layer.grains, std::lround(0.58 * 36 * 18 * 12 / volume));
     EXPECT_EQ(s.layer.height, 0.012);
-    EXPECT_EQ(scenario(with("height = \"12 mm\"", "grains = 600")).layer.grains, 600);
+    EXPECT_EQ(scenario_of(with("height = \"12 mm\"", "grains = 600")).layer.grains, 600);
     // Four diameters of 3 mm: the same case, and written as such.
-    scenario::Scenario const in_diameters = scenario(with("height = \"12 mm\"", "diameters = 4"));
+    scenario::Scenario const in_diameters = scenario_of(with("height = \"12 mm\"", "diameters = 4"));
     EXPECT_EQ(in_diameters.layer.grains, s.layer.grains);
     EXPECT_EQ(to_toml(in_diameters), to_toml(s));
 }
@@ -67,8 +63,8 @@ TEST(Scenario, TextRoundTrip) {
                "throw_number = 2.0\nalong_phase = \"20 deg\"\n"
                "harmonics = [\"25, 0.2, 0 deg\", \"3, -0.1, -40 deg\"]"),
           with("height = \"12 mm\"", "block = \"point\"", with("diameter_spread = 0.1", ""))}) {
-        scenario::Scenario const first = scenario(text);
-        scenario::Scenario const second = scenario(to_toml(first));
+        scenario::Scenario const first = scenario_of(text);
+        scenario::Scenario const second = scenario_of(to_toml(first));
         EXPECT_EQ(to_toml(first), to_toml(second));
         EXPECT_EQ(first.trough.frequency, second.trough.frequency);
         EXPECT_EQ(first.trough.vibration_angle, second.trough.vibration_angle);

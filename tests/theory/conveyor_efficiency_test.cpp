@@ -14,7 +14,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Conveyors of all kinds, one after another; the throw number stays the same for some of them.
 class RandomConveyors {

@@ -12,7 +12,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 bool maybe() {
     return *rc::gen::arbitrary<bool>();

@@ -11,7 +11,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Conveyor plastic(double throw_number, double tan_beta, double tan_alpha, double mu) {
     Conveyor conveyor{};

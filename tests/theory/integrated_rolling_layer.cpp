@@ -12,7 +12,7 @@ namespace {
 
 using State = std::array<double, 5>;  // y, y', u, w, displacement relative to the trough
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double one_cycle = 2 * std::numbers::pi;
 constexpr int steps_per_cycle = 1500;
 constexpr double zero = 1e-11;  // of velocities, after an event
 
@@ -35,9 +35,9 @@ class Reference {
         for (int cycle = 0; cycle < cycles; ++cycle) {
             before = x[4];
             for (int i = 0; i < steps_per_cycle; ++i)
-                advance(x, two_pi * i / steps_per_cycle, two_pi * (i + 1) / steps_per_cycle);
+                advance(x, one_cycle * i / steps_per_cycle, one_cycle * (i + 1) / steps_per_cycle);
         }
-        return (x[4] - before) / two_pi;
+        return (x[4] - before) / one_cycle;
     }
 
   private:

@@ -10,7 +10,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Eq. 15 against its inverse, which the solver computes. Tolerance: rounding.
 TEST(Limits, FlightOfEquation15) {

@@ -9,7 +9,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double efficiency(double throw_number, double tan_beta, double tan_alpha, double mu) {
     Motion const motion = solve({throw_number, tan_beta, tan_alpha, mu});

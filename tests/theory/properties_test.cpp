@@ -15,7 +15,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 PointMass ordinary_point() {
     double const mu = between(0.05, 1);

@@ -15,7 +15,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Conveyor any_conveyor() {
     Conveyor c{};

@@ -17,7 +17,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // u' = -tan(alpha) tan(beta) / Gamma + F, I w' = -F - c w - mu_i N sign(w), y'' = -1/Gamma + sin t + n
 // Tolerance: the reference locates events to 1e-14 and its steps are of eighth order; after 60 cycles it is

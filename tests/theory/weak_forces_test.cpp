@@ -9,7 +9,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double weak[] = {1e-6,  1e-9,   1e-12,  1e-14,  1e-15,  1e-16,
                            1e-20, 1e-100, 1e-300, 1e-308, 1e-310, 1e-320};
 

@@ -7,7 +7,7 @@ namespace vibrotrough::theory::detail {
 namespace {
 
 constexpr double state_match = 1e-11;  // of phase and rate, from period to period
-constexpr int longest_period = 64, most_cycles = 3000;
+constexpr int longest_normal_period = 64, most_normal_cycles = 3000;
 // A motion is chaotic if small changes grow by this factor between these cycles.
 constexpr double chaotic_growth = 1e10;
 constexpr int chaos_from = 500, chaos_to = 1000;
@@ -27,7 +27,7 @@ double duration(Hop const& hop) {
 
 // What is said of cycles holds for flights of up to this duration, and for restitutions up to the second
 // number: beyond, the energy settles over more impacts than a hundred cycles have.
-constexpr double ordinary_flight = 16 * two_pi, lively = 0.95, settling = 100;  // rad, 1, cycles
+constexpr double ordinary_flight = 16 * two_pi, lively = 0.95, settling_cycles = 100;  // rad, 1, cycles
 constexpr double longest_stretch = 5e5;
 
 /// By how much the restitution stretches the times in which a motion settles.
@@ -37,11 +37,11 @@ double stretch_by(ConveyorWaves const& waves) {
     // The velocity of a rebound W changes to e W + (1 + e) V, with the velocity V of the trough.
     double const impacts = 1 / (1 - e * e), rebound = waves.vy().bound() * std::sqrt((1 + e) / (1 - e) / 2);
     double const flight = rebound / waves.weight() / pi;  // cycles
-    return std::clamp(std::ceil(5 * impacts * flight / settling), 1.0, longest_stretch);
+    return std::clamp(std::ceil(5 * impacts * flight / settling_cycles), 1.0, longest_stretch);
 }
 
 double longest_return(double stretch) {
-    return two_pi * (longest_period + 0.5) * stretch;
+    return two_pi * (longest_normal_period + 0.5) * stretch;
 }
 
 /// The number of hops after which the phase of the landing and the rebound repeat; 0 when they do not.
@@ -200,7 +200,7 @@ void find_normal_orbit(ConveyorWaves const& waves, MotionStart const& start, Nor
     bool irregular = false;
     std::size_t since = 0;  // the last contact
     Rebounds rebounds(orbit.rebounds, orbit.seen);
-    for (double elapsed = next.at.t; elapsed < two_pi * most_cycles * orbit.stretch;) {
+    for (double elapsed = next.at.t; elapsed < two_pi * most_normal_cycles * orbit.stretch;) {
         if (next.zero >= 0) {
             if (after_zero != nullptr) orbit.joined = (*after_zero)[static_cast<std::size_t>(next.zero)];
             if (orbit.joined != never) break;

@@ -10,7 +10,7 @@ namespace vibrotrough::theory::detail {
 namespace {
 
 constexpr double same_state = 1e-12;  // r sin(beta), omega r sin(beta)
-constexpr int longest_period = 16, most_cycles = 400, kept_cycles = 200;
+constexpr int longest_rolling_period = 16, most_rolling_cycles = 400, kept_cycles = 200;
 constexpr int most_pieces_per_cycle = 200;
 
 struct State {
@@ -137,11 +137,11 @@ RollingNormal soft(double throw_number, RollingLaw const& law) {
     normal.cycles = 0;
     State s = landing.bound();
     std::vector<State> starts;
-    for (int cycle = 0; cycle < most_cycles && normal.cycles == 0; ++cycle) {
+    for (int cycle = 0; cycle < most_rolling_cycles && normal.cycles == 0; ++cycle) {
         starts.push_back(s);
         s = follow(landing, s, two_pi, nullptr);
         s.t = 0;
-        for (int k = 1; k <= std::min<int>(longest_period, static_cast<int>(starts.size())); ++k) {
+        for (int k = 1; k <= std::min<int>(longest_rolling_period, static_cast<int>(starts.size())); ++k) {
             State const& earlier = starts[starts.size() - static_cast<std::size_t>(k)];
             bool const same = earlier.contact == s.contact && std::abs(earlier.gap - s.gap) < same_state &&
                               std::abs(earlier.rate - s.rate) < same_state;

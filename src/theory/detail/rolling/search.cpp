@@ -6,8 +6,8 @@
 namespace vibrotrough::theory::detail {
 namespace {
 
-constexpr double settled = 1e-11;         // omega r cos(beta): change of the state from period to period
-constexpr int most_periods = 3000;        // of the map, before a mean is given instead
+constexpr double state_settled = 1e-11;   // omega r cos(beta): change of the state from period to period
+constexpr int most_map_periods = 3000;    // of the map, before a mean is given instead
 constexpr double newton_settled = 1e-13;  // omega r cos(beta): the distance to the state that repeats
 constexpr int most_newton_steps = 12;
 
@@ -24,9 +24,9 @@ bool is_possible(RollingState const& s, double most) {
 bool broyden(RollingWalk const& walk, RollingNormal const& normal, double most, RollingState& s) {
     BroydenSearch search;
     bool close = false;
-    for (int i = 0; i < most_periods; ++i) {
+    for (int i = 0; i < most_map_periods; ++i) {
         RollingState const next = walk.follow(normal, s, nullptr), change{next.v - s.v, next.w - s.w};
-        double const scale = settled * (1 + std::abs(next.v));
+        double const scale = state_settled * (1 + std::abs(next.v));
         if (i % 100 == 99) search = BroydenSearch{};
         RollingState const proposed = search.propose(s, change);
         bool const plain = i % 100 >= 80;

@@ -11,8 +11,8 @@ namespace {
 // A margin that begins at zero and falls ends the phase at once; one whose rate is about zero is looked at a
 // first step later. What happens within that step changes a velocity by less than 1e-13.
 constexpr double starts_at_zero = 1e-13, first_step = 1e-7, steep = 1e-6;
-constexpr int most_phases = 2000;                          // within one piece of the normal motion
-constexpr Sample never{.value = 1, .rate = 0, .bend = 0};  // a margin that has no zero
+constexpr int most_phases = 2000;                            // within one piece of the normal motion
+constexpr Sample no_zero{.value = 1, .rate = 0, .bend = 0};  // a margin that has no zero
 enum End { of_piece, slip_stops, spin_stops, friction_forwards, friction_backwards };
 
 int sign(double x) {
@@ -185,7 +185,7 @@ double RollingWalk::end_of_close_rates(RollingPhase const& p, Forces const& f, d
                 Clock const clock = Clock::at(t, f.n);
                 auto const a = f.v.at(clock), b = f.w.at(clock);
                 return std::array{
-                    p.turn == 0 ? never
+                    p.turn == 0 ? no_zero
                                 : Sample{.value = p.turn * b.value, .rate = p.turn * b.rate, .bend = b.bend},
                     Sample{.value = p.slip * (a.value - b.value),
                            .rate = p.slip * (a.rate - b.rate),
@@ -227,7 +227,7 @@ std::array<Sample, 3> RollingWalk::without_slip(RollingPhase const& p, ContactFo
                       .bend = limit * bend + a.jerk + 1};
     };
     Sample const turning{.value = p.turn * a.value, .rate = p.turn * a.rate, .bend = a.bend};
-    return {p.turn == 0 ? never : turning, margin(1), margin(-1)};
+    return {p.turn == 0 ? no_zero : turning, margin(1), margin(-1)};
 }
 
 /// The impulse of a rigid landing: Coulomb friction until the slip ends, with the dry torque in proportion.

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+// Internal to this room.
+namespace vibrotrough::measure {
+
+inline constexpr double two_pi = 2 * std::numbers::pi;
+inline constexpr double gap = std::numeric_limits<double>::quiet_NaN();  ///< in a curve
+
+}  // namespace vibrotrough::measure
