@@ -295,7 +295,7 @@ void describe_packing(core::TemplateData& data, prepare::PreparedCase const& n) 
     data.set("closed", walls);
     data.set("has_mesh", n.domain.has_mesh());
     describe_parts(data, n);
-    data.set("mesh_file", s.trough.mesh ? s.trough.mesh->file.name : std::string());
+    data.set("mesh_file", s.trough.mesh ? s.trough.mesh->names() : std::string());
     double const extent = n.largest_extent, diameter = mean_diameter(s), step = n.settle_time_step;
     double const fall_time = std::sqrt(2 * n.fill_top / scenario::gravity);
     double const chunk_time = std::sqrt(diameter / scenario::gravity);

@@ -314,17 +314,11 @@ std::string names_of(scenario::SweptKeys const& swept) {
 
 /// The values of a swept key, NaN or an empty text where a case has none.
 Values swept_values(scenario::Key const& key, std::span<CaseRecord const> cases) {
-    auto const value_of = [&](CaseRecord const& one) { return key.access.get(one.scenario); };
     if (has_words(key)) {
-        return stored_values(cases, [&](CaseRecord const& one) {
-            auto const value = value_of(one);
-            return value ? std::get<std::string>(*value) : std::string();
-        });
+        return stored_values(
+            cases, [&](CaseRecord const& one) { return word_of(one.scenario, key.path).value_or(""); });
     }
-    return stored_values(cases, [&](CaseRecord const& one) -> std::optional<double> {
-        auto const value = value_of(one);
-        return value ? std::optional(std::get<double>(*value)) : std::nullopt;
-    });
+    return stored_values(cases, [&](CaseRecord const& one) { return number_of(one.scenario, key.path); });
 }
 
 }  // namespace

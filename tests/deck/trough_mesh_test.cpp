@@ -82,7 +82,7 @@ prepare::PreparedCase lined_channel(std::string const& walls = "walls") {
         scenario::stl_text(walls, rectangle({0, 0, 0}, {36, 0, 0}, {36, 0, 15}, {0, 0, 15})) +
         scenario::stl_text(walls, rectangle({0, 18, 0}, {36, 18, 0}, {36, 18, 15}, {0, 18, 15}));
     scenario::Scenario s = scenario::parse_campaign(example_campaign, "test.toml").cases.front();
-    s.trough.mesh = scenario::read_trough_mesh({"channel.stl", text});
+    s.trough.mesh = scenario::read_trough_mesh({{"channel.stl", text}});
     s.pairs = {{.materials = {walls, "grains"}, .friction = 0.1}};
     return prepare::prepare_case(s);
 }

@@ -26,7 +26,9 @@ TEST(SweptKeys, EveryKeyOfOneValueIsKnown) {
     Scenario scenario = campaign_with("").cases.front();
     scenario.trough.side_wall_friction = 0.1;
     scenario.trough.waveform = std::make_shared<Waveform>();
-    scenario.trough.mesh = std::make_shared<TroughMesh>();
+    TroughMesh mesh{};
+    mesh.files = {{"vee.stl", ""}};
+    scenario.trough.mesh = std::make_shared<TroughMesh>(mesh);
     scenario.measure.max_core_time = 1;
     scenario.measure.min_cycles = 1;
     scenario.feed = {0.1, 0.02, 0.04};

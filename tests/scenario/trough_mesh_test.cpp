@@ -35,12 +35,12 @@ std::vector<Triangle> vee() {
 }
 
 std::shared_ptr<TroughMesh const> read(std::vector<Triangle> const& mesh) {
-    return read_trough_mesh({"a.stl", stl_text("a", mesh)});
+    return read_trough_mesh({{"a.stl", stl_text("a", mesh)}});
 }
 
 std::string error_of_text(std::string const& content) {
     try {
-        read_trough_mesh({"a.stl", content});
+        read_trough_mesh({{"a.stl", content}});
     } catch (std::invalid_argument const& wrong) {
         return wrong.what();
     }
@@ -93,10 +93,37 @@ TEST(TroughMesh, VolumeBelowALevel) {
 }
 
 TEST(TroughMesh, TextAndBinaryAreTheSame) {
-    auto const text = read(vee()), binary = read_trough_mesh({"b.stl", binary_stl(vee())});
+    auto const text = read(vee()), binary = read_trough_mesh({{"b.stl", binary_stl(vee())}});
     EXPECT_EQ(text->triangles, binary->triangles);
     // What is kept is text that reads back as the same mesh.
-    EXPECT_EQ(read_trough_mesh(binary->file)->triangles, binary->triangles);
+    EXPECT_EQ(read_trough_mesh(binary->files)->triangles, binary->triangles);
+}
+
+// Several files are parts of one mesh: the same triangles as in one file, and the names of the files.
+TEST(TroughMesh, SeveralFilesArePartsOfTheMesh) {
+    std::vector<Triangle> floor, liner;
+    add_rectangle(floor, {0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0});
+    add_rectangle(liner, {30, 0, 0}, {40, 0, 0}, {40, 20, 0}, {30, 20, 0});
+    auto const one = read_trough_mesh({{"a.stl", stl_text("floor", floor) + stl_text("wear_plate", liner)}});
+    auto const two =
+        read_trough_mesh({{"floor.stl", stl_text("CAD", floor)}, {"wear plate.stl", binary_stl(liner)}});
+    EXPECT_EQ(two->triangles, one->triangles);
+    EXPECT_EQ(two->parts, one->parts) << "not the solids' own names";
+    EXPECT_EQ(two->part_of, one->part_of);
+    EXPECT_EQ(two->names(), "floor.stl, wear plate.stl");
+    // What is kept reads back as the same mesh.
+    EXPECT_EQ(read_trough_mesh(two->files)->triangles, one->triangles);
+    auto const refusal = [](std::vector<NamedFile> const& files) -> std::string {
+        try {
+            read_trough_mesh(files);
+        } catch (std::invalid_argument const& error) {
+            return error.what();
+        }
+        return "";
+    };
+    NamedFile const good{"floor.stl", stl_text("a", floor)};
+    EXPECT_THAT(refusal({good, good}), testing::HasSubstr("two files would be the solid 'floor'"));
+    EXPECT_THAT(refusal({good, {"b.stl", "no STL"}}), testing::StartsWith("in b.stl, it is neither"));
 }
 
 // Text files of CAD programs may hold a solid for each part of a trough. Names become such as a campaign file
@@ -107,20 +134,20 @@ TEST(TroughMesh, SolidsOfATextArePartsOfTheMesh) {
     add_rectangle(liner, {30, 0, 0}, {40, 0, 0}, {40, 20, 0}, {30, 20, 0});
     std::string const text =
         stl_text("floor sheet 2 mm", floor) + stl_text("Liner", liner) + stl_text("vertex", liner);
-    auto const mesh = read_trough_mesh({"a.stl", text});
+    auto const mesh = read_trough_mesh({{"a.stl", text}});
     EXPECT_THAT(mesh->parts, testing::ElementsAre("floor_sheet_2_mm", "Liner", "vertex"));
     EXPECT_THAT(mesh->part_of, testing::ElementsAre(0, 0, 1, 1, 2, 2));
     EXPECT_EQ(mesh->extent, (Point{40, 20, 0})) << "they have one origin";
     EXPECT_DOUBLE_EQ(mesh->share_in_plan("Liner"), 200.0 / 1000);  // of 600 + 200 + 200 mm2
     EXPECT_EQ(mesh->share_in_plan("rubber"), 0);
-    EXPECT_THAT(read_trough_mesh({"a.stl", stl_text("one", floor) + stl_text("one", liner)})->parts,
+    EXPECT_THAT(read_trough_mesh({{"a.stl", stl_text("one", floor) + stl_text("one", liner)}})->parts,
                 testing::ElementsAre("one"));
-    EXPECT_THAT(read_trough_mesh({"b.stl", binary_stl(vee())})->part_of, testing::ElementsAre(0, 0, 0, 0));
+    EXPECT_THAT(read_trough_mesh({{"b.stl", binary_stl(vee())}})->part_of, testing::ElementsAre(0, 0, 0, 0));
     // Solids without triangles are none, also those that seem to begin with "end solid".
     std::string const odd =
         stl_text("empty", {}) + stl_text("C:\\a\"b&", floor) + "end solid\n" + stl_text("", liner);
-    EXPECT_THAT(read_trough_mesh({"a.stl", odd})->parts, testing::ElementsAre("C__a_b_", "unnamed"));
-    EXPECT_THAT(read_trough_mesh({"a.stl", odd})->part_of, testing::ElementsAre(0, 0, 1, 1));
+    EXPECT_THAT(read_trough_mesh({{"a.stl", odd}})->parts, testing::ElementsAre("C__a_b_", "unnamed"));
+    EXPECT_THAT(read_trough_mesh({{"a.stl", odd}})->part_of, testing::ElementsAre(0, 0, 1, 1));
     EXPECT_THAT(error_of_text("solid a facet normal 0 0 1\n"),
                 HasSubstr("a facet stands on the line of a solid"));
     std::string many;
@@ -260,6 +287,23 @@ TEST_F(MeshCampaign, PairsGiveSolidsAFrictionOfTheirOwn) {
     EXPECT_EQ(contact_with_trough(s, grains, "rubber").friction, 0.8);
     EXPECT_EQ(contact_with_trough(s, grains, "rubber").restitution, s.trough.restitution);
     EXPECT_EQ(contact_with_trough(s, grains, "steel").friction, s.trough.friction);
+
+    // The same from two files, which are written back, kept and read from what is kept.
+    write("steel.stl", left);
+    write("rubber.stl", right);
+    std::string const list = "mesh = [\"steel.stl\", \"rubber.stl\"]\n";
+    Scenario const two = scenario(with("mesh = \"vee.stl\"\n", list, on_mesh()) + rubber);
+    EXPECT_EQ(two.trough.mesh->triangles, s.trough.mesh->triangles);
+    EXPECT_EQ(contact_with_trough(two, grains, "rubber").friction, 0.8);
+    EXPECT_THAT(to_toml(two), HasSubstr(list));
+    EXPECT_EQ(word_of(two, "trough.mesh"), "steel.stl, rubber.stl");
+    ASSERT_EQ(named_files(two).size(), 2u);
+    auto const kept = parse_campaign(to_toml(two), "k", {{}, named_files(two)});
+    EXPECT_EQ(to_toml(kept.cases.front()), to_toml(two));
+    EXPECT_THAT(error(with("mesh = \"vee.stl\"\n", "mesh = [\"steel.stl\", \"../a.stl\"]\n", on_mesh())),
+                HasSubstr("../a.stl"));
+    EXPECT_THAT(error(on_mesh() + "[sweep]\n\"trough.mesh\" = [[\"steel.stl\", \"rubber.stl\"]]\n"),
+                HasSubstr("a list cannot be swept"));
     EXPECT_NEAR(mean_trough_friction(s), (0.8 + s.trough.friction) / 2, 1e-15);  // half of the plan each
     EXPECT_THAT(to_toml(s), HasSubstr(rubber));
     EXPECT_THAT(own_parts(scenario(on_mesh())), testing::IsEmpty());
@@ -289,8 +333,8 @@ TEST_F(MeshCampaign, MistakesAreNamed) {
     EXPECT_THAT(error(with("[grains]", "mesh = \"no.stl\"\n\n[grains]")), HasSubstr("there is no file"));
     EXPECT_THAT(error(with("[grains]", "mesh = \"../vee.stl\"\n\n[grains]")),
                 HasSubstr("not an allowed value"));
-    EXPECT_THAT(error(with("[grains]", "mesh = [\"one.stl\", \"other.stl\"]\n\n[grains]")),
-                HasSubstr("trough.mesh: is one file, and a list is given"));
+    EXPECT_THAT(error(with("[grains]", "mesh = []\n\n[grains]")),
+                HasSubstr("trough.mesh: is not a list of 1 to 30 texts"));
     EXPECT_THAT(error(with("[grains]", "mesh_unit = \"m\"\n\n[grains]")),
                 HasSubstr("trough.mesh_unit: is the unit of a mesh, and trough.mesh is not given"));
     std::vector<Triangle> slope;

@@ -92,7 +92,8 @@ int packings_with_frames(OutputPlan const& output, int packings) {
 std::vector<NamedFile> named_files(Scenario const& scenario) {
     std::vector<NamedFile> files;
     if (scenario.grains.shape_file) files.push_back(scenario.grains.shape_file->file);
-    if (scenario.trough.mesh) files.push_back(scenario.trough.mesh->file);
+    if (scenario.trough.mesh)
+        for (NamedFile const& file : scenario.trough.mesh->files) files.push_back(file);
     if (scenario.trough.waveform) files.push_back(scenario.trough.waveform->file);
     for (GivenStage const& stage : scenario.stages)
         if (stage.waveform &&

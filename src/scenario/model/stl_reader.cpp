@@ -64,8 +64,7 @@ std::size_t begin_part(std::istringstream& text, std::vector<std::string>& parts
     std::string name = rest_of_line(text);
     name.erase(0, name.find_first_not_of(" \t\r"));
     name.erase(std::min({name.size(), longest, name.find_last_not_of(" \t\r") + 1}));
-    for (char& c : name)
-        if (!is_plain_text({&c, 1})) c = '_';
+    name = part_name(std::move(name));
     if (name.empty()) name = "unnamed";
     auto const known = std::ranges::find(parts, name);
     if (known != parts.end()) return static_cast<std::size_t>(known - parts.begin());
@@ -119,6 +118,12 @@ Solids read_text(std::string_view content) {
 }
 
 }  // namespace
+
+std::string part_name(std::string text) {
+    for (char& c : text)
+        if (!is_plain_text({&c, 1})) c = '_';
+    return text;
+}
 
 Solids read_stl(std::string_view content) {
     auto const binary = count_of_binary(content);

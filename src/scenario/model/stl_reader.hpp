@@ -22,6 +22,9 @@ struct Solids {
     bool is_binary = false;              ///< not a text
 };
 
+/// A name such as a campaign file may have: '_' for all but letters, digits, '.' and '-'.
+std::string part_name(std::string text);
+
 /// Reads an STL file, text or binary. @throws std::invalid_argument saying what is wrong with it
 Solids read_stl(std::string_view content);
 

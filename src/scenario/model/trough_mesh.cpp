@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
@@ -195,7 +196,47 @@ void survey(TroughMesh& mesh) {
     mesh.has_upright_sides = is_left;
 }
 
+/// @param file  a binary one becomes a text, because its copy is kept in results, which hold texts
+Solids read_file(NamedFile& file) {
+    Solids solids = read_stl(file.content);
+    check(solids.triangles);
+    if (solids.is_binary) file.content = stl_text("trough", solids.triangles);
+    if (file.content.size() > most_bytes)
+        throw std::invalid_argument(
+            "as a text it is larger than 1 MiB; simplify it to fewer than 4000 triangles");
+    return solids;
+}
+
+/// One solid from each file.
+Solids read_files(std::vector<NamedFile>& files) {
+    Solids all;
+    for (NamedFile& file : files) {
+        std::string name = part_name(std::filesystem::path(file.name).stem().string());
+        if (std::ranges::find(all.parts, name) != all.parts.end())
+            throw std::invalid_argument(fmt::format("two files would be the solid '{}'", name));
+        Solids const one = [&file] {
+            try {
+                return read_file(file);
+            } catch (std::invalid_argument const& error) {
+                throw std::invalid_argument(fmt::format("in {}, {}", file.name, error.what()));
+            }
+        }();
+        all.triangles.insert(all.triangles.end(), one.triangles.begin(), one.triangles.end());
+        all.part_of.resize(all.triangles.size(), all.parts.size());
+        all.parts.push_back(std::move(name));
+    }
+    if (all.triangles.size() > most_triangles)
+        throw std::invalid_argument(fmt::format("together they have more than {} triangles", most_triangles));
+    return all;
+}
+
 }  // namespace
+
+std::string TroughMesh::names() const {
+    std::string text;
+    for (NamedFile const& file : files) text += (text.empty() ? "" : ", ") + file.name;
+    return text;
+}
 
 std::string_view name_of(MeshUnit unit) {
     constexpr std::array<std::string_view, 2> names{"mm", "m"};
@@ -206,19 +247,13 @@ double metres_in(MeshUnit unit) {
     return unit == MeshUnit::mm ? 1e-3 : 1;
 }
 
-std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file) {
-    Solids solids = read_stl(file.content);
+std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files) {
+    Solids solids = files.size() == 1 ? read_file(files.front()) : read_files(files);
     std::vector<Triangle>& triangles = solids.triangles;
-    check(triangles);
-    // A copy is kept in results, which hold texts.
-    if (solids.is_binary) file.content = stl_text("trough", triangles);
-    if (file.content.size() > most_bytes)
-        throw std::invalid_argument(
-            "as a text it is larger than 1 MiB; simplify it to fewer than 4000 triangles");
     Point const extent = move_to_zero(triangles);
     if (!(extent[0] > 0 && extent[1] > 0))
         throw std::invalid_argument("its surface has no length or no width");
-    TroughMesh mesh{std::move(file),         std::move(triangles),     extent, {}, 0, 0, false, 0, 0,
+    TroughMesh mesh{std::move(files),        std::move(triangles),     extent, {}, 0, 0, false, 0, 0,
                     std::move(solids.parts), std::move(solids.part_of)};
     survey(mesh);
     return std::make_shared<TroughMesh const>(std::move(mesh));

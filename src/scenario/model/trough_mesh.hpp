@@ -34,7 +34,7 @@ double metres_in(MeshUnit unit);
 /// millionth of its ends along and across are put exactly there. Cases that name the same file share it. All
 /// lengths are in the unit of the file.
 struct TroughMesh {
-    NamedFile file;                   ///< name and content; a binary file is kept as text
+    std::vector<NamedFile> files;     ///< names and contents; a binary file is kept as text
     std::vector<Triangle> triangles;  ///< the surface
     Point extent;                     ///< of its box: length, width and height
     /// Height of the surface on a grid in plan, row by row along the trough: the uppermost triangle that is
@@ -46,10 +46,12 @@ struct TroughMesh {
     double floor_top;        ///< height of the highest node of a triangle that does not lie in a side
     double area;             ///< of all triangles
     /// Names of the solids of a text file that have triangles, in its order, with '_' for all but letters,
-    /// digits, '.' and '-'; a binary file is one.
+    /// digits, '.' and '-'; a binary file is one. Of several files each is one, with the name of the file.
     std::vector<std::string> parts;
     std::vector<std::size_t> part_of;  ///< of each triangle the index in `parts`
 
+    /// The names of the files, for messages.
+    std::string names() const;
     /// The first place of the grid (x, y) without a surface; none when it covers its box in plan.
     std::optional<std::array<double, 2>> hole() const;
     /// Volume between the surface and this level above its lowest point, from the heights of the grid.
@@ -60,12 +62,12 @@ struct TroughMesh {
     double share_in_plan(std::string_view part) const;
 };
 
-/// Reads an STL file, text or binary.
+/// Reads STL files, text or binary, whose lengths have one unit and one origin.
 /// @throws std::invalid_argument with one line that describes what is wrong with it: no STL, no triangles,
 /// more than 1 MiB as text (about 4000 triangles), one without area, a mesh without length or width, two
-/// surfaces above each other, a plate across the trough in one of its ends, or walls that leave a part of the
-/// sides open
-std::shared_ptr<TroughMesh const> read_trough_mesh(NamedFile file);
+/// surfaces above each other, two files with one name, a plate across the trough in one of its ends, or walls
+/// that leave a part of the sides open
+std::shared_ptr<TroughMesh const> read_trough_mesh(std::vector<NamedFile> files);
 
 /// Divides triangles until no edge is longer than `longest`: the longest edge is cut in the middle, for all
 /// triangles that share it, so that no gaps open (Rivara, International Journal for Numerical Methods in

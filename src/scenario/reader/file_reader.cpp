@@ -266,7 +266,10 @@ class CampaignFileReader {
         }
         Axis axis{path, {}, where};
         if (auto const* list = node.as_array()) {
-            for (toml::node const& value : *list) axis.values.push_back(read_content(key, value, file_));
+            for (toml::node const& value : *list) {
+                if (value.is_array()) fail(where, path, "a list cannot be swept", "sweep single values");
+                axis.values.push_back(read_content(key, value, file_));
+            }
         } else if (auto const* range = node.as_table()) {
             for (double const value : read_range(key, *range, where)) axis.values.emplace_back(value);
         }

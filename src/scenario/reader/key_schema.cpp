@@ -30,6 +30,8 @@ Json value_schema(Key const& key) {
         case KeyKind::quantities:
         case KeyKind::texts:
             return list_of("string");
+        case KeyKind::files:
+            return {{"anyOf", {Json{{"type", "string"}}, list_of("string")}}};
         case KeyKind::packings:
             return {{"anyOf", {list_of("integer"), {{"const", "all"}}}}};
         case KeyKind::name:

@@ -48,7 +48,7 @@ bool is_optional(Key const& key) {
 }
 
 bool has_words(Key const& key) {
-    return key.kind == KeyKind::choice || key.kind == KeyKind::file;
+    return key.kind == KeyKind::choice || key.kind == KeyKind::file || key.kind == KeyKind::files;
 }
 
 bool can_vary(Key const& key) {

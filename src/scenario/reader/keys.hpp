@@ -25,6 +25,7 @@ enum class KeyKind {
     integer,     ///< a plain whole number
     choice,      ///< one of the words in `range`
     file,        ///< a word in `range`, or the name of a file in the folder of the campaign file
+    files,       ///< the name of a file in the folder of the campaign file, or a list of such names
     quantities,  ///< a list of quantities
     numbers,     ///< a list of plain numbers
     texts,       ///< a list of texts

@@ -38,7 +38,7 @@ void check_mesh(Scenario const& scenario, GivenKeys const& given) {
     TroughMesh const& mesh = *scenario.trough.mesh;
     double const unit = metres_in(scenario.trough.mesh_unit);
     auto const fail = [&](std::string_view wrong, std::string_view instead) {
-        given.fail(key, fmt::format("{}: {}", mesh.file.name, wrong), instead);
+        given.fail(key, fmt::format("{}: {}", mesh.names(), wrong), instead);
     };
     auto const check_side = [&](char const* side, char const* adjective, double given_side, double extent) {
         if (std::abs(given_side - extent) <= 1e-6 * extent) return;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -33,7 +34,8 @@ std::optional<double> number_of(Scenario const& scenario, std::string_view path)
 }
 
 std::optional<std::string> word_of(Scenario const& scenario, std::string_view path) {
-    return value_as<std::string>(scenario, path);
+    auto const names = value_as<std::vector<std::string>>(scenario, path);
+    return names ? fmt::format("{}", fmt::join(*names, ", ")) : value_as<std::string>(scenario, path);
 }
 
 SweptKeys swept_keys(std::vector<Key const*> const& candidates, std::vector<Scenario> const& cases) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vibrotrough::scenario {
 namespace {
@@ -65,8 +66,26 @@ void set_waveform(Scenario& s, GivenValue const& v) {
 }
 
 void set_mesh(Scenario& s, GivenValue const& v) {
-    s.trough.mesh = read_once(v.files_read().meshes, read_trough_mesh, v,
-                              "export the surface that the grains touch as STL");
+    std::vector<std::string> const names = v.is_word() ? std::vector{v.word()} : v.words();
+    std::lock_guard const one_case(v.files_read().one_case);
+    auto& mesh = v.files_read().meshes[names];
+    try {
+        std::vector<NamedFile> files;
+        for (std::string const& name : names)
+            if (!mesh) files.push_back(v.file(name));
+        if (!mesh) mesh = read_trough_mesh(std::move(files));
+    } catch (std::invalid_argument const& error) {
+        v.fail(fmt::format("{}: {}", fmt::join(names, ", "), error.what()),
+               "export the surface that the grains touch as STL");
+    }
+    s.trough.mesh = mesh;
+}
+
+std::optional<Content> mesh_of(Scenario const& s) {
+    if (!s.trough.mesh) return {};
+    std::vector<std::string> names;
+    for (NamedFile const& file : s.trough.mesh->files) names.push_back(file.name);
+    return names.size() == 1 ? content_of(names.front()) : content_of(names);
 }
 
 bool has_mesh(Scenario const& s) {
@@ -164,14 +183,14 @@ constexpr std::array rows_of_trough{
     Key{"trough.waveform", file, "", 0, 0, "a .csv file in the same folder", "", optional, "\"measured.csv\"",
         "one measured cycle (columns time_s,x_m,z_m) that replaces the sinusoid",
         KeyAccess{waveform_of, set_waveform}},
-    Key{"trough.mesh", file, "", 0, 0, "a .stl file in the same folder", "", optional, "\"chute.stl\"",
+    Key{"trough.mesh", files, "", 0, 0, "a .stl file in the same folder, or a list of at most 30", "",
+        optional, "\"chute.stl\"",
         "surface of triangles that replaces the flat floor, x along the trough, y across and z normal to it; "
         "its "
-        "length and width are those of the layer",
-        KeyAccess{[](Scenario const& s) {
-                      return has_mesh(s) ? content_of(s.trough.mesh->file.name) : std::nullopt;
-                  },
-                  set_mesh}},
+        "length and width are those of the layer; several files have one origin, and each is a solid with "
+        "the "
+        "name of its file without .stl",
+        KeyAccess{mesh_of, set_mesh}},
     Key{"trough.mesh_unit", choice, "", 0, 0, "mm or m", "", optional, "\"mm\"",
         "unit of length of the mesh's file, which does not say it",
         field<&Scenario::trough, &Trough::mesh_unit>.written_if(has_mesh)},

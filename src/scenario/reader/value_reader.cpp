@@ -35,7 +35,8 @@ class ValueReader {
         std::string const word = node.value<std::string>().value_or("");
         auto const known = choices(key_);
         if (node.is_string() && std::ranges::find(known, word) != known.end()) return word;
-        if (key_.kind == KeyKind::file && node.is_string() && is_file_name(word)) return word;
+        bool const is_file = key_.kind == KeyKind::file || key_.kind == KeyKind::files;
+        if (is_file && node.is_string() && is_file_name(word)) return word;
         bool const are_files = key_.kind == KeyKind::file && node.is_array();
         fail(node,
              are_files ? "is one file, and a list is given"
@@ -52,6 +53,12 @@ class ValueReader {
         if (words.empty() || words.size() > 30)
             fail(node, "is not a list of 1 to 30 texts", write_instead(key_));
         return words;
+    }
+
+    std::vector<std::string> file_names(toml::node const& node) const {
+        std::vector<std::string> names = words(node);
+        for (toml::node const& value : *node.as_array()) word(value);
+        return names;
     }
 
     double number(toml::node const& node) const {
@@ -254,6 +261,8 @@ Content read_content(Key const& key, toml::node const& node, std::string const& 
         case KeyKind::choice:
         case KeyKind::file:
             return reader.word(node);
+        case KeyKind::files:
+            return node.is_array() ? Content(reader.file_names(node)) : Content(reader.word(node));
         case KeyKind::quantities:
         case KeyKind::numbers:
             return reader.numbers(node);
