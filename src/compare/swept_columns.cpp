@@ -98,7 +98,7 @@ bool is_swept(Column const& column, scenario::SweptKeys const& swept) {
 std::optional<Value> swept_value(scenario::Scenario const& scenario, Key const& key) {
     auto const value = key.access.get(scenario);
     if (!value) return {};
-    if (has_words(key)) return scenario::word_of(scenario, key.path).value_or("");
+    if (auto const word = scenario::word_of(scenario, key.path)) return *word;
     auto const* const number = std::get_if<double>(&*value);
     if (number == nullptr) return {};
     if (key.kind == KeyKind::integer) return static_cast<int>(std::lround(*number));

@@ -9,7 +9,7 @@ namespace vibrotrough::theory {
 namespace {
 
 using Real = long double;
-constexpr Real real_two_pi = 2 * std::numbers::pi_v<Real>;
+constexpr Real two_pi = 2 * std::numbers::pi_v<Real>;
 constexpr int steps_per_cycle = 6000;
 
 // Lengths in r cos(beta) and r sin(beta), time in 1/omega. The trough is at X = Y = sin t.
@@ -107,7 +107,7 @@ struct Mass {
 
 long double reference_efficiency(PointMass const& input, int period_cycles, int periods) {
     Mass mass{.p = input};
-    Real const step = real_two_pi / steps_per_cycle;
+    Real const step = two_pi / steps_per_cycle;
     Real before = 0, speed = 0, earlier = 0;
     long count = 0;
     for (int i = 0; i < periods; ++i) {
@@ -115,7 +115,7 @@ long double reference_efficiency(PointMass const& input, int period_cycles, int 
             mass.advance(static_cast<Real>(++count) * step);
         Real const now = static_cast<Real>(count) * step;
         Real const at = mass.displacement + mass.travel(now), velocity = mass.velocity(now);
-        Real const mean = (at - before) / (real_two_pi * period_cycles);
+        Real const mean = (at - before) / (two_pi * period_cycles);
         if (i > 2 && std::abs(velocity - speed) < 1e-14L && std::abs(mean - earlier) < 1e-14L) return mean;
         before = at;
         speed = velocity;

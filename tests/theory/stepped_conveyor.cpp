@@ -9,7 +9,7 @@
 namespace vibrotrough::theory {
 namespace {
 
-constexpr double cycle_time = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int steps = 3000;  // per cycle
 
 /// Slip velocity, gap and its rate.
@@ -31,8 +31,8 @@ class Stepper {
     }
     void cycle() {
         double const begin = t_;
-        for (int i = 0; i < steps; ++i) advance(begin + cycle_time * (i + 1) / steps);
-        t_ -= cycle_time;
+        for (int i = 0; i < steps; ++i) advance(begin + two_pi * (i + 1) / steps);
+        t_ -= two_pi;
     }
     State const& state() const { return s_; }
 
@@ -142,7 +142,7 @@ double steady_efficiency_by_steps(Conveyor const& conveyor, int period_cycles) {
     for (int period = 0; period < 400; ++period) {
         double const before = stepper.state()[3];
         for (int i = 0; i < period_cycles; ++i) stepper.cycle();
-        double const now = (stepper.state()[3] - before) / (cycle_time * period_cycles);
+        double const now = (stepper.state()[3] - before) / (two_pi * period_cycles);
         if (period > 3 && std::abs(now - mean) < 1e-11) return now;
         mean = now;
     }

@@ -70,10 +70,11 @@ void set_mesh(Scenario& s, GivenValue const& v) {
     std::lock_guard const one_case(v.files_read().one_case);
     auto& mesh = v.files_read().meshes[names];
     try {
-        std::vector<NamedFile> files;
-        for (std::string const& name : names)
-            if (!mesh) files.push_back(v.file(name));
-        if (!mesh) mesh = read_trough_mesh(std::move(files));
+        if (!mesh) {
+            std::vector<NamedFile> files;
+            for (std::string const& name : names) files.push_back(v.file(name));
+            mesh = read_trough_mesh(std::move(files));
+        }
     } catch (std::invalid_argument const& error) {
         v.fail(fmt::format("{}: {}", fmt::join(names, ", "), error.what()),
                "export the surface that the grains touch as STL");
